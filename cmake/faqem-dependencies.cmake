@@ -1,0 +1,57 @@
+# The one place that says what faqem needs: used by its own build and by the installed package.
+# No include_guard: a second find_package(faqem) with more components must come through here again.
+#
+# faqem_find_dependencies(COMPONENT...) finds what the named components need. Components:
+#   core      header-only templates             Eigen
+#   faqem     compiled presets                  threads (Eigen and nanoflann while building)
+#   openmesh  OpenMesh door                     OpenMesh
+#   asset     files                             tinygltf and OpenImageIO, hidden inside
+#   bake      baker                             as asset
+
+# Debian 12 exports TinyGLTF::TinyGLTF, upstream tinygltf::tinygltf: we use the upstream name.
+macro(faqem_find_tinygltf)
+    if(NOT TARGET tinygltf::tinygltf)
+        find_package(TinyGLTF CONFIG QUIET)
+        if(TARGET TinyGLTF::TinyGLTF)
+            add_library(tinygltf::tinygltf INTERFACE IMPORTED)
+            target_link_libraries(tinygltf::tinygltf INTERFACE TinyGLTF::TinyGLTF)
+        else()
+            find_package(tinygltf CONFIG REQUIRED)
+        endif()
+    endif()
+endmacro()
+
+# Debian 12's OpenImageIO target lists include folders that its packages do not install.
+macro(faqem_find_openimageio)
+    if(NOT TARGET OpenImageIO::OpenImageIO)
+        find_package(OpenImageIO CONFIG REQUIRED)
+        foreach(faqem_target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+            get_target_property(faqem_dirs ${faqem_target} INTERFACE_INCLUDE_DIRECTORIES)
+            set(faqem_existing "")
+            foreach(faqem_dir IN LISTS faqem_dirs)
+                if(EXISTS "${faqem_dir}")
+                    list(APPEND faqem_existing "${faqem_dir}")
+                endif()
+            endforeach()
+            set_target_properties(${faqem_target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${faqem_existing}")
+        endforeach()
+    endif()
+endmacro()
+
+macro(faqem_find_dependencies)
+    foreach(faqem_component IN ITEMS ${ARGN})
+        if(faqem_component STREQUAL "core")
+            find_package(Eigen3 3.3 CONFIG REQUIRED)
+        elseif(faqem_component STREQUAL "faqem")
+            find_package(Threads REQUIRED)
+        elseif(faqem_component STREQUAL "openmesh")
+            find_package(OpenMesh CONFIG REQUIRED)  # no version: Debian's package has no version file
+        elseif(faqem_component STREQUAL "asset" OR faqem_component STREQUAL "bake")
+            find_package(Threads REQUIRED)
+            faqem_find_openimageio()
+            faqem_find_tinygltf()
+        else()
+            message(FATAL_ERROR "faqem has no component named ${faqem_component}")
+        endif()
+    endforeach()
+endmacro()
