@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Door (c): a textured asset in, a light one with a new texture out. Needs the standard library only.
+
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/simplify.hpp"
+
+namespace faqem {
+
+/// The geometry stage's result: one SimplifyResult per part of the source, in its order, history on.
+struct SmallParts {
+    std::vector<SimplifyResult> parts;
+    Report report;  ///< sums over the parts
+};
+
+/// An asset and what was done to make it.
+struct LightAsset {
+    Asset asset;
+    Report report;
+    std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
+};
+
+/// Stage one: simplifies every part by itself, in its own coordinates. Targets: see Target; a face count is
+/// shared out in proportion to the parts' faces.
+/// \throws as simplify(const MeshView&, ...)
+SmallParts simplify_parts(const Asset& source, const Options& options);
+
+/// Stage two: gives the small parts normals, UVs, materials and images.
+/// \param source   the asset that `small` was made from
+/// \param small    result of simplify_parts() with the same options
+/// \throws InputError  an image is damaged
+LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
+
+/// Both stages in one call.
+/// \throws OptionError, InputError, UnsupportedError
+LightAsset simplify(const Asset& source, const Options& options = {});
+
+}  // namespace faqem

@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// All doors that need nothing but the standard library. faqem/openmesh.hpp is apart: it needs OpenMesh.
+
+#include "faqem/asset.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+#include "faqem/history.hpp"
+#include "faqem/mesh.hpp"
+#include "faqem/options.hpp"
+#include "faqem/progress.hpp"
+#include "faqem/report.hpp"
+#include "faqem/simplify.hpp"
+#include "faqem/surface_map.hpp"

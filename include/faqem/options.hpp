@@ -1,0 +1,109 @@
+#pragma once
+/// \file
+/// One options struct for every door. All members have defaults; use designated initialisers.
+
+#include <cstdint>
+#include <optional>
+
+#include "faqem/progress.hpp"
+
+namespace faqem {
+
+/// How many faces are wanted. See ratio() and faces().
+struct Target {
+    enum class Kind { ratio, faces };
+    Kind kind = Kind::ratio;
+    double value = 0.1;
+};
+
+/// A share of the input's faces, in (0, 1]. The result has at most max(4, floor(r * faces)) faces.
+constexpr Target ratio(double r) { return {Target::Kind::ratio, r}; }
+
+/// A number of faces, >= 1. The result has at most max(4, n) faces.
+constexpr Target faces(std::uint64_t n) { return {Target::Kind::faces, static_cast<double>(n)}; }
+
+/// A named choice of metric, weights and rules.
+enum class Preset {
+    qem,    ///< Garland and Heckbert 1997: plane quadrics, link condition
+    paper,  ///< FA-QEM as written: inverse-area base, curvature boundary, normal and area terms
+    stmw,   ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
+};
+
+/// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
+struct Weights {
+    std::optional<double> area;        ///< Lindstrom-Turk boundary area cost (paper eq. 11); paper: 100
+    std::optional<double> boundary;    ///< curvature-scaled boundary planes (paper eq. 6-9); paper: 500
+    std::optional<double> normal;      ///< tangent plane at the vertex (paper eq. 10); paper: 0.01
+    std::optional<double> uv;          ///< factor on quadrics at UV seams, where UVs are kept; paper: 5000
+    std::optional<double> plane_area;  ///< inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1
+};
+
+/// The link condition keeps the topology of a manifold surface (Dey et al. 1999).
+enum class LinkCondition { as_preset, off, on };
+
+/// Whether vertices on open borders may move.
+enum class Border { free, locked };
+
+/// Collapses between parts that do not touch (paper, supplementary).
+enum class VirtualEdges { off, on };
+
+/// What may happen to the connectivity.
+struct Topology {
+    LinkCondition link = LinkCondition::as_preset;
+    Border border = Border::free;
+    /// Vertices at most this far apart (model units) become one. Unset: the preset's (paper 1e-6, else
+    /// exact).
+    std::optional<double> weld_distance;
+    VirtualEdges virtual_edges = VirtualEdges::off;
+    /// Largest gap a virtual edge may span, as a share of the bounding-box diagonal, in (0, 1].
+    double virtual_edge_distance = 0.01;
+};
+
+/// Whether the collapse history is kept. Off costs nothing.
+enum class Recording { off, on };
+
+/// Where the colours of the small model go.
+enum class Bake {
+    per_triangle,  ///< a new atlas, every triangle on its own (paper, Sec. 3.2.3)
+    vertex,        ///< vertex colours
+    keep,          ///< the source's UVs and images, carried through the collapses
+    none,          ///< geometry only: factors stay, textures go
+};
+
+/// How a point of the small surface finds its place on the original.
+enum class Mapping {
+    projection,  ///< successive projection through the collapse history (after Liu et al. 2024)
+    lineage,     ///< the paper's heuristic: the closer of the two parents, again and again
+};
+
+/// Appearance of the result; used by the asset door only.
+struct BakeOptions {
+    Bake kind = Bake::per_triangle;
+    /// Largest side of a baked image in texels, a power of two in [64, 16384].
+    std::uint32_t texture_size = 2048;
+    Mapping mapping = Mapping::projection;
+    /// Samples per texel and axis, in [1, 8]: 2 means 2 x 2.
+    std::uint32_t samples = 2;
+    /// Dihedral angle in degrees above which a normal is split, in [0, 180].
+    double crease_angle = 40;
+};
+
+/// Everything that can be asked of simplify().
+struct Options {
+    Target target = {};
+    Preset preset = Preset::paper;
+    Weights weights = {};
+    Topology topology = {};
+    Recording history = Recording::off;
+    BakeOptions bake = {};
+    /// Threads to use at most; 0: all there are. The result does not depend on it.
+    std::uint32_t threads = 0;
+    /// Called now and then; may cancel. May be empty.
+    Progress progress = {};
+};
+
+/// Checks every range stated above.
+/// \throws OptionError naming the member
+void validate(const Options& options);
+
+}  // namespace faqem

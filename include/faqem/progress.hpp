@@ -1,0 +1,21 @@
+#pragma once
+/// \file
+/// Progress and cancelling.
+
+#include <functional>
+
+namespace faqem {
+
+/// The phases of the work, in order.
+enum class Phase { load, weld, simplify, map, bake, save };
+
+/// What a callback answers.
+enum class Continue { yes, cancel };
+
+/// Called from time to time on the calling thread.
+/// \param phase     what is being done
+/// \param fraction  share of the phase that is done, in [0, 1]
+/// An exception thrown by the callback passes through to the caller of faqem.
+using Progress = std::function<Continue(Phase phase, double fraction)>;
+
+}  // namespace faqem

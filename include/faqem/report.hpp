@@ -1,0 +1,78 @@
+#pragma once
+/// \file
+/// What happened: counts, reasons, times. Nothing is dropped in silence; it is in here.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "faqem/options.hpp"
+
+namespace faqem {
+
+/// Why the collapses ended.
+enum class StopReason {
+    reached_target,     ///< the face count is at or below the target
+    no_legal_collapse,  ///< every rung of the ladder was tried and nothing may be collapsed any more
+    cancelled,          ///< the progress callback said so
+};
+
+/// Why a collapse was refused.
+enum class Refusal {
+    flip,         ///< a face would turn over
+    degenerate,   ///< a face would lose its area
+    link,         ///< the link condition would be violated
+    locked,       ///< both ends are locked, or the new point would move a locked one
+    seam,         ///< a kept UV seam would be torn
+    zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
+};
+inline constexpr std::size_t refusal_kinds = 6;
+
+/// Steps taken when no collapse was legal above the target, in this order.
+enum class Rung {
+    reseed,           ///< all pairs evaluated anew
+    tiny_components,  ///< whole tiny components deleted
+    without_link,     ///< link condition lifted
+    flip_half,        ///< flips allowed down to dot = -0.5
+    flip_any,         ///< flips allowed
+    any_component,    ///< whole components deleted, smallest first
+};
+inline constexpr std::size_t rung_kinds = 6;
+
+/// Wall-clock seconds of the phases. `simplify` runs from flat arrays to flat arrays and includes `weld`.
+struct PhaseSeconds {
+    double load = 0, weld = 0, simplify = 0, map = 0, bake = 0, save = 0, total = 0;
+};
+
+/// The result's passport. Counts are sums where several meshes were simplified.
+struct Report {
+    Preset preset = Preset::paper;
+    std::uint64_t faces_in = 0, faces_out = 0;
+    std::uint64_t vertices_in = 0, vertices_out = 0;
+    std::uint64_t target_faces = 0;
+    StopReason stop = StopReason::reached_target;
+    std::uint64_t collapses = 0;
+    std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal
+    std::array<std::uint64_t, rung_kinds> rungs = {};        ///< by Rung: how often taken
+    std::uint64_t faces_dropped = 0;  ///< input faces without area or with two equal corners after welding
+    std::uint64_t components_deleted = 0;
+    std::uint64_t virtual_edges = 0;
+    std::vector<std::string> warnings;
+    PhaseSeconds seconds;
+};
+
+std::string_view name(Preset preset);
+std::string_view name(StopReason reason);
+std::string_view name(Refusal refusal);
+std::string_view name(Rung rung);
+
+/// Finds a preset by the name that name() gives. \throws OptionError if there is none
+Preset preset_named(std::string_view text);
+
+/// The report as JSON, with the keys documented in docs/cli.md and the process's peak memory.
+std::string to_json(const Report& report);
+
+}  // namespace faqem

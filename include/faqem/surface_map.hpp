@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// The map from the small surface to the original, read from the collapse history alone.
+
+#include <memory>
+
+#include "faqem/history.hpp"
+#include "faqem/options.hpp"
+
+namespace faqem {
+
+/// How a sample found its place.
+enum class MapStep {
+    history,  ///< the walk through the history, every test passed
+    relaxed,  ///< the walk, with the sheet or side test dropped somewhere
+    closest,  ///< the walk ended nowhere: closest face among those that collapsed into this one
+};
+
+/// A place on the original surface.
+struct SurfacePoint {
+    Index face = no_index;  ///< input face
+    Vec3 barycentric = {};  ///< weights of its three corners, >= 0, sum 1
+    MapStep step = MapStep::history;
+};
+
+/// Answers "where on the original is this point of the small mesh?". Immutable once built; map() may be
+/// called from several threads at once.
+class SurfaceMap {
+public:
+    /// \param history  of the run that made the small mesh; must outlive the map
+    /// \param mapping  projection or lineage
+    /// Complexity: O(size of the history) time and memory.
+    SurfaceMap(const CollapseHistory& history, Mapping mapping);
+    ~SurfaceMap();
+    SurfaceMap(SurfaceMap&&) noexcept;
+    SurfaceMap& operator=(SurfaceMap&&) noexcept;
+
+    /// \param face         face of the small mesh, < history.kept_faces.size()
+    /// \param barycentric  the point on it
+    /// \return a face of the original and barycentrics on it; never no_index
+    SurfacePoint map(Index face, const Vec3& barycentric) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace faqem
