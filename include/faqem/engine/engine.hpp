@@ -1,0 +1,287 @@
+#pragma once
+/// \file
+/// The collapse loop (paper, Algorithm 1):
+///
+///     evaluate every pair, put it in the queue
+///     while more faces than the target:
+///         pop the cheapest pair           (queue empty: climb the starvation ladder)
+///         place the new vertex
+///         veto?  count the reason, forget the pair until its surroundings change
+///         record, collapse, merge pairs
+///         evaluate the pairs around the new vertex anew
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/engine/components.hpp"
+#include "faqem/engine/legality.hpp"
+#include "faqem/engine/metric.hpp"
+#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/queue.hpp"
+#include "faqem/engine/recorder.hpp"
+#include "faqem/engine/wedges.hpp"
+#include "faqem/report.hpp"
+
+namespace faqem::engine {
+
+/// What the loop needs besides the complex, the metric and the recorder.
+struct LoopOptions {
+    std::size_t target_faces = 4;
+    Rules rules;
+    /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
+    double tiny_component = 0;
+    /// Called every few thousand steps with the share of faces removed; may be empty.
+    std::function<Continue(double)> progress;
+};
+
+/// What the loop did.
+struct LoopResult {
+    StopReason stop = StopReason::reached_target;
+    std::uint64_t collapses = 0;
+    std::array<std::uint64_t, refusal_kinds> refusals = {};
+    std::array<std::uint64_t, rung_kinds> rungs = {};
+    std::uint64_t components_deleted = 0;
+};
+
+/// Collapses pairs of one complex. Used once.
+/// \tparam Metric    what a collapse costs and where it goes
+/// \tparam Queue     which pair is next
+/// \tparam Recorder  who is told; NoRecorder costs nothing
+template <CollapseMetric Metric, CollapseQueue Queue, CollapseRecorder Recorder>
+class Engine {
+public:
+    /// \param complex   the surface; changed by run()
+    /// \param pairs     of the complex
+    /// \param wedges    kept attributes, or empty
+    /// \param locked    one per vertex slot: nonzero must not move
+    /// All are borrowed and must outlive the engine.
+    Engine(Complex& complex, PairTable& pairs, Wedges& wedges, std::vector<std::uint8_t>& locked,
+           Metric& metric, Recorder& recorder)
+        : complex_(complex),
+          pairs_(pairs),
+          wedges_(wedges),
+          locked_(locked),
+          metric_(metric),
+          recorder_(recorder),
+          legality_(complex) {}
+
+    /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
+    LoopResult run(const LoopOptions& options) {
+        rules_ = options.rules;
+        first_count_ = complex_.face_count();
+        queue_.reserve(pairs_.size());
+        metric_.initialise(complex_, pairs_);
+        seed();
+        std::size_t seeded_at = complex_.face_count();
+        for (;;) {
+            if (drain(options)) break;
+            const std::size_t removed = seeded_at - complex_.face_count();
+            const std::size_t excess = complex_.face_count() - options.target_faces;
+            // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
+            const bool worth_it = 10 * removed >= excess && removed > 0;
+            if (worth_it || (rung_ == 0 && result_.rungs[0] == 0)) {
+                ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
+            } else if (!climb(options)) {
+                result_.stop = StopReason::no_legal_collapse;
+                break;
+            }
+            seed();
+            seeded_at = complex_.face_count();
+        }
+        return result_;
+    }
+
+private:
+    void seed() {
+        for (Index pair = 0; pair < pairs_.size(); ++pair) {
+            if (pairs_.alive(pair)) evaluate(pair);
+        }
+    }
+
+    // Collapses until the target is reached or the progress callback cancels (true), or the queue is empty
+    // (false).
+    bool drain(const LoopOptions& options) {
+        while (complex_.face_count() > options.target_faces) {
+            if (queue_.empty()) return false;
+            if (++steps_ % steps_between_polls == 0 && cancelled(options)) {
+                result_.stop = StopReason::cancelled;
+                return true;
+            }
+            try_collapse(queue_.pop());
+        }
+        return true;
+    }
+
+    bool cancelled(const LoopOptions& options) const {
+        if (!options.progress) return false;
+        const double done = static_cast<double>(first_count_ - complex_.face_count());
+        const double all = static_cast<double>(first_count_ - std::min(options.target_faces, first_count_));
+        return options.progress(all > 0 ? done / all : 1.0) == Continue::cancel;
+    }
+
+    void refuse(Refusal reason) { ++result_.refusals[static_cast<std::size_t>(reason)]; }
+
+    Freedom freedom(Index u, Index v) {
+        const bool u_stays = locked_[u], v_stays = locked_[v];
+        if (u_stays && v_stays) return refuse(Refusal::locked), Freedom::nowhere;
+        const Freedom seam = wedges_.freedom(complex_, u, v);
+        const Freedom lock = u_stays ? Freedom::at_first : v_stays ? Freedom::at_second : Freedom::anywhere;
+        if (lock == Freedom::anywhere || seam == lock) return seam_or_refuse(seam);
+        return seam == Freedom::anywhere ? lock : seam_or_refuse(Freedom::nowhere);
+    }
+
+    Freedom seam_or_refuse(Freedom seam) {
+        if (seam == Freedom::nowhere) refuse(Refusal::seam);
+        return seam;
+    }
+
+    std::optional<Candidate> candidate(Index pair) {
+        const Index u = pairs_.first(pair), v = pairs_.second(pair);
+        const double length = (complex_.position(u) - complex_.position(v)).norm();
+        if (!(length >= rules_.least_length)) return refuse(Refusal::zero_length), std::nullopt;
+        return metric_.evaluate(complex_, pairs_, u, v, freedom(u, v));
+    }
+
+    void evaluate(Index pair) {
+        if (const auto found = candidate(pair)) {
+            queue_.set(pair, found->cost);
+        } else {
+            queue_.erase(pair);
+        }
+    }
+
+    void try_collapse(Index pair) {
+        Index u = pairs_.first(pair), v = pairs_.second(pair);
+        const auto found = candidate(pair);
+        if (!found) return;
+        if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
+            return refuse(*refusal);
+        }
+        // The fuller vertex survives: its lists need not be walked again and again around a hub.
+        if (complex_.degree(v) > complex_.degree(u)) std::swap(u, v);
+        collapse(u, v, found->point);
+    }
+
+    void collapse(Index survivor, Index gone, const Vector3& p) {
+        recorder_.collapsing(complex_, survivor, gone, p);
+        metric_.collapsing(complex_, pairs_, survivor, gone, p);
+        wedges_.collapsing(complex_, survivor, gone, p);
+        complex_.collapse(survivor, gone, p);
+        locked_[survivor] |= locked_[gone];
+        killed_.clear();
+        pairs_.merge(complex_, survivor, gone, killed_, changes_);
+        for (const Index pair : killed_) queue_.erase(pair);
+        ++result_.collapses;
+        for (const PairTable::Change& change : changes_) evaluate(change.neighbour.pair);
+        for (const PairTable::Change& change : changes_) {
+            if (!metric_.affects(change)) continue;
+            pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
+                if (n.vertex != survivor) evaluate(n.pair);
+            });
+        }
+    }
+
+    // Takes the next rung. False: there is none left.
+    bool climb(const LoopOptions& options) {
+        while (++rung_ < rung_kinds) {
+            const auto rung = static_cast<Rung>(rung_);
+            if (!take(rung, options)) continue;
+            ++result_.rungs[rung_];
+            return true;
+        }
+        return false;
+    }
+
+    // False where the rung would change nothing.
+    bool take(Rung rung, const LoopOptions& options) {
+        switch (rung) {
+            case Rung::tiny_components:
+                return delete_components(options, options.tiny_component);
+            case Rung::without_link:
+                return std::exchange(rules_.link, LinkCondition::off) == LinkCondition::on;
+            case Rung::flip_half:
+                return relax_turn(-0.5);
+            case Rung::flip_any:
+                rules_.least_length = 0;
+                return relax_turn(-1);
+            case Rung::any_component:
+                // Kept seams are a wish of the user's, like locks: a large part is not given up for them.
+                return wedges_.empty() && delete_components(options, std::numeric_limits<double>::infinity());
+            case Rung::reseed:
+                break;
+        }
+        return false;
+    }
+
+    bool relax_turn(double limit) {
+        if (!(rules_.least_turn > limit)) return false;
+        rules_.least_turn = limit;
+        return true;
+    }
+
+    // Deletes whole components without locked vertices, smallest box first, down to the target; never the
+    // largest.
+    bool delete_components(const LoopOptions& options, double largest_diagonal) {
+        std::vector<Component> all = components(complex_);
+        const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
+        std::stable_sort(all.begin(), all.end(),
+                         [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
+        if (!all.empty()) all.pop_back();
+        bool any = false;
+        for (const Component& component : all) {
+            if (complex_.face_count() <= options.target_faces) break;
+            if (!(diagonal(component) <= largest_diagonal) || has_locked(component)) continue;
+            delete_component(component);
+            any = true;
+        }
+        return any;
+    }
+
+    bool has_locked(const Component& component) const {
+        return std::any_of(component.faces.begin(), component.faces.end(), [&](Index f) {
+            const Triangle& t = complex_.triangle(f);
+            return locked_[t[0]] || locked_[t[1]] || locked_[t[2]];
+        });
+    }
+
+    void delete_component(const Component& component) {
+        killed_.clear();
+        for (const Index f : component.faces) {
+            const Triangle t = complex_.triangle(f);
+            recorder_.deleting(f);
+            complex_.remove_face(f);
+            for (const Index v : t) {
+                if (complex_.degree(v) == 0) pairs_.kill_all(v, killed_);
+            }
+        }
+        for (const Index pair : killed_) queue_.erase(pair);
+        ++result_.components_deleted;
+    }
+
+    static constexpr std::uint64_t steps_between_polls = 1024;
+
+    Complex& complex_;
+    PairTable& pairs_;
+    Wedges& wedges_;
+    std::vector<std::uint8_t>& locked_;
+    Metric& metric_;
+    Recorder& recorder_;
+    Legality legality_;
+    Queue queue_;
+    Rules rules_;
+    LoopResult result_;
+    std::size_t rung_ = 0;
+    std::size_t first_count_ = 0;
+    std::uint64_t steps_ = 0;
+    std::vector<Index> killed_;
+    std::vector<PairTable::Change> changes_;
+};
+
+}  // namespace faqem::engine

@@ -1,0 +1,136 @@
+#pragma once
+/// \file
+/// May this pair be collapsed to this point? The answer is nothing, or the reason why not.
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/engine/pairs.hpp"
+#include "faqem/report.hpp"
+
+namespace faqem::engine {
+
+/// The rules a collapse must keep. The starvation ladder relaxes them.
+struct Rules {
+    LinkCondition link = LinkCondition::off;  ///< on or off
+    /// A face may not turn so far that the cosine between its old and new normal is below this; -1: no test.
+    double least_turn = 0;
+    /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
+    double least_length = 0;
+};
+
+/// Height over longest edge below which a face counts as degenerate.
+inline constexpr double degenerate_aspect = 1e-9;
+
+/// Tests collapses; holds scratch memory only.
+class Legality {
+public:
+    explicit Legality(const Complex& complex) : mark_(complex.vertex_slots(), 0) {}
+
+    /// \pre u != v, both alive
+    /// \return why (u, v) may not become one vertex at p, or nothing. O(valence of u and v)
+    std::optional<Refusal> check(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
+                                 const Vector3& p, const Rules& rules) {
+        if (const auto refusal = check_faces(complex, u, v, p, rules.least_turn)) return refusal;
+        if (const auto refusal = check_faces(complex, v, u, p, rules.least_turn)) return refusal;
+        if (rules.link == LinkCondition::on && !link_condition(complex, pairs, u, v, pair))
+            return Refusal::link;
+        return std::nullopt;
+    }
+
+private:
+    // Faces of `moved` without `partner`: none may turn over or lose its area (paper, Sec. 3.3). A face that
+    // was degenerate before has no normal to turn and no area to lose.
+    static std::optional<Refusal> check_faces(const Complex& complex, Index moved, Index partner,
+                                              const Vector3& p, double least_turn) {
+        std::optional<Refusal> refusal;
+        complex.all_faces(moved, [&](Index f, unsigned corner) {
+            if (complex.has_corner(f, partner)) return true;
+            const Triangle& t = complex.triangle(f);
+            const Vector3& a = complex.position(t[(corner + 1) % 3]);
+            const Vector3& b = complex.position(t[(corner + 2) % 3]);
+            const Vector3 before = area_vector(complex.position(moved), a, b);
+            const Vector3 after = area_vector(p, a, b);
+            const double old_norm = before.norm();
+            const double new_norm = after.norm();
+            if (least_turn > -1 && !(before.dot(after) >= least_turn * old_norm * new_norm)) {
+                refusal = Refusal::flip;
+            } else if (is_degenerate(new_norm, p, a, b) &&
+                       !is_degenerate(old_norm, complex.position(moved), a, b)) {
+                refusal = Refusal::degenerate;
+            }
+            return !refusal;
+        });
+        return refusal;
+    }
+
+    static bool is_degenerate(double doubled_area, const Vector3& a, const Vector3& b, const Vector3& c) {
+        const double longest =
+            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        return !(doubled_area > degenerate_aspect * longest);
+    }
+
+    // Where all edges at u and v have at most two faces: the link condition for surfaces with border
+    // (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double faces, and no edge
+    // gets more faces than the fuller one of the two that merge into it.
+    bool link_condition(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair) {
+        const std::uint32_t shared = pairs.face_count(pair);
+        bool manifold = shared <= 2 && is_manifold(pairs, u) && is_manifold(pairs, v);
+        mark_edges(pairs, u);
+        std::uint32_t common = 0;
+        bool legal = true;
+        pairs.for_each_pair(v, [&](Neighbour n) {
+            const std::uint32_t at_u = mark_[n.vertex];
+            const std::uint32_t at_v = pairs.face_count(n.pair);
+            if (at_u == 0 || at_v == 0 || n.vertex == u) return;
+            ++common;
+            if (manifold && shared == 1 && at_u == 1 && at_v == 1)
+                legal = false;  // last triangle or its hole
+            if (!manifold && at_u + at_v - 2 * faces_with(complex, v, u, n.vertex) > std::max(at_u, at_v))
+                legal = false;
+        });
+        if (manifold) {
+            if (common != shared) legal = false;
+            if (shared != 1 && pairs.boundary_degree(u) > 0 && pairs.boundary_degree(v) > 0) legal = false;
+        }
+        if (legal && common > 1) legal = !makes_double_face(complex, u, v);
+        pairs.for_each_pair(u, [&](Neighbour n) { mark_[n.vertex] = 0; });
+        return legal;
+    }
+
+    static bool is_manifold(const PairTable& pairs, Index v) {
+        bool manifold = pairs.boundary_degree(v) == 0 || pairs.boundary_degree(v) == 2;
+        pairs.for_each_pair(v, [&](Neighbour n) { manifold &= pairs.face_count(n.pair) <= 2; });
+        return manifold;
+    }
+
+    void mark_edges(const PairTable& pairs, Index u) {
+        pairs.for_each_pair(u, [&](Neighbour n) { mark_[n.vertex] = pairs.face_count(n.pair); });
+    }
+
+    static std::uint32_t faces_with(const Complex& complex, Index v, Index u, Index n) {
+        std::uint32_t count = 0;
+        complex.for_each_face(
+            v, [&](Index f, unsigned) { count += complex.has_corner(f, u) && complex.has_corner(f, n); });
+        return count;
+    }
+
+    // Is there a face (v, x, y) beside a face (u, x, y)? Only edges marked at u can be such.
+    bool makes_double_face(const Complex& complex, Index u, Index v) const {
+        return !complex.all_faces(v, [&](Index f, unsigned corner) {
+            const Index x = complex.triangle(f)[(corner + 1) % 3];
+            const Index y = complex.triangle(f)[(corner + 2) % 3];
+            if (x == u || y == u || mark_[x] == 0 || mark_[y] == 0) return true;
+            return complex.all_faces(u, [&](Index g, unsigned) {
+                return !(complex.has_corner(g, x) && complex.has_corner(g, y));
+            });
+        });
+    }
+
+    std::vector<std::uint32_t> mark_;  // faces of the edge from u, while checking
+};
+
+}  // namespace faqem::engine

@@ -1,0 +1,129 @@
+#pragma once
+/// \file
+/// What a collapse costs. A metric gives a point and a cost for a pair, or nothing: "do not collapse".
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/placement.hpp"
+#include "faqem/engine/quadric.hpp"
+#include "faqem/engine/terms.hpp"
+
+namespace faqem::engine {
+
+/// A metric owns its state per vertex and is told of every collapse.
+template <class M>
+concept CollapseMetric = requires(M metric, const M& const_metric, const Complex& complex,
+                                  const PairTable& pairs, Index u, Index v, Freedom freedom, const Vector3& p,
+                                  const PairTable::Change& change) {
+    {metric.initialise(complex, pairs)};
+    // Candidate for the pair (u, v); nothing if it must not be collapsed. Finite, cost >= 0.
+    { const_metric.evaluate(complex, pairs, u, v, freedom) } -> std::same_as<std::optional<Candidate>>;
+    // u and v are about to become u at p; the complex is still as before.
+    {metric.collapsing(complex, pairs, u, v, p)};
+    // After a collapse: did it change the cost of other pairs of this neighbour of the survivor?
+    { const_metric.affects(change) } -> std::same_as<bool>;
+};
+
+/// When the area term takes part.
+enum class AreaTerm {
+    after_placement,   ///< added to the cost once the point is found (paper eq. 4)
+    before_placement,  ///< the point minimises the sum (Liu et al. 2024)
+};
+
+/// A weighted sum of the paper's terms; weight 0 turns one off.
+struct CompositeWeights {
+    BaseWeight base = BaseWeight::unit;
+    double plane_area = 1;  ///< paper eq. 5, with BaseWeight::inverse_area
+    double boundary = 0;    ///< paper eq. 9
+    double normal = 0;      ///< paper eq. 10
+    double area = 0;        ///< paper eq. 4
+    AreaTerm area_term = AreaTerm::after_placement;
+    double seam = 1;        ///< factor on the quadric of seam vertices
+    double least_area = 0;  ///< clamp of face areas, engine units squared
+};
+
+/// The composite metric with memory: each vertex carries the sum of all quadrics that were merged into it
+/// (paper, Algorithm 1; Garland and Heckbert 1997).
+class MemoryMetric {
+public:
+    /// \param weights       of the terms
+    /// \param seam_vertex   empty, or one per vertex: nonzero where the UVs are split
+    explicit MemoryMetric(const CompositeWeights& weights, std::span<const std::uint8_t> seam_vertex = {})
+        : weights_(weights), seam_vertex_(seam_vertex) {}
+
+    void initialise(const Complex& complex, const PairTable& pairs) {
+        quadrics_.assign(complex.vertex_slots(), {});
+        for (Index f = 0; f < complex.face_slots(); ++f) {
+            if (!complex.alive(f)) continue;
+            const Triangle& t = complex.triangle(f);
+            const Quadric q = base_term(complex.area_vector(f), complex.position(t[0]), weights_.base,
+                                        weights_.plane_area, weights_.least_area);
+            for (const Index v : t) quadrics_[v] += q;
+        }
+        for (Index v = 0; v < complex.vertex_slots(); ++v) add_vertex_terms(complex, pairs, v);
+    }
+
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,
+                                      Freedom freedom) const {
+        if (freedom == Freedom::nowhere) return std::nullopt;
+        Quadric q = quadrics_[u] + quadrics_[v];
+        const bool has_area =
+            weights_.area > 0 && (pairs.boundary_degree(u) > 0 || pairs.boundary_degree(v) > 0);
+        Quadric area;
+        if (has_area) {
+            area = area_term(complex, pairs, u, v);
+            area *= weights_.area;
+            if (weights_.area_term == AreaTerm::before_placement) q += area;
+        }
+        const Vector3 p = place(q, complex.position(u), complex.position(v), freedom);
+        double cost = std::max(q(p), 0.0);
+        if (has_area && weights_.area_term == AreaTerm::after_placement) cost += std::max(area(p), 0.0);
+        if (!std::isfinite(cost)) return std::nullopt;
+        return Candidate{p, cost};
+    }
+
+    void collapsing(const Complex&, const PairTable&, Index survivor, Index gone, const Vector3&) {
+        quadrics_[survivor] += quadrics_[gone];
+    }
+
+    bool affects(const PairTable::Change& change) const {
+        return weights_.area > 0 && change.boundary_changed;
+    }
+
+    /// The quadric that vertex v carries.
+    const Quadric& quadric(Index v) const { return quadrics_[v]; }
+
+private:
+    void add_vertex_terms(const Complex& complex, const PairTable& pairs, Index v) {
+        Quadric& q = quadrics_[v];
+        if (weights_.boundary > 0) {
+            if (const auto ends = border_neighbours(pairs, v)) {
+                Quadric border = boundary_term(complex.position(v), complex.position((*ends)[0]),
+                                               complex.position((*ends)[1]));
+                border *= weights_.boundary;
+                q += border;
+            }
+        }
+        if (weights_.normal > 0) {
+            Quadric normal = normal_term(complex, v);
+            normal *= weights_.normal;
+            q += normal;
+        }
+        if (!seam_vertex_.empty() && seam_vertex_[v]) q *= weights_.seam;
+    }
+
+    CompositeWeights weights_;
+    std::span<const std::uint8_t> seam_vertex_;
+    std::vector<Quadric> quadrics_;
+};
+
+static_assert(CollapseMetric<MemoryMetric>);
+
+}  // namespace faqem::engine

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Where the new vertex of a collapse goes.
+
+#include <limits>
+
+#include "faqem/engine/quadric.hpp"
+
+namespace faqem::engine {
+
+/// Where the new vertex may go.
+enum class Freedom {
+    anywhere,
+    at_first,   ///< only where the pair's first vertex is
+    at_second,  ///< only where its second vertex is
+    nowhere,    ///< the pair may not be collapsed
+};
+
+/// A collapse that may be done.
+struct Candidate {
+    Vector3 point;
+    double cost = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
+/// taken (paper, Sec. 3.1). \pre freedom is not `nowhere`
+inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freedom freedom) {
+    if (freedom == Freedom::at_first) return a;
+    if (freedom == Freedom::at_second) return b;
+    if (const auto p = q.minimum()) return *p;
+    Vector3 best = a;
+    double lowest = q(a);
+    for (const Vector3& p : {b, Vector3(0.5 * (a + b))}) {
+        const double error = q(p);
+        if (error < lowest) lowest = error, best = p;
+    }
+    return best;
+}
+
+}  // namespace faqem::engine

@@ -1,0 +1,101 @@
+#pragma once
+/// \file
+/// Quadric Q(p) = p^T A p + 2 b^T p + c: a weighted sum of squared distances to planes
+/// (Garland and Heckbert 1997; paper eq. 1).
+
+#include <optional>
+
+#include "faqem/engine/vector.hpp"
+
+namespace faqem::engine {
+
+/// Ten numbers: the upper triangle of A (xx xy xz yy yz zz), b and c.
+struct Quadric {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    Vector3 b = Vector3::Zero();
+    double c = 0;
+
+    /// w (n.p + d)^2. `n` need not have unit length: the paper's boundary planes have not.
+    static Quadric plane(const Vector3& n, double d, double w) {
+        Quadric q;
+        q.xx = w * n.x() * n.x();
+        q.xy = w * n.x() * n.y();
+        q.xz = w * n.x() * n.z();
+        q.yy = w * n.y() * n.y();
+        q.yz = w * n.y() * n.z();
+        q.zz = w * n.z() * n.z();
+        q.b = w * d * n;
+        q.c = w * d * d;
+        return q;
+    }
+
+    /// The plane with normal n through `point`.
+    static Quadric plane_through(const Vector3& n, const Vector3& point, double w) {
+        return plane(n, -n.dot(point), w);
+    }
+
+    /// w/2 |e x p + t|^2: half the squared doubled area of the triangle that p spans with the edge from a to
+    /// b, e = b - a, t = a x b (Lindstrom and Turk 1998; paper eq. 11).
+    static Quadric edge_area(const Vector3& a, const Vector3& b, double w) {
+        const Vector3 e = b - a;
+        const Vector3 t = a.cross(b);
+        const double h = 0.5 * w;
+        const double s = e.squaredNorm();
+        // |e x p|^2 = p^T (|e|^2 I - e e^T) p and t.(e x p) = (t x e).p
+        Quadric q;
+        q.xx = h * (s - e.x() * e.x());
+        q.xy = -h * e.x() * e.y();
+        q.xz = -h * e.x() * e.z();
+        q.yy = h * (s - e.y() * e.y());
+        q.yz = -h * e.y() * e.z();
+        q.zz = h * (s - e.z() * e.z());
+        q.b = h * t.cross(e);
+        q.c = h * t.squaredNorm();
+        return q;
+    }
+
+    Quadric& operator+=(const Quadric& o) {
+        xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;
+        b += o.b;
+        c += o.c;
+        return *this;
+    }
+    friend Quadric operator+(Quadric l, const Quadric& r) { return l += r; }
+
+    Quadric& operator*=(double s) {
+        xx *= s, xy *= s, xz *= s, yy *= s, yz *= s, zz *= s;
+        b *= s;
+        c *= s;
+        return *this;
+    }
+
+    /// A p
+    Vector3 apply(const Vector3& p) const {
+        return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
+                xz * p.x() + yz * p.y() + zz * p.z()};
+    }
+
+    /// Q(p). May be slightly negative by rounding.
+    double operator()(const Vector3& p) const { return p.dot(apply(p)) + 2 * b.dot(p) + c; }
+
+    /// The point where Q is smallest, or nothing when A is too close to singular to tell:
+    /// det A <= 1e-9 (trace A)^3, a test that does not depend on the model's scale.
+    std::optional<Vector3> minimum() const {
+        const double trace = xx + yy + zz;
+        const double cxx = yy * zz - yz * yz;
+        const double cxy = xz * yz - xy * zz;
+        const double cxz = xy * yz - xz * yy;
+        const double det = xx * cxx + xy * cxy + xz * cxz;
+        if (!(det > 1e-9 * trace * trace * trace)) return std::nullopt;
+        const double cyy = xx * zz - xz * xz;
+        const double cyz = xy * xz - xx * yz;
+        const double czz = xx * yy - xy * xy;
+        const Vector3 p(-(cxx * b.x() + cxy * b.y() + cxz * b.z()) / det,
+                        -(cxy * b.x() + cyy * b.y() + cyz * b.z()) / det,
+                        -(cxz * b.x() + cyz * b.y() + czz * b.z()) / det);
+        if (!p.allFinite()) return std::nullopt;
+        return p;
+    }
+};
+
+}  // namespace faqem::engine

@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// The queue of candidate collapses: what the engine asks of one, and an addressable heap.
+
+#include <concepts>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::engine {
+
+/// A set of pairs with costs. The cheapest comes first; equal costs come by index, so that no result depends
+/// on the order of insertion.
+template <class Q>
+concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, double cost, std::size_t pairs) {
+    {queue.reserve(pairs)};                  // room for pairs [0, pairs)
+    {queue.set(pair, cost)};                 // inserts, or changes the cost
+    {queue.erase(pair)};                     // does nothing when the pair is not in it
+    { queue.pop() } -> std::same_as<Index>;  // removes and returns the cheapest; not empty
+    { const_queue.empty() } -> std::same_as<bool>;
+    { const_queue.lowest() } -> std::same_as<double>;  // cost of the cheapest; not empty
+};
+
+/// A four-ary heap that knows where each pair is. set, erase and pop take O(log n).
+class HeapQueue {
+public:
+    void reserve(std::size_t pairs) {
+        place_.assign(pairs, no_index);
+        heap_.clear();
+        heap_.reserve(pairs);
+    }
+
+    bool empty() const { return heap_.empty(); }
+    double lowest() const { return heap_.front().cost; }
+
+    void set(Index pair, double cost) {
+        std::size_t i = place_[pair];
+        if (i == no_index) {
+            i = heap_.size();
+            heap_.push_back({cost, pair});
+            place_[pair] = static_cast<Index>(i);
+        } else {
+            heap_[i].cost = cost;
+        }
+        sift_down(sift_up(i));
+    }
+
+    void erase(Index pair) {
+        const std::size_t i = place_[pair];
+        if (i == no_index) return;
+        place_[pair] = no_index;
+        const Entry last = heap_.back();
+        heap_.pop_back();
+        if (i == heap_.size()) return;
+        put(i, last);
+        sift_down(sift_up(i));
+    }
+
+    Index pop() {
+        const Index pair = heap_.front().pair;
+        erase(pair);
+        return pair;
+    }
+
+private:
+    struct Entry {
+        double cost;
+        Index pair;
+        bool operator<(const Entry& o) const { return cost < o.cost || (cost == o.cost && pair < o.pair); }
+    };
+    static constexpr std::size_t arity = 4;
+
+    void put(std::size_t i, const Entry& entry) {
+        heap_[i] = entry;
+        place_[entry.pair] = static_cast<Index>(i);
+    }
+
+    std::size_t sift_up(std::size_t i) {
+        const Entry entry = heap_[i];
+        while (i > 0) {
+            const std::size_t parent = (i - 1) / arity;
+            if (!(entry < heap_[parent])) break;
+            put(i, heap_[parent]);
+            i = parent;
+        }
+        put(i, entry);
+        return i;
+    }
+
+    void sift_down(std::size_t i) {
+        const Entry entry = heap_[i];
+        for (;;) {
+            const std::size_t begin = arity * i + 1;
+            const std::size_t end = begin + arity < heap_.size() ? begin + arity : heap_.size();
+            std::size_t best = i;
+            for (std::size_t child = begin; child < end; ++child) {
+                if (heap_[child] < (best == i ? entry : heap_[best])) best = child;
+            }
+            if (best == i) break;
+            put(i, heap_[best]);
+            i = best;
+        }
+        put(i, entry);
+    }
+
+    std::vector<Entry> heap_;
+    std::vector<Index> place_;  // of a pair in heap_, or no_index
+};
+
+}  // namespace faqem::engine

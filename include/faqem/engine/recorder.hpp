@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// Recorders see every collapse before it happens. NoRecorder compiles to nothing.
+
+#include <concepts>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/history.hpp"
+
+namespace faqem::engine {
+
+template <class R>
+concept CollapseRecorder = requires(R recorder, const Complex& complex, Index survivor, Index gone,
+                                    const Vector3& p, Index face) {
+    {recorder.collapsing(complex, survivor, gone, p)};
+    {recorder.deleting(face)};
+};
+
+/// Records nothing, at no cost.
+struct NoRecorder {
+    void collapsing(const Complex&, Index, Index, const Vector3&) {}
+    void deleting(Index) {}
+};
+
+/// Records the collapse history, positions in engine units until finish().
+class HistoryRecorder {
+public:
+    /// \param complex      before the first collapse
+    /// \param face_groups  empty, or one per face slot
+    HistoryRecorder(const Complex& complex, std::vector<Index> face_groups) {
+        history_.face_groups = std::move(face_groups);
+        history_.triangles.reserve(complex.face_slots());
+        for (Index f = 0; f < complex.face_slots(); ++f) history_.triangles.push_back(complex.triangle(f));
+        history_.patch_begin.push_back(0);
+        version_.resize(complex.vertex_slots());
+        std::iota(version_.begin(), version_.end(), Index{0});
+    }
+
+    void collapsing(const Complex& complex, Index survivor, Index gone, const Vector3& p) {
+        const auto fresh = static_cast<Index>(version_.size() + history_.collapses.size());
+        history_.collapses.push_back({version_[survivor], version_[gone], to_array(p)});
+        complex.for_each_face(survivor, [&](Index f, unsigned) { history_.patch_faces.push_back(f); });
+        complex.for_each_face(gone, [&](Index f, unsigned) {
+            if (!complex.has_corner(f, survivor)) history_.patch_faces.push_back(f);
+        });
+        history_.patch_begin.push_back(history_.patch_faces.size());
+        version_[survivor] = fresh;
+    }
+
+    void deleting(Index face) { history_.deleted_faces.push_back({history_.collapses.size(), face}); }
+
+    /// The version that a vertex slot is now.
+    Index version(Index slot) const { return version_[slot]; }
+
+    /// Gives the history away; positions and kept faces are the caller's to fill.
+    CollapseHistory take() { return std::move(history_); }
+
+private:
+    CollapseHistory history_;
+    std::vector<Index> version_;  // of each vertex slot
+};
+
+static_assert(CollapseRecorder<NoRecorder> && CollapseRecorder<HistoryRecorder>);
+
+}  // namespace faqem::engine

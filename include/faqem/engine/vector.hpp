@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Small vectors: Eigen inside the engine, plain arrays outside.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::engine {
+
+using Vector3 = Eigen::Vector3d;
+
+inline Vector3 to_eigen(const Vec3& p) { return {p[0], p[1], p[2]}; }
+inline Vec3 to_array(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Twice the area, in the direction of the normal of triangle abc.
+inline Vector3 area_vector(const Vector3& a, const Vector3& b, const Vector3& c) {
+    return (b - a).cross(c - a);
+}
+
+}  // namespace faqem::engine

@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// Vertices at one place become one vertex (paper, supplementary: pre-emptive merging).
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::engine {
+
+namespace weld_detail {
+
+inline std::uint64_t hash(const Vec3& key) {
+    std::uint64_t h = 0;
+    for (const double x : key) {
+        h ^= std::bit_cast<std::uint64_t>(x);
+        h *= 0x9e3779b97f4a7c15ull;
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+/// Open-addressing table of vertices by key. Lookups only, never iterated: the hash decides no result.
+class Table {
+public:
+    explicit Table(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), no_index) {}
+
+    /// Calls match(vertex) for vertices that may have this key, until it returns true; else returns the free
+    /// slot.
+    template <class Match>
+    Index* find(const Vec3& key, Match&& match) {
+        std::size_t i = hash(key) & (slots_.size() - 1);
+        while (slots_[i] != no_index && !match(slots_[i])) i = (i + 1) & (slots_.size() - 1);
+        return &slots_[i];
+    }
+
+private:
+    std::vector<Index> slots_;
+};
+
+// -0 and 0 are one place.
+inline Vec3 plus_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }
+
+}  // namespace weld_detail
+
+/// For each vertex the smallest index at the same position, -0 being 0. O(n) expected.
+inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions) {
+    std::vector<Index> representative(positions.size());
+    weld_detail::Table table(positions.size());
+    for (Index v = 0; v < positions.size(); ++v) {
+        Index* slot = table.find(weld_detail::plus_zero(positions[v]),
+                                 [&](Index w) { return positions[w] == positions[v]; });
+        if (*slot == no_index) *slot = v;
+        representative[v] = *slot;
+    }
+    return representative;
+}
+
+/// As weld_exact, and vertices within `distance` of an earlier representative join the first such one.
+/// O(n) expected while few vertices share a cell of size `distance`.
+/// \param distance  model units, >= 0; 0 is weld_exact
+inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance) {
+    std::vector<Index> representative = weld_exact(positions);
+    if (!(distance > 0)) return representative;
+    const auto cell_of = [&](const Vec3& p) -> Vec3 {
+        return {std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)};
+    };
+    const auto near = [&](Index a, Index b) {
+        const Vec3 &p = positions[a], &q = positions[b];
+        const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+        return x * x + y * y + z * z <= distance * distance;
+    };
+    // A cell holds a list of representatives, linked through `following`.
+    weld_detail::Table table(positions.size());
+    std::vector<Index> following(positions.size(), no_index);
+    const auto head_of = [&](const Vec3& cell) {
+        return table.find(weld_detail::plus_zero(cell),
+                          [&](Index w) { return cell_of(positions[w]) == cell; });
+    };
+    for (Index v = 0; v < positions.size(); ++v) {
+        if (representative[v] != v) {
+            representative[v] = representative[representative[v]];
+            continue;
+        }
+        const Vec3 cell = cell_of(positions[v]);
+        Index found = no_index;
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 beside = {cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1};
+            for (Index w = *head_of(beside); w != no_index; w = following[w]) {
+                if (w < found && near(v, w)) found = w;
+            }
+        }
+        if (found != no_index) {
+            representative[v] = found;
+            continue;
+        }
+        Index* head = head_of(cell);
+        if (*head == no_index) {
+            *head = v;
+        } else {
+            following[v] = following[*head];
+            following[*head] = v;
+        }
+    }
+    return representative;
+}
+
+}  // namespace faqem::engine

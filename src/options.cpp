@@ -1,0 +1,51 @@
+#include "faqem/options.hpp"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "faqem/error.hpp"
+
+namespace faqem {
+
+namespace {
+
+void require(bool good, const char* what) {
+    if (!good) throw OptionError(what);
+}
+
+void require_weight(const std::optional<double>& weight, const char* name) {
+    if (weight && !(*weight >= 0 && std::isfinite(*weight))) {
+        throw OptionError(std::string("weights.") + name + " must be finite and >= 0");
+    }
+}
+
+}  // namespace
+
+void validate(const Options& options) {
+    const Target& target = options.target;
+    if (target.kind == Target::Kind::ratio) {
+        require(target.value > 0 && target.value <= 1, "target ratio must be in (0, 1]");
+    } else {
+        require(target.value >= 1 && std::isfinite(target.value), "target face count must be >= 1");
+    }
+    require_weight(options.weights.area, "area");
+    require_weight(options.weights.boundary, "boundary");
+    require_weight(options.weights.normal, "normal");
+    require_weight(options.weights.uv, "uv");
+    require_weight(options.weights.plane_area, "plane_area");
+    const Topology& topology = options.topology;
+    if (topology.weld_distance) {
+        require(*topology.weld_distance >= 0 && std::isfinite(*topology.weld_distance),
+                "weld_distance must be finite and >= 0");
+    }
+    require(topology.virtual_edge_distance > 0 && topology.virtual_edge_distance <= 1,
+            "virtual_edge_distance must be in (0, 1]");
+    const BakeOptions& bake = options.bake;
+    require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
+            "texture_size must be a power of two in [64, 16384]");
+    require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
+    require(bake.crease_angle >= 0 && bake.crease_angle <= 180, "crease_angle must be in [0, 180] degrees");
+}
+
+}  // namespace faqem

@@ -1,0 +1,167 @@
+#include "prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "faqem/engine/weld.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Vector3;
+
+constexpr Triangle dropped = {no_index, no_index, no_index};
+
+[[noreturn]] void fail(const std::string& element, const std::string& what) {
+    throw InputError("", element, what);
+}
+
+void check_sizes(const MeshView& mesh) {
+    if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
+    if (mesh.triangles.size() > engine::max_faces) {
+        fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
+    }
+    if (!mesh.face_groups.empty() && mesh.face_groups.size() != mesh.triangles.size()) {
+        fail("face_groups", "needs one entry per face or none");
+    }
+    if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size()) {
+        fail("vertex_locks", "needs one entry per vertex or none");
+    }
+    if (mesh.attributes) {
+        const CornerAttributes& a = *mesh.attributes;
+        if (a.width == 0 || a.values.size() != std::uint64_t{3} * mesh.triangles.size() * a.width) {
+            fail("attributes", "needs width >= 1 and 3 * faces * width values");
+        }
+        for (std::size_t i = 0; i < a.values.size(); ++i) {
+            if (!std::isfinite(a.values[i]))
+                fail("attributes, corner " + std::to_string(i / a.width), "not finite");
+        }
+    }
+}
+
+std::vector<Vec3> checked_positions(const PositionView& view) {
+    std::vector<Vec3> positions(view.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        positions[v] = view[v];
+        for (const double x : positions[v]) {
+            if (!std::isfinite(x)) fail("vertex " + std::to_string(v), "position is not finite");
+        }
+    }
+    return positions;
+}
+
+// Numbers the representatives in input order and takes the triangles to them.
+void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
+                 const std::vector<Index>& representative, Prepared& out) {
+    std::vector<Index>& welded = out.welded;
+    welded.assign(positions.size(), no_index);
+    for (Index v = 0; v < positions.size(); ++v) {
+        if (representative[v] != v) continue;
+        welded[v] = static_cast<Index>(out.positions.size());
+        out.positions.push_back(positions[v]);
+        out.vertex_origin.push_back(v);
+    }
+    for (Index v = 0; v < positions.size(); ++v) welded[v] = welded[representative[v]];
+    out.triangles.resize(mesh.triangles.size());
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        const Triangle t = mesh.triangles[f];
+        for (const Index v : t) {
+            if (!(v < positions.size())) fail("face " + std::to_string(f), "vertex index out of range");
+        }
+        out.triangles[f] = {welded[t[0]], welded[t[1]], welded[t[2]]};
+    }
+}
+
+void drop_collapsed(Prepared& out) {
+    for (Triangle& t : out.triangles) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped, ++out.dropped_faces;
+    }
+}
+
+// A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
+// back stay.
+void drop_doubles(std::span<const Index> groups, Prepared& out) {
+    struct Key {
+        Triangle corners;
+        Index group, face;
+        bool operator<(const Key& o) const {
+            return std::tie(corners, group, face) < std::tie(o.corners, o.group, o.face);
+        }
+    };
+    std::vector<Key> keys;
+    keys.reserve(out.triangles.size());
+    for (Index f = 0; f < out.triangles.size(); ++f) {
+        Triangle t = out.triangles[f];
+        if (t == dropped) continue;
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        keys.push_back({t, groups.empty() ? no_index : groups[f], f});
+    }
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (keys[i].corners != keys[i - 1].corners || keys[i].group != keys[i - 1].group) continue;
+        out.triangles[keys[i].face] = dropped;
+        ++out.dropped_faces;
+    }
+}
+
+// Box of the used vertices; halves are taken first, so that 1e308 does not overflow.
+void find_scale(double wanted_diagonal, Prepared& out) {
+    Vec3 low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const Triangle& t : out.triangles) {
+        if (t == dropped) continue;
+        for (const Index v : t) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                low[i] = std::min(low[i], out.positions[v][i]);
+                high[i] = std::max(high[i], out.positions[v][i]);
+            }
+        }
+    }
+    if (!(low[0] <= high[0])) return;
+    double half[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.centre[i] = 0.5 * low[i] + 0.5 * high[i];
+        half[i] = 0.5 * high[i] - 0.5 * low[i];
+    }
+    const double half_diagonal = std::hypot(half[0], half[1], half[2]);
+    const double scale = 0.5 * wanted_diagonal / half_diagonal;
+    if (std::isfinite(scale) && scale > 0) out.scale = scale;
+}
+
+}  // namespace
+
+std::vector<Vector3> Prepared::engine_positions() const {
+    std::vector<Vector3> result;
+    result.reserve(positions.size());
+    const Vector3 c = engine::to_eigen(centre);
+    for (const Vec3& p : positions) result.push_back((engine::to_eigen(p) - c) * scale);
+    return result;
+}
+
+Vec3 Prepared::to_model(const Vector3& p) const {
+    return engine::to_array(Vector3(p / scale + engine::to_eigen(centre)));
+}
+
+Prepared prepare(const MeshView& mesh, const Settings& settings) {
+    check_sizes(mesh);
+    const std::vector<Vec3> positions = checked_positions(mesh.positions);
+    Prepared out;
+    take_welded(mesh, positions, engine::weld_within(positions, settings.weld_distance), out);
+    drop_collapsed(out);
+    drop_doubles(mesh.face_groups, out);
+    find_scale(settings.diagonal, out);
+    return out;
+}
+
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vector3 p = engine::to_eigen(a), q = engine::to_eigen(b), r = engine::to_eigen(c);
+    const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+    return !(engine::area_vector(p, q, r).norm() > 1e-12 * longest);
+}
+
+}  // namespace faqem::detail

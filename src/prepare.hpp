@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// From the caller's arrays to the engine's complex: checks, weld, repair, scale.
+
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/mesh.hpp"
+#include "presets.hpp"
+
+namespace faqem::detail {
+
+/// A mesh made ready for the engine. Vertices are the welded ones, faces keep their input index.
+struct Prepared {
+    std::vector<Vec3> positions;       ///< welded vertices, model units
+    std::vector<Index> vertex_origin;  ///< welded vertex -> first input vertex there
+    std::vector<Index> welded;         ///< input vertex -> welded vertex
+    std::vector<Triangle> triangles;   ///< per input face; three no_index where dropped
+    std::uint64_t dropped_faces = 0;   ///< with two equal corners, or doubles of an earlier face
+    Vec3 centre = {0, 0, 0};           ///< of the box of the used vertices, model units
+    double scale = 1;                  ///< model units to engine units
+
+    /// Engine units: (p - centre) * scale.
+    std::vector<engine::Vector3> engine_positions() const;
+    /// Back to model units.
+    Vec3 to_model(const engine::Vector3& p) const;
+};
+
+/// \throws InputError  see simplify()
+Prepared prepare(const MeshView& mesh, const Settings& settings);
+
+/// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace faqem::detail

@@ -1,0 +1,60 @@
+#include "presets.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::AreaTerm;
+using engine::BaseWeight;
+
+// The paper's Table 1. Its terms have different units and only act together at a certain model size; it was
+// tuned on Thingi10K, in millimetres with diagonals near 100.
+Settings paper() {
+    Settings s;
+    s.weights.base = BaseWeight::inverse_area;
+    s.weights.plane_area = 1;
+    s.weights.boundary = 500;
+    s.weights.normal = 0.01;
+    s.weights.area = 100;
+    s.weights.seam = 5000;
+    s.diagonal = 100;
+    s.weld_distance = 1e-6;
+    return s;
+}
+
+Settings qem() {
+    Settings s;
+    s.link = LinkCondition::on;
+    return s;
+}
+
+// Both terms are areas squared, so that they add up at any scale.
+Settings stmw() {
+    Settings s;
+    s.weights.base = BaseWeight::area;
+    s.weights.area = 1;
+    s.weights.area_term = AreaTerm::before_placement;
+    return s;
+}
+
+}  // namespace
+
+Settings settings(const Options& options) {
+    Settings s = options.preset == Preset::paper ? paper() : options.preset == Preset::qem ? qem() : stmw();
+    const Weights& w = options.weights;
+    if (w.plane_area) {
+        s.weights.base = *w.plane_area > 0 ? BaseWeight::inverse_area : BaseWeight::unit;
+        s.weights.plane_area = *w.plane_area;
+    }
+    s.weights.boundary = w.boundary.value_or(s.weights.boundary);
+    s.weights.normal = w.normal.value_or(s.weights.normal);
+    s.weights.area = w.area.value_or(s.weights.area);
+    s.weights.seam = w.uv.value_or(s.weights.seam);
+    if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
+    s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
+    // 1/A stays finite on faces that are thinner than any real one.
+    s.weights.least_area = 1e-12 * s.diagonal * s.diagonal;
+    return s;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// The table of presets: what each name stands for.
+
+#include "faqem/engine/metric.hpp"
+#include "faqem/options.hpp"
+
+namespace faqem::detail {
+
+/// A preset with the user's weights and rules put in.
+struct Settings {
+    engine::CompositeWeights weights;
+    LinkCondition link = LinkCondition::off;
+    double least_turn = 0;  ///< flip veto: smallest cosine between old and new normal
+    double diagonal = 1;    ///< the model is scaled to this diagonal: the paper's terms have different units
+    double weld_distance = 0;  ///< model units
+};
+
+/// \pre options are valid
+Settings settings(const Options& options);
+
+}  // namespace faqem::detail

@@ -1,0 +1,75 @@
+#include "faqem/report.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "faqem/error.hpp"
+
+namespace faqem {
+
+namespace {
+
+// Names by enumerator; the order is the enums'.
+constexpr std::array<std::string_view, 3> preset_names = {"qem", "paper", "stmw"};
+constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
+constexpr std::array<std::string_view, refusal_kinds> refusal_names = {"flip",   "degenerate", "link",
+                                                                       "locked", "seam",       "zero_length"};
+constexpr std::array<std::string_view, rung_kinds> rung_names = {
+    "reseed", "tiny_components", "without_link", "flip_half", "flip_any", "any_component"};
+
+std::uint64_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+template <std::size_t n>
+nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
+                              const std::array<std::string_view, n>& names) {
+    auto json = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < n; ++i) json[std::string(names[i])] = values[i];
+    return json;
+}
+
+}  // namespace
+
+std::string_view name(Preset preset) { return preset_names[static_cast<std::size_t>(preset)]; }
+std::string_view name(StopReason reason) { return stop_names[static_cast<std::size_t>(reason)]; }
+std::string_view name(Refusal refusal) { return refusal_names[static_cast<std::size_t>(refusal)]; }
+std::string_view name(Rung rung) { return rung_names[static_cast<std::size_t>(rung)]; }
+
+Preset preset_named(std::string_view text) {
+    for (std::size_t i = 0; i < preset_names.size(); ++i) {
+        if (preset_names[i] == text) return static_cast<Preset>(i);
+    }
+    std::string known;
+    for (const std::string_view one : preset_names) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw OptionError("unknown preset '" + std::string(text) + "' (known: " + known + ")");
+}
+
+std::string to_json(const Report& report) {
+    nlohmann::ordered_json json;
+    json["preset"] = name(report.preset);
+    json["faces_in"] = report.faces_in;
+    json["faces_out"] = report.faces_out;
+    json["vertices_in"] = report.vertices_in;
+    json["vertices_out"] = report.vertices_out;
+    json["target_faces"] = report.target_faces;
+    json["stop_reason"] = name(report.stop);
+    json["collapses"] = report.collapses;
+    json["refusals"] = counts(report.refusals, refusal_names);
+    json["rungs"] = counts(report.rungs, rung_names);
+    json["faces_dropped"] = report.faces_dropped;
+    json["components_deleted"] = report.components_deleted;
+    json["virtual_edges"] = report.virtual_edges;
+    json["warnings"] = report.warnings;
+    const PhaseSeconds& s = report.seconds;
+    json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
+                       {"bake", s.bake}, {"save", s.save}, {"total", s.total}};
+    json["peak_rss_bytes"] = peak_rss_bytes();
+    // File names need not be UTF-8: what is not is shown as U+FFFD.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace faqem

@@ -1,0 +1,236 @@
+#include "faqem/simplify.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "faqem/engine/engine.hpp"
+#include "prepare.hpp"
+#include "presets.hpp"
+#include "virtual_edges.hpp"
+
+namespace faqem {
+
+namespace {
+
+using engine::Complex;
+using engine::Vector3;
+
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
+std::uint64_t target_faces(const Target& target, std::size_t faces) {
+    const double wanted = target.kind == Target::Kind::faces
+                              ? target.value
+                              : target.value * static_cast<double>(faces) * (1 + 1e-15);
+    return static_cast<std::uint64_t>(std::max(4.0, std::floor(std::min(wanted, 1e18))));
+}
+
+std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
+                                const engine::PairTable& pairs, Border border) {
+    std::vector<std::uint8_t> locked(prepared.positions.size(), 0);
+    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
+        if (mesh.vertex_locks[v]) locked[prepared.welded[v]] = 1;
+    }
+    if (border == Border::locked) {
+        for (Index v = 0; v < locked.size(); ++v) locked[v] |= pairs.boundary_degree(v) > 0;
+    }
+    return locked;
+}
+
+// Remembers which welded vertex a slot still sits on, so that what did not move comes out to the last bit.
+template <class Recorder>
+class OriginRecorder {
+public:
+    OriginRecorder(Recorder& inner, const Complex& complex) : inner_(inner), place_(complex.vertex_slots()) {
+        for (Index v = 0; v < place_.size(); ++v) place_[v] = v;
+    }
+    void collapsing(const Complex& complex, Index survivor, Index gone, const Vector3& p) {
+        inner_.collapsing(complex, survivor, gone, p);
+        if (p == complex.position(survivor)) return;
+        place_[survivor] = p == complex.position(gone) ? place_[gone] : no_index;
+    }
+    void deleting(Index face) { inner_.deleting(face); }
+    /// The welded vertex whose place slot v has, or no_index.
+    Index place(Index v) const { return place_[v]; }
+
+private:
+    Recorder& inner_;
+    std::vector<Index> place_;
+};
+
+template <class Recorder>
+engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedges& wedges,
+                       std::vector<std::uint8_t>& locked, const detail::Settings& settings,
+                       Recorder& recorder, const engine::LoopOptions& loop) {
+    std::vector<std::uint8_t> seam;
+    if (!wedges.empty()) {
+        seam.resize(complex.vertex_slots());
+        for (Index v = 0; v < seam.size(); ++v) seam[v] = wedges.is_seam(complex, v);
+    }
+    engine::MemoryMetric metric(settings.weights, seam);
+    engine::Engine<engine::MemoryMetric, engine::HeapQueue, Recorder> engine(complex, pairs, wedges, locked,
+                                                                             metric, recorder);
+    return engine.run(loop);
+}
+
+// Everything of one run, in the order it is made.
+class Run {
+public:
+    Run(const MeshView& mesh, const Options& options)
+        : mesh_(mesh), options_(options), settings_(detail::settings(options)) {}
+
+    SimplifyResult operator()() {
+        const Stopwatch all;
+        result_.report.preset = options_.preset;
+        result_.report.faces_in = mesh_.triangles.size();
+        result_.report.vertices_in = mesh_.positions.size();
+        result_.report.target_faces = target_faces(options_.target, mesh_.triangles.size());
+        prepared_ = detail::prepare(mesh_, settings_);
+        result_.report.faces_dropped = prepared_.dropped_faces;
+        result_.report.seconds.weld = all.seconds();
+        Complex complex(prepared_.engine_positions(), prepared_.triangles);
+        if (options_.history == Recording::on) {
+            engine::HistoryRecorder history(complex, {mesh_.face_groups.begin(), mesh_.face_groups.end()});
+            collapse_and_collect(complex, history);
+            finish_history(history);
+        } else {
+            engine::NoRecorder nothing;
+            collapse_and_collect(complex, nothing);
+        }
+        finish_report();
+        result_.report.seconds.simplify = result_.report.seconds.total = all.seconds();
+        return std::move(result_);
+    }
+
+private:
+    template <class Recorder>
+    void collapse_and_collect(Complex& complex, Recorder& recorder) {
+        std::vector<std::pair<Index, Index>> extra;
+        const double least_length = 1e-8 * settings_.diagonal;
+        if (options_.topology.virtual_edges == VirtualEdges::on) {
+            extra = detail::virtual_edges(complex, mesh_.face_groups,
+                                          options_.topology.virtual_edge_distance * settings_.diagonal,
+                                          least_length);
+        }
+        result_.report.virtual_edges = extra.size();
+        engine::PairTable pairs(complex, extra);
+        engine::Wedges wedges =
+            mesh_.attributes ? engine::Wedges(complex, *mesh_.attributes) : engine::Wedges();
+        std::vector<std::uint8_t> locked = locks(mesh_, prepared_, pairs, options_.topology.border);
+        OriginRecorder<Recorder> origin(recorder, complex);
+        engine::LoopOptions loop;
+        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
+        loop.rules = {settings_.link, settings_.least_turn, least_length};
+        loop.tiny_component = 0.02 * settings_.diagonal;
+        if (options_.progress) {
+            loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
+        }
+        const engine::LoopResult looped = run(complex, pairs, wedges, locked, settings_, origin, loop);
+        Report& report = result_.report;
+        report.stop = looped.stop;
+        report.collapses = looped.collapses;
+        report.refusals = looped.refusals;
+        report.rungs = looped.rungs;
+        report.components_deleted = looped.components_deleted;
+        collect(complex, wedges, origin);
+    }
+
+    // Faces in input order, vertices in slot order; what has no area is left out.
+    template <class Origin>
+    void collect(const Complex& complex, const engine::Wedges& wedges, const Origin& origin) {
+        std::vector<Vec3> position(complex.vertex_slots());
+        for (Index v = 0; v < position.size(); ++v) {
+            const Index at = origin.place(v);
+            position[v] = at != no_index ? prepared_.positions[at] : prepared_.to_model(complex.position(v));
+        }
+        TriangleMesh& out = result_.mesh;
+        std::vector<Index> vertex(complex.vertex_slots(), no_index);
+        for (Index f = 0; f < complex.face_slots(); ++f) {
+            if (!complex.alive(f)) continue;
+            const Triangle& t = complex.triangle(f);
+            if (detail::has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
+                ++result_.report.faces_dropped;
+                continue;
+            }
+            for (const Index v : t) vertex[v] = 0;
+            result_.face_origin.push_back(f);
+        }
+        for (Index v = 0; v < vertex.size(); ++v) {
+            if (vertex[v] == no_index) continue;
+            vertex[v] = static_cast<Index>(out.positions.size());
+            out.positions.push_back(position[v]);
+            result_.vertex_origin.push_back(prepared_.vertex_origin[v]);
+            slots_.push_back(v);
+        }
+        for (const Index f : result_.face_origin) {
+            const Triangle& t = complex.triangle(f);
+            out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
+            if (!mesh_.face_groups.empty()) out.face_groups.push_back(mesh_.face_groups[f]);
+            for (unsigned corner = 0; corner < 3 && !wedges.empty(); ++corner) {
+                const float* values = wedges.values(f, corner);
+                out.attributes.values.insert(out.attributes.values.end(), values, values + wedges.width());
+            }
+        }
+        out.attributes.width = wedges.width();
+    }
+
+    void finish_history(engine::HistoryRecorder& recorder) {
+        for (const Index slot : slots_) kept_versions_.push_back(recorder.version(slot));
+        CollapseHistory history = recorder.take();
+        for (Collapse& collapse : history.collapses) {
+            collapse.position = prepared_.to_model(engine::to_eigen(collapse.position));
+        }
+        history.positions = std::move(prepared_.positions);
+        history.kept_versions = std::move(kept_versions_);
+        history.kept_faces = result_.face_origin;
+        // The history and the mesh say the same, to the last bit.
+        for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+            const Index v = history.kept_versions[i];
+            if (v >= history.positions.size()) {
+                history.collapses[v - history.positions.size()].position = result_.mesh.positions[i];
+            }
+        }
+        result_.history = std::move(history);
+    }
+
+    void finish_report() {
+        Report& report = result_.report;
+        report.faces_out = result_.mesh.triangles.size();
+        report.vertices_out = result_.mesh.positions.size();
+        if (report.faces_dropped > 0) {
+            report.warnings.push_back(std::to_string(report.faces_dropped) +
+                                      " faces without area, or doubles of another face, were dropped");
+        }
+        if (report.components_deleted > 0) {
+            report.warnings.push_back(std::to_string(report.components_deleted) +
+                                      " small components were deleted to reach the target");
+        }
+    }
+
+    const MeshView& mesh_;
+    const Options& options_;
+    detail::Settings settings_;
+    detail::Prepared prepared_;
+    SimplifyResult result_;
+    std::vector<Index> slots_;  // slot of each vertex of the result
+    std::vector<Index> kept_versions_;
+};
+
+}  // namespace
+
+SimplifyResult simplify(const MeshView& mesh, const Options& options) {
+    validate(options);
+    return Run(mesh, options)();
+}
+
+}  // namespace faqem
