@@ -54,6 +54,13 @@ std::vector<Vec3> checked_positions(const PositionView& view) {
     return positions;
 }
 
+std::vector<Index> representatives(const std::vector<Vec3>& positions, const Settings& settings) {
+    if (settings.weld == Weld::by_position) return engine::weld_within(positions, settings.weld_distance);
+    std::vector<Index> own(positions.size());
+    std::iota(own.begin(), own.end(), Index{0});
+    return own;
+}
+
 // Numbers the representatives in input order and takes the triangles to them.
 void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
                  const std::vector<Index>& representative, Prepared& out) {
@@ -151,7 +158,7 @@ Prepared prepare(const MeshView& mesh, const Settings& settings) {
     check_sizes(mesh);
     const std::vector<Vec3> positions = checked_positions(mesh.positions);
     Prepared out;
-    take_welded(mesh, positions, engine::weld_within(positions, settings.weld_distance), out);
+    take_welded(mesh, positions, representatives(positions, settings), out);
     drop_collapsed(out);
     drop_doubles(mesh.face_groups, out);
     find_scale(settings.diagonal, out);

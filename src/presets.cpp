@@ -51,6 +51,7 @@ Settings settings(const Options& options) {
     s.weights.area = w.area.value_or(s.weights.area);
     s.weights.seam = w.uv.value_or(s.weights.seam);
     if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
+    s.weld = options.topology.weld;
     s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
     // 1/A stays finite on faces that are thinner than any real one.
     s.weights.least_area = 1e-12 * s.diagonal * s.diagonal;

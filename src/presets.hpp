@@ -13,6 +13,7 @@ struct Settings {
     LinkCondition link = LinkCondition::off;
     double least_turn = 0;  ///< flip veto: smallest cosine between old and new normal
     double diagonal = 1;    ///< the model is scaled to this diagonal: the paper's terms have different units
+    Weld weld = Weld::by_position;
     double weld_distance = 0;  ///< model units
 };
 

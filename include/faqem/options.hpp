@@ -31,15 +31,24 @@ enum class Preset {
 
 /// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
 struct Weights {
-    std::optional<double> area;        ///< Lindstrom-Turk boundary area cost (paper eq. 11); paper: 100
-    std::optional<double> boundary;    ///< curvature-scaled boundary planes (paper eq. 6-9); paper: 500
-    std::optional<double> normal;      ///< tangent plane at the vertex (paper eq. 10); paper: 0.01
-    std::optional<double> uv;          ///< factor on quadrics at UV seams, where UVs are kept; paper: 5000
-    std::optional<double> plane_area;  ///< inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1
+    std::optional<double> area = {};      ///< Lindstrom-Turk boundary area cost (paper eq. 11); paper: 100
+    std::optional<double> boundary = {};  ///< curvature-scaled boundary planes (paper eq. 6-9); paper: 500
+    std::optional<double> normal = {};    ///< tangent plane at the vertex (paper eq. 10); paper: 0.01
+    std::optional<double> uv = {};        ///< factor on quadrics at UV seams, where UVs are kept; paper: 5000
+    std::optional<double> plane_area =
+        {};  ///< inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1
 };
 
 /// The link condition keeps the topology of a manifold surface (Dey et al. 1999).
-enum class LinkCondition { as_preset, off, on };
+enum class LinkCondition {
+    as_preset,
+    off,
+    on,      ///< kept where the surface is manifold, until nothing else is left to reach the target
+    strict,  ///< kept always; pairs at non-manifold vertices are not collapsed
+};
+
+/// Whether vertices at one place are one vertex.
+enum class Weld { by_position, none };
 
 /// Whether vertices on open borders may move.
 enum class Border { free, locked };
@@ -51,9 +60,11 @@ enum class VirtualEdges { off, on };
 struct Topology {
     LinkCondition link = LinkCondition::as_preset;
     Border border = Border::free;
+    /// Files split vertices at UV and normal seams: without welding, every seam would be an open border.
+    Weld weld = Weld::by_position;
     /// Vertices at most this far apart (model units) become one. Unset: the preset's (paper 1e-6, else
     /// exact).
-    std::optional<double> weld_distance;
+    std::optional<double> weld_distance = {};
     VirtualEdges virtual_edges = VirtualEdges::off;
     /// Largest gap a virtual edge may span, as a share of the bounding-box diagonal, in (0, 1].
     double virtual_edge_distance = 0.01;

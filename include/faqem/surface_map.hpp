@@ -40,6 +40,11 @@ public:
     /// \return a face of the original and barycentrics on it; never no_index
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
+    /// As map(), but faster for many points close together: where the point projects into the inside of
+    /// `near.face`, that face is the answer and nothing is searched.
+    /// \param near  answer for a nearby point of the same small face
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
+
 private:
     struct Impl;
     std::unique_ptr<const Impl> impl_;

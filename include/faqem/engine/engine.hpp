@@ -164,8 +164,9 @@ private:
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
             return refuse(*refusal);
         }
-        // The fuller vertex survives: its lists need not be walked again and again around a hub.
-        if (complex_.degree(v) > complex_.degree(u)) std::swap(u, v);
+        // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at a hub.
+        const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
+        if (swap) std::swap(u, v);
         collapse(u, v, found->point);
     }
 

@@ -15,7 +15,7 @@ namespace faqem::engine {
 
 /// The rules a collapse must keep. The starvation ladder relaxes them.
 struct Rules {
-    LinkCondition link = LinkCondition::off;  ///< on or off
+    LinkCondition link = LinkCondition::off;  ///< not as_preset
     /// A face may not turn so far that the cosine between its old and new normal is below this; -1: no test.
     double least_turn = 0;
     /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
@@ -36,8 +36,9 @@ public:
                                  const Vector3& p, const Rules& rules) {
         if (const auto refusal = check_faces(complex, u, v, p, rules.least_turn)) return refusal;
         if (const auto refusal = check_faces(complex, v, u, p, rules.least_turn)) return refusal;
-        if (rules.link == LinkCondition::on && !link_condition(complex, pairs, u, v, pair))
+        if (rules.link != LinkCondition::off && !link_condition(complex, pairs, u, v, pair, rules.link)) {
             return Refusal::link;
+        }
         return std::nullopt;
     }
 
@@ -76,9 +77,11 @@ private:
     // Where all edges at u and v have at most two faces: the link condition for surfaces with border
     // (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double faces, and no edge
     // gets more faces than the fuller one of the two that merge into it.
-    bool link_condition(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair) {
+    bool link_condition(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
+                        LinkCondition link) {
         const std::uint32_t shared = pairs.face_count(pair);
         bool manifold = shared <= 2 && is_manifold(pairs, u) && is_manifold(pairs, v);
+        if (!manifold && link == LinkCondition::strict) return false;
         mark_edges(pairs, u);
         std::uint32_t common = 0;
         bool legal = true;

@@ -1,0 +1,167 @@
+#pragma once
+/// \file
+/// Door (b): an OpenMesh triangle mesh, simplified in place. Needs OpenMesh.
+///
+/// A half-edge adapter: it feeds the mesh's connectivity, border and status bits to the engine and replays
+/// the collapses with OpenMesh's own collapse(), so that handles and custom properties of what survives stay
+/// valid. The loop does not run on OpenMesh itself: its kernel cannot hold edges with three faces, and is
+/// slower by far.
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <cassert>
+#include <vector>
+
+#include "faqem/error.hpp"
+#include "faqem/simplify.hpp"
+
+namespace faqem {
+
+/// Which part of an OpenMesh mesh may change.
+enum class Region {
+    all,
+    selected_faces,  ///< only vertices whose faces are all selected
+};
+
+namespace openmesh_detail {
+
+/// The mesh as arrays. Vertex i is the vertex handle i; faces are those that are not deleted.
+template <class Mesh>
+struct Arrays {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint8_t> locked;
+    std::vector<typename Mesh::FaceHandle> faces;
+};
+
+template <class Mesh>
+bool is_deleted(const Mesh& mesh, typename Mesh::VertexHandle v) {
+    return mesh.has_vertex_status() && mesh.status(v).deleted();
+}
+
+template <class Mesh>
+void lock_by_status(const Mesh& mesh, Region region, std::vector<std::uint8_t>& locked) {
+    const auto lock = [&](typename Mesh::VertexHandle v) { locked[static_cast<std::size_t>(v.idx())] = 1; };
+    if (mesh.has_vertex_status()) {
+        for (const auto v : mesh.vertices()) {
+            if (mesh.status(v).locked() || mesh.status(v).feature()) lock(v);
+        }
+    }
+    if (mesh.has_edge_status()) {
+        for (const auto e : mesh.edges()) {
+            if (!mesh.status(e).feature() && !mesh.status(e).locked()) continue;
+            lock(mesh.to_vertex_handle(mesh.halfedge_handle(e, 0)));
+            lock(mesh.to_vertex_handle(mesh.halfedge_handle(e, 1)));
+        }
+    }
+    const bool has_faces = mesh.has_face_status();
+    for (const auto f : mesh.faces()) {
+        const bool outside = region == Region::selected_faces && !(has_faces && mesh.status(f).selected());
+        if (!outside && !(has_faces && (mesh.status(f).locked() || mesh.status(f).feature()))) continue;
+        for (const auto v : mesh.fv_range(f)) lock(v);
+    }
+}
+
+template <class Mesh>
+Arrays<Mesh> read(const Mesh& mesh, Region region) {
+    Arrays<Mesh> arrays;
+    arrays.positions.resize(mesh.n_vertices());
+    for (const auto v : mesh.vertices()) {
+        const auto p = mesh.point(v);
+        for (unsigned i = 0; i < 3; ++i) arrays.positions[static_cast<std::size_t>(v.idx())][i] = p[i];
+    }
+    for (const auto f : mesh.faces()) {
+        Triangle triangle;
+        std::size_t corner = 0;
+        for (const auto v : mesh.fv_range(f)) triangle[corner++] = static_cast<Index>(v.idx());
+        arrays.triangles.push_back(triangle);
+        arrays.faces.push_back(f);
+    }
+    arrays.locked.assign(mesh.n_vertices(), 0);
+    lock_by_status(mesh, region, arrays.locked);
+    return arrays;
+}
+
+template <class Mesh>
+void request_status(Mesh& mesh) {
+    if (!mesh.has_vertex_status()) mesh.request_vertex_status();
+    if (!mesh.has_edge_status()) mesh.request_edge_status();
+    if (!mesh.has_halfedge_status()) mesh.request_halfedge_status();
+    if (!mesh.has_face_status()) mesh.request_face_status();
+}
+
+template <class Mesh>
+void move(Mesh& mesh, typename Mesh::VertexHandle v, const Vec3& p) {
+    using Scalar = typename Mesh::Scalar;
+    mesh.set_point(v, typename Mesh::Point(static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]),
+                                           static_cast<Scalar>(p[2])));
+}
+
+/// Repeats the collapses and deletions of `history` on the mesh it came from.
+template <class Mesh>
+void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& history) {
+    std::vector<typename Mesh::VertexHandle> handle(history.positions.size() + history.collapses.size());
+    for (std::size_t v = 0; v < history.positions.size(); ++v) {
+        handle[v] = typename Mesh::VertexHandle(static_cast<int>(v));
+    }
+    std::size_t deleted = 0;
+    const auto delete_faces_until = [&](std::size_t time) {
+        for (; deleted < history.deleted_faces.size() && history.deleted_faces[deleted].time <= time;
+             ++deleted) {
+            mesh.delete_face(arrays.faces[history.deleted_faces[deleted].face], true);
+        }
+    };
+    for (std::size_t k = 0; k < history.collapses.size(); ++k) {
+        delete_faces_until(k);
+        const Collapse& collapse = history.collapses[k];
+        const auto survivor = handle[collapse.first];
+        const auto halfedge = mesh.find_halfedge(handle[collapse.second], survivor);
+        assert(halfedge.is_valid() && mesh.is_collapse_ok(halfedge));
+        mesh.collapse(halfedge);
+        handle[history.positions.size() + k] = survivor;
+    }
+    delete_faces_until(history.collapses.size());
+    // Faces that ended without area are no part of the result.
+    std::vector<std::uint8_t> kept(arrays.faces.size(), 0);
+    for (const Index f : history.kept_faces) kept[f] = 1;
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+        if (!kept[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
+    }
+    for (const Index version : history.kept_versions) {
+        if (version >= history.positions.size()) move(mesh, handle[version], history.position(version));
+    }
+}
+
+}  // namespace openmesh_detail
+
+/// Simplifies `mesh` in place, with the engine's strict link condition: a half-edge mesh stays one.
+/// \param mesh     any TriMesh_ArrayKernelT. Locked, and feature, vertices do not move; nor do the corners of
+/// locked
+///                 or feature edges and faces. Deleted elements are left alone. Status properties are
+///                 requested where missing. What is removed is marked deleted: call mesh.garbage_collection()
+///                 when you like. Normals are not updated.
+/// \param options  see Options; `topology.link`, `topology.weld` and `history` are decided here, `bake` is
+/// ignored \param region   which part may change \return the report. When cancelled, the mesh is unchanged.
+/// \throws OptionError  as simplify(const MeshView&, ...); virtual edges are on: a half-edge mesh cannot have
+/// them \throws InputError   a position is not finite Complexity: O(n log n) in the number of faces for
+/// bounded valence.
+template <class Traits>
+Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = {},
+                Region region = Region::all) {
+    using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+    if (options.topology.virtual_edges == VirtualEdges::on) {
+        throw OptionError("virtual edges join parts in ways that a half-edge mesh cannot hold");
+    }
+    options.topology.link = LinkCondition::strict;
+    options.topology.weld = Weld::none;
+    options.history = Recording::on;
+    const openmesh_detail::Arrays<Mesh> arrays = openmesh_detail::read<Mesh>(mesh, region);
+    MeshView view{arrays.positions, arrays.triangles};
+    view.vertex_locks = arrays.locked;
+    const SimplifyResult result = simplify(view, options);
+    if (result.report.stop == StopReason::cancelled) return result.report;
+    openmesh_detail::request_status<Mesh>(mesh);
+    openmesh_detail::replay<Mesh>(mesh, arrays, result.history);
+    return result.report;
+}
+
+}  // namespace faqem

@@ -1,0 +1,273 @@
+// Door (b): OpenMesh meshes in place.
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "faqem/openmesh.hpp"
+
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+    typedef OpenMesh::Vec3d Point;
+    typedef OpenMesh::Vec3d Normal;
+};
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
+using FloatMesh = OpenMesh::TriMesh_ArrayKernelT<>;
+
+struct Soup {
+    std::vector<faqem::Vec3> positions;
+    std::vector<faqem::Triangle> triangles;
+};
+
+// A bumpy n x n torus: closed, genus 1.
+Soup torus(unsigned n) {
+    Soup soup;
+    for (unsigned i = 0; i < n; ++i) {
+        for (unsigned j = 0; j < n; ++j) {
+            const double a = 2 * M_PI * i / n, b = 2 * M_PI * j / n;
+            const double r = 1 + 0.05 * std::sin(5 * a + 3 * b);
+            soup.positions.push_back(
+                {(3 + r * std::cos(b)) * std::cos(a), (3 + r * std::cos(b)) * std::sin(a), r * std::sin(b)});
+            const faqem::Index p = i * n + j, q = (i + 1) % n * n + j, s = i * n + (j + 1) % n,
+                               t = (i + 1) % n * n + (j + 1) % n;
+            soup.triangles.push_back({p, q, t});
+            soup.triangles.push_back({p, t, s});
+        }
+    }
+    return soup;
+}
+
+// An n x n height field with open borders and a hole: rows of squares, the middle ones missing.
+Soup holed_sheet(unsigned n) {
+    Soup soup;
+    for (unsigned i = 0; i <= n; ++i) {
+        for (unsigned j = 0; j <= n; ++j) {
+            const double x = double(i) / n, y = double(j) / n;
+            soup.positions.push_back({x, y, 0.1 * std::sin(7 * x) * std::cos(5 * y)});
+        }
+    }
+    for (unsigned i = 0; i < n; ++i) {
+        for (unsigned j = 0; j < n; ++j) {
+            if (i > n / 3 && i < n / 2 && j > n / 3 && j < n / 2) continue;
+            const faqem::Index p = i * (n + 1) + j, q = p + n + 1;
+            soup.triangles.push_back({p, q, q + 1});
+            soup.triangles.push_back({p, q + 1, p + 1});
+        }
+    }
+    return soup;
+}
+
+template <class M = Mesh>
+M build(const Soup& soup) {
+    M mesh;
+    std::vector<typename M::VertexHandle> handles;
+    for (const faqem::Vec3& p : soup.positions) {
+        using S = typename M::Scalar;
+        handles.push_back(mesh.add_vertex(typename M::Point(S(p[0]), S(p[1]), S(p[2]))));
+    }
+    for (const faqem::Triangle& t : soup.triangles)
+        mesh.add_face(handles[t[0]], handles[t[1]], handles[t[2]]);
+    return mesh;
+}
+
+// Positions of each living face, rotated so that the smallest comes first; sorted.
+template <class M>
+std::vector<std::array<faqem::Vec3, 3>> face_set(const M& mesh) {
+    std::vector<std::array<faqem::Vec3, 3>> faces;
+    for (const auto f : mesh.faces()) {
+        std::array<faqem::Vec3, 3> corners;
+        std::size_t i = 0;
+        for (const auto v : mesh.fv_range(f)) {
+            const auto p = mesh.point(v);
+            corners[i++] = {p[0], p[1], p[2]};
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        faces.push_back(corners);
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+std::vector<std::array<faqem::Vec3, 3>> face_set(const faqem::TriangleMesh& mesh) {
+    std::vector<std::array<faqem::Vec3, 3>> faces;
+    for (const faqem::Triangle& t : mesh.triangles) {
+        std::array<faqem::Vec3, 3> corners = {mesh.positions[t[0]], mesh.positions[t[1]],
+                                              mesh.positions[t[2]]};
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        faces.push_back(corners);
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+// Does every half-edge fit its neighbours? OpenMesh has no public checker in its core library.
+template <class M>
+bool is_consistent(const M& mesh) {
+    for (const auto h : mesh.halfedges()) {
+        if (mesh.prev_halfedge_handle(mesh.next_halfedge_handle(h)) != h) return false;
+        if (mesh.opposite_halfedge_handle(mesh.opposite_halfedge_handle(h)) != h) return false;
+        if (mesh.to_vertex_handle(h) == mesh.from_vertex_handle(h)) return false;
+        if (mesh.is_boundary(h) && mesh.is_boundary(mesh.opposite_halfedge_handle(h))) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshes") {
+    const Soup soup = GENERATE(torus(40), holed_sheet(40));
+    const auto preset = GENERATE(faqem::Preset::qem, faqem::Preset::paper, faqem::Preset::stmw);
+    const double share = GENERATE(0.5, 0.1, 0.01);
+    faqem::Options options{.target = faqem::ratio(share), .preset = preset};
+    Mesh mesh = build(soup);
+    const faqem::Report report = faqem::simplify(mesh, options);
+
+    options.topology.link = faqem::LinkCondition::strict;
+    options.topology.weld = faqem::Weld::none;
+    const faqem::SimplifyResult arrays = faqem::simplify({soup.positions, soup.triangles}, options);
+    CHECK(face_set(mesh) == face_set(arrays.mesh));
+    CHECK(report.faces_out == arrays.mesh.triangles.size());
+    CHECK(report.faces_out < soup.triangles.size());
+    CHECK(is_consistent(mesh));
+}
+
+TEST_CASE("a closed OpenMesh torus stays a closed torus") {
+    Mesh mesh = build(torus(48));
+    const faqem::Report report =
+        faqem::simplify(mesh, {.target = faqem::ratio(0.02), .preset = faqem::Preset::qem});
+    CHECK(report.stop == faqem::StopReason::reached_target);
+    mesh.garbage_collection();
+    CHECK(mesh.n_faces() == report.faces_out);
+    CHECK(static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) +
+              static_cast<int>(mesh.n_faces()) ==
+          0);
+    for (const auto e : mesh.edges()) REQUIRE_FALSE(mesh.is_boundary(e));
+}
+
+TEST_CASE("handles and custom properties of what survives stay valid") {
+    const Soup soup = torus(30);
+    Mesh mesh = build(soup);
+    OpenMesh::VPropHandleT<int> vertex_number;
+    OpenMesh::FPropHandleT<int> face_number;
+    mesh.add_property(vertex_number);
+    mesh.add_property(face_number);
+    for (const auto v : mesh.vertices()) mesh.property(vertex_number, v) = v.idx() * 7;
+    for (const auto f : mesh.faces()) mesh.property(face_number, f) = f.idx() * 3;
+    faqem::simplify(mesh, {.target = faqem::ratio(0.2)});
+    std::size_t living = 0;
+    for (const auto v : mesh.vertices()) {
+        REQUIRE(mesh.property(vertex_number, v) == v.idx() * 7);
+        ++living;
+    }
+    for (const auto f : mesh.faces()) REQUIRE(mesh.property(face_number, f) == f.idx() * 3);
+    CHECK(living < soup.positions.size() / 3);
+}
+
+TEST_CASE("locked and feature elements do not move") {
+    const Soup soup = holed_sheet(24);
+    Mesh mesh = build(soup);
+    mesh.request_vertex_status();
+    mesh.request_edge_status();
+    std::vector<std::pair<Mesh::VertexHandle, Mesh::Point>> kept;
+    for (const auto v : mesh.vertices()) {
+        if (v.idx() % 17 == 0 && mesh.valence(v) > 0) {
+            mesh.status(v).set_locked(true);
+            kept.emplace_back(v, mesh.point(v));
+        }
+    }
+    const Mesh::EdgeHandle feature(100);
+    mesh.status(feature).set_feature(true);
+    for (const int side : {0, 1}) {
+        const auto v = mesh.to_vertex_handle(mesh.halfedge_handle(feature, side));
+        kept.emplace_back(v, mesh.point(v));
+    }
+    faqem::simplify(mesh, {.target = faqem::ratio(0.1)});
+    for (const auto& [v, p] : kept) {
+        REQUIRE_FALSE(mesh.status(v).deleted());
+        CHECK(mesh.point(v) == p);
+    }
+}
+
+TEST_CASE("only the selected region changes") {
+    const Soup soup = holed_sheet(24);
+    Mesh mesh = build(soup);
+    mesh.request_face_status();
+    for (const auto f : mesh.faces()) mesh.status(f).set_selected(mesh.calc_face_centroid(f)[0] < 0.5);
+    std::vector<Mesh::FaceHandle> outside;
+    for (const auto f : mesh.faces()) {
+        if (!mesh.status(f).selected()) outside.push_back(f);
+    }
+    faqem::simplify(mesh, {.target = faqem::faces(4)}, faqem::Region::selected_faces);
+    std::size_t living = 0;
+    for (const auto f : mesh.faces()) living += f.is_valid();
+    for (const auto f : outside) REQUIRE_FALSE(mesh.status(f).deleted());
+    CHECK(living < soup.triangles.size() * 6 / 10);
+}
+
+TEST_CASE("a float mesh, deleted faces and a second call work") {
+    FloatMesh mesh = build<FloatMesh>(torus(30));
+    mesh.request_face_status();
+    mesh.request_edge_status();
+    mesh.request_vertex_status();
+    mesh.delete_face(FloatMesh::FaceHandle(5), true);
+    const faqem::Report first = faqem::simplify(mesh, {.target = faqem::ratio(0.5)});
+    CHECK(first.faces_in == 2 * 30 * 30 - 1);
+    const faqem::Report second = faqem::simplify(mesh, {.target = faqem::faces(100)});
+    CHECK(second.faces_in == first.faces_out);
+    CHECK(second.faces_out <= 100);
+    CHECK(is_consistent(mesh));
+}
+
+TEST_CASE("border vertices stay put when the border is locked") {
+    Mesh mesh = build(holed_sheet(20));
+    std::vector<std::pair<Mesh::VertexHandle, Mesh::Point>> border;
+    for (const auto v : mesh.vertices()) {
+        if (mesh.valence(v) > 0 && mesh.is_boundary(v)) border.emplace_back(v, mesh.point(v));
+    }
+    faqem::simplify(mesh, {.target = faqem::ratio(0.1), .topology = {.border = faqem::Border::locked}});
+    for (const auto& [v, p] : border) {
+        REQUIRE_FALSE(mesh.status(v).deleted());
+        CHECK(mesh.point(v) == p);
+    }
+}
+
+TEST_CASE("cancelling leaves the mesh as it was") {
+    Mesh mesh = build(torus(60));
+    const auto before = face_set(mesh);
+    const faqem::Report report =
+        faqem::simplify(mesh, {.target = faqem::faces(4),
+                               .progress = [](faqem::Phase, double) { return faqem::Continue::cancel; }});
+    CHECK(report.stop == faqem::StopReason::cancelled);
+    CHECK(face_set(mesh) == before);
+}
+
+TEST_CASE("many small components: whole ones are deleted, the half-edge mesh stays consistent") {
+    Soup soup;
+    std::mt19937 random(7);
+    for (faqem::Index i = 0; i < 200; ++i) {
+        const double x = double(random() % 1000), y = double(random() % 1000),
+                     s = 0.1 + (random() % 100) / 10.0;
+        const faqem::Index p = 4 * i;
+        soup.positions.insert(soup.positions.end(), {{x, y, 0}, {x + s, y, 0}, {x, y + s, 0}, {x, y, s}});
+        for (const faqem::Triangle& t : {faqem::Triangle{p, p + 2, p + 1},
+                                         {p, p + 1, p + 3},
+                                         {p + 1, p + 2, p + 3},
+                                         {p, p + 3, p + 2}}) {
+            soup.triangles.push_back(t);
+        }
+    }
+    Mesh mesh = build(soup);
+    const faqem::Report report =
+        faqem::simplify(mesh, {.target = faqem::faces(100), .preset = faqem::Preset::qem});
+    CHECK(report.faces_out <= 100);
+    CHECK(report.components_deleted == 175);
+    CHECK(is_consistent(mesh));
+}
+
+TEST_CASE("virtual edges are refused: a half-edge mesh cannot hold what they make") {
+    Mesh mesh = build(torus(10));
+    CHECK_THROWS_AS(faqem::simplify(mesh, {.topology = {.virtual_edges = faqem::VirtualEdges::on}}),
+                    faqem::OptionError);
+}
