@@ -8,6 +8,11 @@
 #   asset     files                             tinygltf and OpenImageIO, hidden inside
 #   bake      baker                             as asset
 
+# Components that a component links to.
+set(faqem_needs_openmesh faqem)
+set(faqem_needs_asset faqem)
+set(faqem_needs_bake asset faqem)
+
 # Debian 12 exports TinyGLTF::TinyGLTF, upstream tinygltf::tinygltf: we use the upstream name.
 macro(faqem_find_tinygltf)
     if(NOT TARGET tinygltf::tinygltf)

@@ -1,10 +1,13 @@
-# Installs headers, libraries, the command and the CMake package.
+# Installs headers, libraries and the CMake package. One export set per component, so that a user of the arrays
+# alone needs neither OpenMesh nor OpenImageIO on the machine.
 include(CMakePackageConfigHelpers)
 
 set(faqem_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/faqem)
-install(TARGETS ${faqem_exported_targets} EXPORT faqem-targets)
+foreach(component IN LISTS faqem_components)
+    install(TARGETS faqem_${component} EXPORT faqem-${component}-targets)
+    install(EXPORT faqem-${component}-targets NAMESPACE faqem:: DESTINATION ${faqem_config_dir})
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/faqem DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT faqem-targets NAMESPACE faqem:: DESTINATION ${faqem_config_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/faqem-config.cmake.in
                               ${PROJECT_BINARY_DIR}/faqem-config.cmake INSTALL_DESTINATION ${faqem_config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/faqem-config-version.cmake COMPATIBILITY SameMinorVersion)

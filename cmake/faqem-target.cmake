@@ -1,7 +1,5 @@
 # What all faqem targets share.
 
-set(faqem_exported_targets "" CACHE INTERNAL "")
-
 # faqem_export(TARGET NAME): the target is faqem::NAME, here and in the installed package.
 function(faqem_export target name)
     add_library(faqem::${name} ALIAS ${target})
@@ -17,7 +15,6 @@ function(faqem_export target name)
     target_compile_features(${target} ${scope} cxx_std_20)
     target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    set(faqem_exported_targets ${faqem_exported_targets} ${target} CACHE INTERNAL "")
 endfunction()
 
 # faqem_compile_options(TARGET): our warnings, and arithmetic that is the same everywhere.
@@ -25,7 +22,7 @@ function(faqem_compile_options target)
     target_compile_features(${target} PRIVATE cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
     target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                                             -Woverloaded-virtual -Wnull-dereference)
+                                             -Woverloaded-virtual)
     if(FAQEM_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
     endif()

@@ -13,8 +13,8 @@ namespace {
 // Names by enumerator; the order is the enums'.
 constexpr std::array<std::string_view, 3> preset_names = {"qem", "paper", "stmw"};
 constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
-constexpr std::array<std::string_view, refusal_kinds> refusal_names = {"flip",   "degenerate", "link",
-                                                                       "locked", "seam",       "zero_length"};
+constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
+    "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
     "reseed", "tiny_components", "without_link", "flip_half", "flip_any", "any_component"};
 

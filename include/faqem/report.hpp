@@ -28,8 +28,9 @@ enum class Refusal {
     locked,       ///< both ends are locked, or the new point would move a locked one
     seam,         ///< a kept UV seam would be torn
     zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
+    last_faces,   ///< nothing at all would be left
 };
-inline constexpr std::size_t refusal_kinds = 6;
+inline constexpr std::size_t refusal_kinds = 7;
 
 /// Steps taken when no collapse was legal above the target, in this order.
 enum class Rung {

@@ -161,6 +161,7 @@ private:
         Index u = pairs_.first(pair), v = pairs_.second(pair);
         const auto found = candidate(pair);
         if (!found) return;
+        if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces);
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
             return refuse(*refusal);
         }

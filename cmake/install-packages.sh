@@ -1,0 +1,24 @@
+#!/bin/sh
+# Installs what faqem needs to build and test on Debian 12. Uses sudo only when not root.
+set -eu
+
+packages="build-essential cmake ninja-build pkg-config libeigen3-dev libnanoflann-dev nlohmann-json3-dev \
+libopenmesh-dev libtinygltf-dev libopenimageio-dev openimageio-tools libcli11-dev catch2"
+# The glTF validator runs on Node. A Node from elsewhere brings its own npm, which Debian's package conflicts with.
+command -v npm >/dev/null 2>&1 || packages="$packages npm"
+
+missing=""
+for package in $packages; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing="$missing $package"
+done
+if [ -z "$missing" ]; then
+    echo "packages: all there"
+    exit 0
+fi
+
+as_root=""
+[ "$(id -u)" -eq 0 ] || as_root="sudo"
+echo "packages: installing$missing"
+export DEBIAN_FRONTEND=noninteractive
+$as_root apt-get update -qq
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null

@@ -1,0 +1,15 @@
+#!/bin/sh
+# Builds faqem and runs every test. Usage: tests/run.sh [PRESET], a configure preset of CMakePresets.json;
+# default: release. Needs Debian 12 and nothing else: packages are installed first.
+set -eu
+cd "$(dirname "$0")/.."
+preset=${1:-release}
+
+echo "== packages"
+cmake/install-packages.sh
+echo "== configure ($preset)"
+cmake --preset "$preset"
+echo "== build"
+cmake --build --preset "$preset"
+echo "== test"
+ctest --preset "$preset"
