@@ -67,7 +67,6 @@ auto column(const std::vector<T>& rows, Member member) {
 template <class T, class Value>
 void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value>& values,
                  const char* section) {
-    if (rows.empty()) rows.resize(values.size());
     if (rows.size() != values.size()) fail(section, "columns of different length");
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values[i];
 }
@@ -165,7 +164,11 @@ void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used)
 }  // namespace
 
 void validate(const CollapseHistory& history) {
-    if (history.patch_begin.empty() && history.triangles.empty()) return;
+    const CollapseHistory& h = history;
+    const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
+                         h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
+                         h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty();
+    if (nothing) return;
     check_faces(history);
     const std::vector<std::uint8_t> used = check_collapses(history);
     check_patches(history);
@@ -211,13 +214,16 @@ CollapseHistory read_history(std::istream& in) {
     h.positions = get_array<Vec3>(in, "positions");
     h.triangles = get_array<Triangle>(in, "triangles");
     h.face_groups = get_array<Index>(in, "face_groups");
-    fill_column(h.collapses, &Collapse::first, get_array<Index>(in, "collapses"), "collapses");
+    const auto firsts = get_array<Index>(in, "collapses");
+    h.collapses.resize(firsts.size());
+    fill_column(h.collapses, &Collapse::first, firsts, "collapses");
     fill_column(h.collapses, &Collapse::second, get_array<Index>(in, "collapses"), "collapses");
     fill_column(h.collapses, &Collapse::position, get_array<Vec3>(in, "collapses"), "collapses");
     h.patch_begin = get_array<std::uint64_t>(in, "patch_begin");
     h.patch_faces = get_array<Index>(in, "patch_faces");
-    fill_column(h.deleted_faces, &DeletedFace::time, get_array<std::uint64_t>(in, "deleted_faces"),
-                "deleted_faces");
+    const auto times = get_array<std::uint64_t>(in, "deleted_faces");
+    h.deleted_faces.resize(times.size());
+    fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
     fill_column(h.deleted_faces, &DeletedFace::face, get_array<Index>(in, "deleted_faces"), "deleted_faces");
     h.kept_versions = get_array<Index>(in, "kept_versions");
     h.kept_faces = get_array<Index>(in, "kept_faces");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
+#include <tuple>
 
 #include "faqem/engine/weld.hpp"
 #include "faqem/error.hpp"
@@ -54,11 +56,41 @@ std::vector<Vec3> checked_positions(const PositionView& view) {
     return positions;
 }
 
-std::vector<Index> representatives(const std::vector<Vec3>& positions, const Settings& settings) {
-    if (settings.weld == Weld::by_position) return engine::weld_within(positions, settings.weld_distance);
-    std::vector<Index> own(positions.size());
-    std::iota(own.begin(), own.end(), Index{0});
-    return own;
+// Vertices that no face uses stay apart: they must not pull others to their place.
+std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
+                                   const Settings& settings) {
+    std::vector<Index> result(positions.size());
+    std::iota(result.begin(), result.end(), Index{0});
+    if (settings.weld == Weld::none) return result;
+    std::vector<std::uint8_t> is_used(positions.size(), 0);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (const Index v : mesh.triangles[f]) is_used[v] = 1;
+    }
+    std::vector<Index> used;
+    std::vector<Vec3> used_positions;
+    for (Index v = 0; v < positions.size(); ++v) {
+        if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
+    }
+    const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance);
+    for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
+    return result;
+}
+
+// A locked vertex stays where it is: what was welded to it comes to it.
+void keep_locked_places(const MeshView& mesh, const std::vector<Vec3>& positions, Prepared& out) {
+    for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
+        if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
+    }
+}
+
+void check_triangles(const MeshView& mesh) {
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (const Index v : mesh.triangles[f]) {
+            if (!(v < mesh.positions.size())) {
+                fail("face " + std::to_string(f), "vertex index out of range");
+            }
+        }
+    }
 }
 
 // Numbers the representatives in input order and takes the triangles to them.
@@ -76,9 +108,6 @@ void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
     out.triangles.resize(mesh.triangles.size());
     for (std::size_t f = 0; f < out.triangles.size(); ++f) {
         const Triangle t = mesh.triangles[f];
-        for (const Index v : t) {
-            if (!(v < positions.size())) fail("face " + std::to_string(f), "vertex index out of range");
-        }
         out.triangles[f] = {welded[t[0]], welded[t[1]], welded[t[2]]};
     }
 }
@@ -156,9 +185,11 @@ Vec3 Prepared::to_model(const Vector3& p) const {
 
 Prepared prepare(const MeshView& mesh, const Settings& settings) {
     check_sizes(mesh);
+    check_triangles(mesh);
     const std::vector<Vec3> positions = checked_positions(mesh.positions);
     Prepared out;
-    take_welded(mesh, positions, representatives(positions, settings), out);
+    take_welded(mesh, positions, representatives(mesh, positions, settings), out);
+    keep_locked_places(mesh, positions, out);
     drop_collapsed(out);
     drop_doubles(mesh.face_groups, out);
     find_scale(settings.diagonal, out);
@@ -166,9 +197,14 @@ Prepared prepare(const MeshView& mesh, const Settings& settings) {
 }
 
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vector3 p = engine::to_eigen(a), q = engine::to_eigen(b), r = engine::to_eigen(c);
-    const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-    return !(engine::area_vector(p, q, r).norm() > 1e-12 * longest);
+    // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
+    const Vector3 p = 0.5 * engine::to_eigen(a);
+    const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
+    const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());
+    if (!(size > 0)) return true;
+    const Vector3 u = e / size, v = f / size;
+    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+    return !(u.cross(v).norm() > 1e-12 * longest);
 }
 
 }  // namespace faqem::detail

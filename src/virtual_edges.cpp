@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
+#include <tuple>
 
 #include "faqem/engine/components.hpp"
 

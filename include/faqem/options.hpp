@@ -102,7 +102,7 @@ struct BakeOptions {
 /// Everything that can be asked of simplify().
 struct Options {
     Target target = {};
-    Preset preset = Preset::paper;
+    Preset preset = Preset::stmw;
     Weights weights = {};
     Topology topology = {};
     Recording history = Recording::off;

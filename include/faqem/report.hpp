@@ -50,13 +50,13 @@ struct PhaseSeconds {
 
 /// The result's passport. Counts are sums where several meshes were simplified.
 struct Report {
-    Preset preset = Preset::paper;
+    Preset preset = Preset::stmw;
     std::uint64_t faces_in = 0, faces_out = 0;
     std::uint64_t vertices_in = 0, vertices_out = 0;
     std::uint64_t target_faces = 0;
     StopReason stop = StopReason::reached_target;
     std::uint64_t collapses = 0;
-    std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal
+    std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal: how often a pair was turned down
     std::array<std::uint64_t, rung_kinds> rungs = {};        ///< by Rung: how often taken
     std::uint64_t faces_dropped = 0;  ///< input faces without area or with two equal corners after welding
     std::uint64_t components_deleted = 0;

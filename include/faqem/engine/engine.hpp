@@ -165,8 +165,10 @@ private:
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
             return refuse(*refusal);
         }
-        // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at a hub.
-        const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
+        // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
+        // a hub.
+        const bool swap =
+            locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
         collapse(u, v, found->point);
     }
@@ -181,7 +183,9 @@ private:
         pairs_.merge(complex_, survivor, gone, killed_, changes_);
         for (const Index pair : killed_) queue_.erase(pair);
         ++result_.collapses;
-        for (const PairTable::Change& change : changes_) evaluate(change.neighbour.pair);
+        for (const PairTable::Change& change : changes_) {
+            if (change.neighbour.pair != no_index) evaluate(change.neighbour.pair);
+        }
         for (const PairTable::Change& change : changes_) {
             if (!metric_.affects(change)) continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
@@ -207,7 +211,9 @@ private:
             case Rung::tiny_components:
                 return delete_components(options, options.tiny_component);
             case Rung::without_link:
-                return std::exchange(rules_.link, LinkCondition::off) == LinkCondition::on;
+                if (rules_.link != LinkCondition::on) return false;
+                rules_.link = LinkCondition::off;
+                return true;
             case Rung::flip_half:
                 return relax_turn(-0.5);
             case Rung::flip_any:

@@ -74,13 +74,13 @@ private:
         return !(doubled_area > degenerate_aspect * longest);
     }
 
-    // Where all edges at u and v have at most two faces: the link condition for surfaces with border
-    // (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double faces, and no edge
-    // gets more faces than the fuller one of the two that merge into it.
+    // Where (u, v) is an edge and all edges at u and v have at most two faces: the link condition for
+    // surfaces with border (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double
+    // faces, and no edge gets more faces than the fuller one of the two that merge into it.
     bool link_condition(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
                         LinkCondition link) {
         const std::uint32_t shared = pairs.face_count(pair);
-        bool manifold = shared <= 2 && is_manifold(pairs, u) && is_manifold(pairs, v);
+        bool manifold = shared >= 1 && shared <= 2 && is_manifold(pairs, u) && is_manifold(pairs, v);
         if (!manifold && link == LinkCondition::strict) return false;
         mark_edges(pairs, u);
         std::uint32_t common = 0;

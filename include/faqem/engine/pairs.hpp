@@ -52,13 +52,13 @@ public:
 
     /// What merge() found around the survivor.
     struct Change {
-        Neighbour neighbour;
+        Neighbour neighbour;            ///< pair is no_index where it died with its open edge
         bool boundary_changed = false;  ///< the edge is or was open
     };
 
     /// Follows complex.collapse(survivor, gone, ...), which must have been done.
     /// \param killed   pairs that ceased to live are appended here
-    /// \param changes  becomes the survivor's living pairs
+    /// \param changes  becomes the survivor's living pairs, and the vertices that lost their open edge to it
     void merge(const Complex& complex, Index survivor, Index gone, std::vector<Index>& killed,
                std::vector<Change>& changes) {
         changes.clear();
@@ -79,6 +79,7 @@ public:
                 changes[kept++] = change;
             } else {
                 kill(pair, killed);
+                if (change.boundary_changed) changes[kept++] = {{change.neighbour.vertex, no_index}, true};
             }
             if (complex.degree(change.neighbour.vertex) == 0) kill_all(change.neighbour.vertex, killed);
         }

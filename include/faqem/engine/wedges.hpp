@@ -66,13 +66,20 @@ public:
     void collapsing(const Complex& complex, Index u, Index v, const Vector3& p) {
         if (empty()) return;
         match(complex, u, v);
+        // Among faces without area there is no place to interpolate at: the nearer end's values are kept.
+        const bool v_is_nearer =
+            (complex.position(v) - p).squaredNorm() < (complex.position(u) - p).squaredNorm();
         std::vector<float>& fresh = scratch_;
         fresh.clear();
         for (const Match& m : matches_) {
             Closest best;
             search(complex, u, m.at_u, p, best);
             search(complex, v, m.at_v, p, best);
-            for (std::uint32_t k = 0; k < width_; ++k) fresh.push_back(interpolate(best, k));
+            const Index nearer = v_is_nearer ? m.at_v : m.at_u;
+            for (std::uint32_t k = 0; k < width_; ++k) {
+                fresh.push_back(best.face != no_index ? interpolate(best, k)
+                                                      : values_[std::size_t{nearer} * width_ + k]);
+            }
         }
         for (std::size_t i = 0; i < matches_.size(); ++i) {
             std::copy_n(&fresh[i * width_], width_, &values_[std::size_t{matches_[i].at_u} * width_]);
@@ -153,7 +160,6 @@ private:
     }
 
     float interpolate(const Closest& at, std::uint32_t k) const {
-        if (at.face == no_index) return values_[std::size_t{matches_.front().at_u} * width_ + k];
         double sum = 0;
         for (unsigned corner = 0; corner < 3; ++corner)
             sum += at.barycentric[corner] * values(at.face, corner)[k];

@@ -1,0 +1,273 @@
+#pragma once
+/// \file
+/// Tiny meshes for the tests of the engine, and brute-force facts about meshes.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/mesh.hpp"
+
+namespace faqem::test {
+
+inline const double pi = std::acos(-1.0);
+
+/// Same numbers with every standard library.
+class Random {
+public:
+    explicit Random(std::uint32_t seed) : bits_(seed) {}
+    /// In [0, 1).
+    double unit() { return static_cast<double>(bits_()) / 4294967296.0; }
+    double between(double low, double high) { return low + (high - low) * unit(); }
+    /// In [0, size).
+    Index below(std::size_t size) { return static_cast<Index>(bits_() % size); }
+
+private:
+    std::mt19937 bits_;
+};
+
+inline TriangleMesh make(std::vector<Vec3> positions, std::vector<Triangle> triangles) {
+    TriangleMesh mesh;
+    mesh.positions = std::move(positions);
+    mesh.triangles = std::move(triangles);
+    return mesh;
+}
+
+/// The corner of the unit cube cut off; four faces seen from outside.
+inline TriangleMesh tetrahedron() {
+    return make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+}
+
+/// [0, 1]^3 in twelve triangles; vertex x + 2 y + 4 z.
+inline TriangleMesh cube() {
+    return make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}},
+                {{0, 2, 3},
+                 {0, 3, 1},
+                 {4, 5, 7},
+                 {4, 7, 6},
+                 {0, 1, 5},
+                 {0, 5, 4},
+                 {2, 6, 7},
+                 {2, 7, 3},
+                 {0, 4, 6},
+                 {0, 6, 2},
+                 {1, 3, 7},
+                 {1, 7, 5}});
+}
+
+/// n x n unit squares in the plane z = 0, vertex x + (n + 1) y, each square cut from low left to high right.
+inline TriangleMesh grid(Index n) {
+    TriangleMesh mesh;
+    for (Index y = 0; y <= n; ++y) {
+        for (Index x = 0; x <= n; ++x) mesh.positions.push_back({double(x), double(y), 0});
+    }
+    for (Index y = 0; y < n; ++y) {
+        for (Index x = 0; x < n; ++x) {
+            const Index v = x + (n + 1) * y;
+            mesh.triangles.push_back({v, v + 1, v + n + 2});
+            mesh.triangles.push_back({v, v + n + 2, v + n + 1});
+        }
+    }
+    return mesh;
+}
+
+/// A disc of n triangles around vertex 0; the rim is the unit circle.
+inline TriangleMesh fan(Index n) {
+    TriangleMesh mesh;
+    mesh.positions.push_back({0, 0, 0});
+    for (Index i = 0; i < n; ++i) {
+        mesh.positions.push_back({std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0});
+        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+    }
+    return mesh;
+}
+
+/// A tube of unit radius along z with both rims open; vertex i + n * ring, outside out.
+inline TriangleMesh cylinder(Index n, Index rings, double height) {
+    TriangleMesh mesh;
+    for (Index r = 0; r <= rings; ++r) {
+        for (Index i = 0; i < n; ++i) {
+            mesh.positions.push_back(
+                {std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), height * r / rings});
+            if (r == rings) continue;
+            const Index a = i + n * r, b = (i + 1) % n + n * r;
+            mesh.triangles.push_back({a, b, b + n});
+            mesh.triangles.push_back({a, b + n, a + n});
+        }
+    }
+    return mesh;
+}
+
+/// The icosahedron, each face cut in four `level` times, on the unit sphere.
+inline TriangleMesh icosphere(int level) {
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    TriangleMesh mesh =
+        make({{-1, g, 0},
+              {1, g, 0},
+              {-1, -g, 0},
+              {1, -g, 0},
+              {0, -1, g},
+              {0, 1, g},
+              {0, -1, -g},
+              {0, 1, -g},
+              {g, 0, -1},
+              {g, 0, 1},
+              {-g, 0, -1},
+              {-g, 0, 1}},
+             {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+              {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
+    for (; level > 0; --level) {
+        std::map<std::pair<Index, Index>, Index> middle;
+        std::vector<Triangle> finer;
+        const auto between = [&](Index a, Index b) {
+            const auto [at, fresh] =
+                middle.try_emplace(std::minmax(a, b), static_cast<Index>(mesh.positions.size()));
+            if (fresh) {
+                const Vec3 p = mesh.positions[a], q = mesh.positions[b];
+                mesh.positions.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+            }
+            return at->second;
+        };
+        for (const auto [a, b, c] : mesh.triangles) {
+            const Index ab = between(a, b), bc = between(b, c), ca = between(c, a);
+            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        mesh.triangles = finer;
+    }
+    for (Vec3& p : mesh.positions) {
+        const double r = std::hypot(p[0], p[1], p[2]);
+        p = {p[0] / r, p[1] / r, p[2] / r};
+    }
+    return mesh;
+}
+
+/// m steps around the axis, n around the tube of radius 0.4; genus 1.
+inline TriangleMesh torus(Index m, Index n) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < m; ++i) {
+        for (Index j = 0; j < n; ++j) {
+            const double a = 2 * pi * i / m, b = 2 * pi * j / n, r = 1 + 0.4 * std::cos(b);
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
+            const Index p = i * n + j, q = i * n + (j + 1) % n;
+            const Index s = (i + 1) % m * n + j, t = (i + 1) % m * n + (j + 1) % n;
+            mesh.triangles.push_back({p, s, t});
+            mesh.triangles.push_back({p, t, q});
+        }
+    }
+    return mesh;
+}
+
+/// The unit square:  3 - 2
+///                   | / |
+///                   0 - 1
+inline TriangleMesh quad() {
+    return make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+}
+
+/// Two triangles that meet in vertex 0 only.
+inline TriangleMesh bow_tie() {
+    return make({{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+}
+
+/// Three triangles on the edge 0-1, like the pages of a book.
+inline TriangleMesh book() {
+    return make({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
+                {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
+}
+
+/// Random faces over random vertices: edges with many faces, doubles, fins, everything but equal corners.
+inline TriangleMesh soup(std::uint32_t seed, std::size_t vertices, std::size_t faces) {
+    Random random(seed);
+    TriangleMesh mesh;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        mesh.positions.push_back({random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
+    }
+    while (mesh.triangles.size() < faces) {
+        const Triangle t = {random.below(vertices), random.below(vertices), random.below(vertices)};
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+    }
+    return mesh;
+}
+
+/// A mesh whose vertices are moved at random by up to `amount` along each axis.
+inline TriangleMesh shaken(TriangleMesh mesh, double amount, std::uint32_t seed) {
+    Random random(seed);
+    for (Vec3& p : mesh.positions) {
+        for (double& x : p) x += random.between(-amount, amount);
+    }
+    return mesh;
+}
+
+inline TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+    for (Vec3& p : mesh.positions) p = {p[0] + by[0], p[1] + by[1], p[2] + by[2]};
+    return mesh;
+}
+
+inline TriangleMesh scaled(TriangleMesh mesh, double by) {
+    for (Vec3& p : mesh.positions) p = {p[0] * by, p[1] * by, p[2] * by};
+    return mesh;
+}
+
+inline TriangleMesh inside_out(TriangleMesh mesh) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+/// Both meshes in one, the vertices and faces of `b` after those of `a`.
+inline TriangleMesh both(TriangleMesh a, const TriangleMesh& b) {
+    const auto first = static_cast<Index>(a.positions.size());
+    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+    for (const auto [p, q, r] : b.triangles) a.triangles.push_back({p + first, q + first, r + first});
+    return a;
+}
+
+inline engine::Complex complex_of(const TriangleMesh& mesh) {
+    std::vector<engine::Vector3> positions;
+    for (const Vec3& p : mesh.positions) positions.push_back(engine::to_eigen(p));
+    return {positions, mesh.triangles};
+}
+
+/// Number of faces of each edge, smaller vertex first.
+using Edges = std::map<std::pair<Index, Index>, std::uint32_t>;
+
+inline Edges edges(const std::vector<Triangle>& triangles) {
+    Edges found;
+    for (const Triangle& t : triangles) {
+        if (t[0] == no_index) continue;
+        for (unsigned i = 0; i < 3; ++i) ++found[std::minmax(t[i], t[(i + 1) % 3])];
+    }
+    return found;
+}
+
+/// Vertices used minus edges plus faces.
+inline int euler(const std::vector<Triangle>& triangles) {
+    std::set<Index> used;
+    for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
+    return static_cast<int>(used.size()) - static_cast<int>(edges(triangles).size()) +
+           static_cast<int>(triangles.size());
+}
+
+/// Has every edge exactly two faces?
+inline bool closed_manifold(const std::vector<Triangle>& triangles) {
+    const Edges all = edges(triangles);
+    return std::all_of(all.begin(), all.end(), [](const auto& edge) { return edge.second == 2; });
+}
+
+inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// Twice the area, along the normal.
+inline Vec3 normal(const TriangleMesh& mesh, const Triangle& t) {
+    const Vec3 e = minus(mesh.positions[t[1]], mesh.positions[t[0]]);
+    const Vec3 f = minus(mesh.positions[t[2]], mesh.positions[t[0]]);
+    return {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+}
+
+}  // namespace faqem::test

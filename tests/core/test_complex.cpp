@@ -1,0 +1,103 @@
+#include "faqem/engine/complex.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "core/meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+constexpr Triangle dead = {no_index, no_index, no_index};
+
+// Everything the complex says, against a plain list of triangles.
+bool agrees(const Complex& complex, const std::vector<Triangle>& expected) {
+    std::size_t living = 0;
+    std::vector<std::set<std::pair<Index, unsigned>>> corners(complex.vertex_slots());
+    for (Index f = 0; f < expected.size(); ++f) {
+        if (complex.alive(f) != (expected[f] != dead)) return false;
+        if (expected[f] == dead) continue;
+        if (complex.triangle(f) != expected[f]) return false;
+        ++living;
+        for (unsigned c = 0; c < 3; ++c) corners[expected[f][c]].insert({f, c});
+    }
+    if (complex.face_count() != living || complex.face_slots() != expected.size()) return false;
+    for (Index v = 0; v < complex.vertex_slots(); ++v) {
+        std::set<std::pair<Index, unsigned>> seen;
+        std::size_t visits = 0;
+        complex.for_each_face(v, [&](Index f, unsigned c) { seen.insert({f, c}), ++visits; });
+        if (seen != corners[v] || visits != seen.size() || complex.degree(v) != visits) return false;
+    }
+    return true;
+}
+
+void naive_collapse(std::vector<Triangle>& triangles, Index survivor, Index gone) {
+    for (Triangle& t : triangles) {
+        std::replace(t.begin(), t.end(), gone, survivor);
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dead;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a complex knows the corners of each vertex and skips dead faces") {
+    TriangleMesh mesh = test::tetrahedron();
+    mesh.triangles.push_back(dead);
+    const Complex complex = test::complex_of(mesh);
+    CHECK(agrees(complex, mesh.triangles));
+    CHECK(complex.face_count() == 4);
+    CHECK(complex.face_slots() == 5);
+    CHECK_FALSE(complex.alive(4));
+    CHECK(complex.degree(0) == 3);
+    CHECK(complex.position(3) == Vector3(0, 0, 1));
+    CHECK(complex.has_corner(3, 1));
+    CHECK_FALSE(complex.has_corner(3, 0));
+    CHECK(complex.area_vector(3) == Vector3(1, 1, 1));
+}
+
+TEST_CASE("all_faces stops at the first no") {
+    const Complex complex = test::complex_of(test::fan(6));
+    int visits = 0;
+    CHECK_FALSE(complex.all_faces(0, [&](Index, unsigned) { return ++visits < 3; }));
+    CHECK(visits == 3);
+    CHECK(complex.all_faces(0, [](Index, unsigned) { return true; }));
+}
+
+TEST_CASE("a collapse moves the survivor, hands faces over and removes those between the two") {
+    TriangleMesh mesh = test::quad();
+    Complex complex = test::complex_of(mesh);
+    CHECK(complex.collapse(2, 1, {5, 6, 7}) == 1);
+    CHECK(complex.position(2) == Vector3(5, 6, 7));
+    CHECK(complex.degree(1) == 0);
+    CHECK(agrees(complex, {dead, {0, 2, 3}}));
+}
+
+TEST_CASE("after any collapses and removals the lists are those of a plain list of triangles") {
+    for (std::uint32_t seed = 0; seed < 30; ++seed) {
+        const std::size_t vertices = 6 + seed;
+        TriangleMesh mesh = test::soup(seed, vertices, 3 * vertices);
+        Complex complex = test::complex_of(mesh);
+        test::Random random(seed);
+        std::set<Index> gone;
+        bool good = agrees(complex, mesh.triangles);
+        while (gone.size() + 2 < vertices && good) {
+            const Index u = random.below(vertices), v = random.below(vertices);
+            if (random.unit() < 0.1) {
+                const Index f = random.below(mesh.triangles.size());
+                if (complex.alive(f)) complex.remove_face(f);
+                mesh.triangles[f] = dead;
+            } else if (u != v && !gone.count(u) && !gone.count(v)) {
+                const std::size_t before = complex.face_count();
+                naive_collapse(mesh.triangles, u, v);
+                const std::size_t vanished = complex.collapse(u, v, Vector3::Zero());
+                gone.insert(v);
+                good = vanished == before - complex.face_count();
+            }
+            good = good && agrees(complex, mesh.triangles);
+        }
+        INFO("seed " << seed);
+        CHECK(good);
+    }
+}

@@ -1,0 +1,90 @@
+#include "faqem/options.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "faqem/error.hpp"
+
+using namespace faqem;
+
+namespace {
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const double infinity = std::numeric_limits<double>::infinity();
+
+// What validate() says of options changed by `change`.
+template <class Change>
+std::string complaint(Change change) {
+    Options options;
+    change(options);
+    try {
+        validate(options);
+    } catch (const OptionError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("the defaults are valid") {
+    CHECK(complaint([](Options&) {}) == "accepted");
+}
+
+TEST_CASE("a ratio lies in (0, 1], a number of faces is at least one") {
+    for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, infinity}) {
+        CHECK(complaint([&](Options& o) { o.target = ratio(bad); }) == "target ratio must be in (0, 1]");
+    }
+    CHECK(complaint([](Options& o) { o.target = ratio(1); }) == "accepted");
+    CHECK(complaint([](Options& o) { o.target = ratio(1e-300); }) == "accepted");
+    CHECK(complaint([](Options& o) { o.target = faces(0); }) == "target face count must be >= 1");
+    for (const double bad : {0.5, not_a_number, infinity}) {
+        CHECK(complaint([&](Options& o) {
+                  o.target = {Target::Kind::faces, bad};
+              }) == "target face count must be >= 1");
+    }
+    CHECK(complaint([](Options& o) { o.target = faces(1); }) == "accepted");
+    CHECK(complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
+}
+
+TEST_CASE("weights are finite and not negative, and the wrong one is named") {
+    const std::pair<std::optional<double> Weights::*, std::string> members[] = {
+        {&Weights::area, "area"}, {&Weights::boundary, "boundary"},     {&Weights::normal, "normal"},
+        {&Weights::uv, "uv"},     {&Weights::plane_area, "plane_area"},
+    };
+    for (const auto& [member, name] : members) {
+        for (const double bad : {-1e-9, not_a_number, infinity}) {
+            CHECK(complaint([&, at = member](Options& o) { o.weights.*at = bad; }) ==
+                  "weights." + name + " must be finite and >= 0");
+        }
+        CHECK(complaint([&, at = member](Options& o) { o.weights.*at = 0; }) == "accepted");
+    }
+}
+
+TEST_CASE("distances have their ranges") {
+    for (const double bad : {-1e-9, not_a_number, infinity}) {
+        CHECK(complaint([&](Options& o) { o.topology.weld_distance = bad; }) ==
+              "weld_distance must be finite and >= 0");
+    }
+    CHECK(complaint([](Options& o) { o.topology.weld_distance = 0; }) == "accepted");
+    for (const double bad : {0.0, -0.1, 1.1, not_a_number}) {
+        CHECK(complaint([&](Options& o) { o.topology.virtual_edge_distance = bad; }) ==
+              "virtual_edge_distance must be in (0, 1]");
+    }
+    CHECK(complaint([](Options& o) { o.topology.virtual_edge_distance = 1; }) == "accepted");
+}
+
+TEST_CASE("baking options have their ranges") {
+    for (const std::uint32_t bad : {0u, 32u, 100u, 2047u, 32768u, ~0u}) {
+        CHECK(complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
+              "texture_size must be a power of two in [64, 16384]");
+    }
+    for (const std::uint32_t bad : {0u, 9u}) {
+        CHECK(complaint([&](Options& o) { o.bake.samples = bad; }) == "samples must be in [1, 8]");
+    }
+    for (const double bad : {-1.0, 181.0, not_a_number}) {
+        CHECK(complaint([&](Options& o) { o.bake.crease_angle = bad; }) ==
+              "crease_angle must be in [0, 180] degrees");
+    }
+    CHECK(complaint([](Options& o) { o.bake = {Bake::none, 64, Mapping::lineage, 8, 180}; }) == "accepted");
+}

@@ -1,0 +1,38 @@
+#include "faqem/engine/placement.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+const Vector3 a(0, 0, 0), b(4, 0, 0);
+
+Quadric plane_x(double x, double weight) { return Quadric::plane_through({1, 0, 0}, {x, 0, 0}, weight); }
+
+}  // namespace
+
+TEST_CASE("a well-conditioned quadric gives its minimum") {
+    Quadric q = plane_x(7, 1);
+    q += Quadric::plane_through({0, 1, 0}, {0, 8, 0}, 1);
+    q += Quadric::plane_through({0, 0, 1}, {0, 0, 9}, 1);
+    CHECK(place(q, a, b, Freedom::anywhere) == Vector3(7, 8, 9));
+    CHECK(place(q, a, b, Freedom::at_first) == a);
+    CHECK(place(q, a, b, Freedom::at_second) == b);
+}
+
+TEST_CASE("a singular quadric gives the best of the ends and the midpoint") {
+    // Paper, Sec. 3.1.
+    CHECK(place(plane_x(0.5, 1), a, b, Freedom::anywhere) == a);
+    CHECK(place(plane_x(3.5, 1), a, b, Freedom::anywhere) == b);
+    CHECK(place(plane_x(2.5, 1), a, b, Freedom::anywhere) == Vector3(2, 0, 0));
+}
+
+TEST_CASE("of equally good places the first end comes first, then the second") {
+    CHECK(place(Quadric(), a, b, Freedom::anywhere) == a);
+    CHECK(place(Quadric(), b, a, Freedom::anywhere) == b);
+    CHECK(place(plane_x(3, 1), a, b, Freedom::anywhere) == b);            // b and midpoint tie
+    CHECK(place(plane_x(1, 1), a, b, Freedom::anywhere) == a);            // a and midpoint tie
+    CHECK(place(plane_x(2, 1), a, b, Freedom::anywhere) == (a + b) / 2);  // a and b tie
+}

@@ -1,0 +1,91 @@
+#include "presets.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace faqem;
+using engine::AreaTerm;
+using engine::BaseWeight;
+
+namespace {
+
+detail::Settings of(Preset preset, const Weights& weights = {}, const Topology& topology = {}) {
+    Options options;
+    options.preset = preset;
+    options.weights = weights;
+    options.topology = topology;
+    return detail::settings(options);
+}
+
+}  // namespace
+
+TEST_CASE("paper is Table 1 of the supplementary, at a diagonal of 100") {
+    const detail::Settings s = of(Preset::paper);
+    CHECK(s.weights.base == BaseWeight::inverse_area);
+    CHECK(s.weights.plane_area == 1);
+    CHECK(s.weights.area == 100);
+    CHECK(s.weights.boundary == 500);
+    CHECK(s.weights.normal == 0.01);
+    CHECK(s.weights.seam == 5000);
+    CHECK(s.weights.area_term == AreaTerm::after_placement);
+    CHECK(s.weights.least_area > 0);
+    CHECK(s.link == LinkCondition::off);
+    CHECK(s.least_turn == 0);
+    CHECK(s.diagonal == 100);
+    CHECK(s.weld_distance == 1e-6);
+}
+
+TEST_CASE("qem is Garland and Heckbert's: plain planes, the link condition") {
+    const detail::Settings s = of(Preset::qem);
+    CHECK(s.weights.base == BaseWeight::unit);
+    CHECK(s.weights.area == 0);
+    CHECK(s.weights.boundary == 0);
+    CHECK(s.weights.normal == 0);
+    CHECK(s.weights.seam == 1);
+    CHECK(s.link == LinkCondition::on);
+    CHECK(s.least_turn == 0);
+    CHECK(s.diagonal == 1);
+    CHECK(s.weld_distance == 0);
+}
+
+TEST_CASE("stmw weighs planes by area and places with the area term") {
+    const detail::Settings s = of(Preset::stmw);
+    CHECK(s.weights.base == BaseWeight::area);
+    CHECK(s.weights.area == 1);
+    CHECK(s.weights.boundary == 0);
+    CHECK(s.weights.normal == 0);
+    CHECK(s.weights.area_term == AreaTerm::before_placement);
+    CHECK(s.link == LinkCondition::off);
+    CHECK(s.diagonal == 1);
+    CHECK(s.weld_distance == 0);
+}
+
+TEST_CASE("every weight and rule can be set on its own") {
+    Weights w;
+    w.area = 1;
+    w.boundary = 2;
+    w.normal = 3;
+    w.uv = 4;
+    w.plane_area = 5;
+    Topology t;
+    t.link = LinkCondition::on;
+    t.weld_distance = 6;
+    for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
+        const detail::Settings s = of(preset, w, t);
+        CHECK(s.weights.area == 1);
+        CHECK(s.weights.boundary == 2);
+        CHECK(s.weights.normal == 3);
+        CHECK(s.weights.seam == 4);
+        CHECK(s.weights.plane_area == 5);
+        CHECK(s.weights.base == BaseWeight::inverse_area);
+        CHECK(s.link == LinkCondition::on);
+        CHECK(s.weld_distance == 6);
+    }
+    t.link = LinkCondition::off;
+    CHECK(of(Preset::qem, {}, t).link == LinkCondition::off);
+}
+
+TEST_CASE("plane_area 0 means unweighted planes, as in the paper's ablation") {
+    Weights w;
+    w.plane_area = 0;
+    CHECK(of(Preset::paper, w).weights.base == BaseWeight::unit);
+}

@@ -1,0 +1,76 @@
+#include "faqem/report.hpp"
+
+#include <catch2/catch.hpp>
+#include <clocale>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "faqem/error.hpp"
+
+using namespace faqem;
+
+TEST_CASE("every preset is found by its name, and no other") {
+    for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw})
+        CHECK(preset_named(name(preset)) == preset);
+    CHECK(name(Preset::paper) == "paper");
+    CHECK_THROWS_AS(preset_named("Paper"), OptionError);
+    CHECK_THROWS_WITH(preset_named(""), Catch::StartsWith("unknown preset '' (known: qem, paper, stmw"));
+}
+
+TEST_CASE("names tell all reasons and rungs apart") {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < refusal_kinds; ++i) names.insert(name(static_cast<Refusal>(i)));
+    CHECK(names.size() == refusal_kinds);
+    names.clear();
+    for (std::size_t i = 0; i < rung_kinds; ++i) names.insert(name(static_cast<Rung>(i)));
+    CHECK(names.size() == rung_kinds);
+    CHECK(names.count("") == 0);
+    CHECK(name(Refusal::zero_length) == "zero_length");
+    CHECK(name(Refusal::flip) == "flip");
+    CHECK(name(Rung::any_component) == "any_component");
+    CHECK(name(StopReason::no_legal_collapse) == "no_legal_collapse");
+}
+
+TEST_CASE("the report as JSON holds every count") {
+    Report report;
+    report.preset = Preset::stmw;
+    report.faces_in = 1'000'000'007;
+    report.faces_out = 2;
+    report.vertices_in = 3;
+    report.vertices_out = 4;
+    report.target_faces = 5;
+    report.stop = StopReason::cancelled;
+    report.collapses = 6;
+    report.refusals[static_cast<std::size_t>(Refusal::link)] = 7;
+    report.rungs[static_cast<std::size_t>(Rung::without_link)] = 8;
+    report.faces_dropped = 9;
+    report.components_deleted = 10;
+    report.virtual_edges = 11;
+    report.warnings = {"a \"quoted\" line\n"};
+    report.seconds.weld = 0.25;
+    const auto json = nlohmann::json::parse(to_json(report));
+    CHECK(json["preset"] == "stmw");
+    CHECK(json["faces_in"] == 1'000'000'007);
+    CHECK(json["faces_out"] == 2);
+    CHECK(json["vertices_in"] == 3);
+    CHECK(json["vertices_out"] == 4);
+    CHECK(json["target_faces"] == 5);
+    CHECK(json["stop_reason"] == "cancelled");
+    CHECK(json["collapses"] == 6);
+    CHECK(json["refusals"]["link"] == 7);
+    CHECK(json["refusals"].size() == refusal_kinds);
+    CHECK(json["rungs"]["without_link"] == 8);
+    CHECK(json["rungs"].size() == rung_kinds);
+    CHECK(json["faces_dropped"] == 9);
+    CHECK(json["components_deleted"] == 10);
+    CHECK(json["virtual_edges"] == 11);
+    CHECK(json["warnings"][0] == "a \"quoted\" line\n");
+    CHECK(json["seconds"]["weld"] == 0.25);
+    CHECK(json["peak_rss_bytes"] > 0);
+}
+
+TEST_CASE("a warning that is not UTF-8 does not spoil the report") {
+    Report report;
+    report.warnings = {"file \xff.obj"};
+    CHECK(nlohmann::json::parse(to_json(report))["warnings"][0] == "file \xEF\xBF\xBD.obj");
+}
