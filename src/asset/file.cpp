@@ -1,0 +1,293 @@
+#include "asset/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void fail_read(const fs::path& file, int error) {
+    throw ReadError(file.string(), "", "cannot read: " + reason(error));
+}
+
+[[noreturn]] void fail_write(const fs::path& file, const char* action, int error) {
+    throw WriteError(file.string() + ": cannot " + action + ": " + reason(error));
+}
+
+/// An open file or folder, closed at the end.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    int get() const { return number_; }
+    explicit operator bool() const { return number_ >= 0; }
+    /// Closes now; false and errno on failure.
+    bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+private:
+    int number_ = -1;
+};
+
+// Names of the temporary files of this process. Whoever takes a name out of its slot owns it: the writer
+// frees it, the signal handler leaks it, as it may not free memory.
+std::array<std::atomic<char*>, 64> temporary_names;
+static_assert(std::atomic<char*>::is_always_lock_free, "used in a signal handler");
+
+std::atomic<char*>& register_temporary(char* name) {
+    for (;;) {
+        for (std::atomic<char*>& slot : temporary_names) {
+            char* empty = nullptr;
+            if (slot.compare_exchange_strong(empty, name)) return slot;
+        }
+        std::this_thread::yield();
+    }
+}
+
+/// A new file under a registered name, removed at the end unless it was renamed.
+class TemporaryFile {
+public:
+    TemporaryFile(const fs::path& target, mode_t mode) {
+        std::random_device random;
+        char base[40];
+        std::snprintf(base, sizeof base, ".faqem-%08x%08x%08x.tmp", random(), random(), random());
+        const std::string path = fs::absolute(target.parent_path() / base).string();
+        name_ = std::make_unique<char[]>(path.size() + 1);
+        std::memcpy(name_.get(), path.c_str(), path.size() + 1);
+        // Registered before it exists: a signal in between finds nothing to remove, which does no harm.
+        slot_ = &register_temporary(name_.get());
+        file_ = Descriptor(::open(name_.get(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+        if (!file_) {
+            const int error = errno;
+            unregister();
+            fail_write(target, "create a file beside it", error);
+        }
+    }
+    TemporaryFile(TemporaryFile&& other) noexcept
+        : name_(std::move(other.name_)),
+          slot_(std::exchange(other.slot_, nullptr)),
+          file_(std::move(other.file_)) {}
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
+    ~TemporaryFile() {
+        if (!slot_) return;
+        ::unlink(name_.get());
+        unregister();
+    }
+
+    const char* name() const { return name_.get(); }
+    Descriptor& file() { return file_; }
+    /// The file has its final name now.
+    void release() { unregister(); }
+
+private:
+    void unregister() {
+        if (!slot_) return;
+        if (!slot_->exchange(nullptr)) (void)name_.release();  // the signal handler is reading it
+        slot_ = nullptr;
+    }
+
+    std::unique_ptr<char[]> name_;
+    std::atomic<char*>* slot_ = nullptr;
+    Descriptor file_;
+};
+
+void write_all(const fs::path& target, int file, std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const std::size_t piece = std::min(bytes.size(), std::size_t{1} << 30);
+        const ssize_t written = ::write(file, bytes.data(), piece);
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) fail_write(target, "write", written < 0 ? errno : EIO);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+bool rename_if_absent(const char* from, const char* to) {
+#ifdef RENAME_NOREPLACE
+    if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+#endif
+    // A hard link is refused where a file exists, and on success the temporary name has done its work.
+    return ::link(from, to) == 0 && ::unlink(from) == 0;
+}
+
+/// One file on its way: where it really goes (behind a link), and its bytes on the disk beside it.
+struct PendingFile {
+    fs::path target;
+    Descriptor folder;
+    TemporaryFile temporary;
+};
+
+PendingFile prepare(const FileContent& content, Overwrite overwrite) {
+    fs::path target = content.file;
+    struct stat old = {};
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    if (!exists && errno != ENOENT) fail_write(target, "write", errno);
+    if (exists && !S_ISREG(old.st_mode)) throw WriteError(target.string() + ": is not a regular file");
+    if (exists && overwrite == Overwrite::no) fail_write(target, "write", EEXIST);
+    if (exists) target = fs::canonical(target);
+
+    const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    Descriptor folder(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!folder) fail_write(content.file, "open its folder", errno);
+    const mode_t mode = exists ? old.st_mode & 07777 : 0666;
+    TemporaryFile temporary(target, mode & 0666);
+    const int file = temporary.file().get();
+    write_all(content.file, file, content.bytes);
+    if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
+    if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
+    if (!temporary.file().close()) fail_write(content.file, "close", errno);
+    return {std::move(target), std::move(folder), std::move(temporary)};
+}
+
+void put_in_place(PendingFile& pending, Overwrite overwrite) {
+    const char* from = pending.temporary.name();
+    const char* to = pending.target.c_str();
+    const bool renamed = overwrite == Overwrite::yes ? ::rename(from, to) == 0 : rename_if_absent(from, to);
+    if (!renamed) fail_write(pending.target, "write", errno);
+    pending.temporary.release();
+    // Some file systems cannot sync a folder and say so with EINVAL.
+    if (::fsync(pending.folder.get()) != 0 && errno != EINVAL)
+        fail_write(pending.target, "sync its folder", errno);
+}
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/// A percent sign without two hexadecimal digits stands for itself.
+std::string percent_decoded(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+        decoded.push_back(low >= 0 ? static_cast<char>(high * 16 + low) : text[i]);
+        if (low >= 0) i += 2;
+    }
+    return decoded;
+}
+
+bool has_scheme(std::string_view text) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    if (text.empty() || !letter(text[0])) return false;
+    const auto end = std::find_if(text.begin(), text.end(), [&](char c) {
+        return !letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
+    });
+    return end != text.end() && *end == ':';
+}
+
+bool leads_outside(const fs::path& relative) {
+    std::ptrdiff_t depth = 0;
+    for (const fs::path& step : relative) {
+        if (step == "..")
+            --depth;
+        else if (!step.empty() && step != ".")
+            ++depth;
+        if (depth < 0) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_bytes) {
+    const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!in) fail_read(file, errno);
+    struct stat status = {};
+    if (::fstat(in.get(), &status) != 0) fail_read(file, errno);
+    if (!S_ISREG(status.st_mode)) throw ReadError(file.string(), "", "is not a regular file");
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size > max_bytes)
+        throw ReadError(
+            file.string(), "",
+            "has " + std::to_string(size) + " bytes, at most " + std::to_string(max_bytes) + " are read");
+    std::vector<std::uint8_t> bytes(size);
+    for (std::uint64_t done = 0; done < size;) {
+        const ssize_t got =
+            ::read(in.get(), bytes.data() + done, std::min<std::uint64_t>(size - done, 1u << 30));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail_read(file, errno);
+        if (got == 0) throw ReadError(file.string(), "", "became shorter while it was read");
+        done += static_cast<std::uint64_t>(got);
+    }
+    return bytes;
+}
+
+void write_files(std::span<const FileContent> files, Overwrite overwrite) {
+    std::vector<PendingFile> pending;
+    pending.reserve(files.size());
+    try {
+        for (const FileContent& content : files) pending.push_back(prepare(content, overwrite));
+        for (PendingFile& file : pending) put_in_place(file, overwrite);
+    } catch (const fs::filesystem_error& error) {
+        throw WriteError(error.path1().string() + ": cannot write: " + error.code().message());
+    }
+}
+
+void write_file(const fs::path& file, std::span<const std::uint8_t> bytes, Overwrite overwrite) {
+    const FileContent content{file, bytes};
+    write_files({&content, 1}, overwrite);
+}
+
+void remove_temporary_files() noexcept {
+    const int error = errno;
+    for (std::atomic<char*>& slot : temporary_names)
+        if (const char* name = slot.exchange(nullptr)) ::unlink(name);
+    errno = error;
+}
+
+fs::path resolve_inside(const fs::path& folder, std::string_view reference, Reference kind) {
+    const auto refuse = [&](const char* why) {
+        throw InputError(folder.string(), "reference '" + std::string(reference) + "'", why);
+    };
+    std::string name = kind == Reference::uri ? percent_decoded(reference) : std::string(reference);
+    if (kind == Reference::file_name) std::replace(name.begin(), name.end(), '\\', '/');
+    if (name.empty()) refuse("is empty");
+    if (name.find('\0') != std::string::npos) refuse("contains a zero byte");
+    if (has_scheme(name)) refuse("is not a path relative to the file");
+    const fs::path relative(name);
+    if (relative.is_absolute()) refuse("is an absolute path");
+    if (leads_outside(relative)) refuse("leads out of the folder of the file");
+    try {
+        const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder);
+        const fs::path found = fs::canonical(root / relative);
+        if (std::mismatch(root.begin(), root.end(), found.begin(), found.end()).first != root.end())
+            refuse("leads out of the folder of the file");
+        if (!fs::is_regular_file(found)) refuse("is not a regular file");
+        return found;
+    } catch (const fs::filesystem_error& error) {
+        throw ReadError(folder.string(), "reference '" + std::string(reference) + "'",
+                        "cannot read: " + error.code().message());
+    }
+}
+
+}  // namespace faqem::detail

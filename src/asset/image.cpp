@@ -1,0 +1,151 @@
+#include "asset/image.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem {
+namespace detail {
+namespace {
+
+struct Kind {
+    std::string_view magic;
+    std::size_t at;
+    const char* mime_type;
+    const char* ending;
+};
+
+constexpr std::array<Kind, 7> kinds = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+                                        {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
+                                        {{"WEBP", 4}, 8, "image/webp", ".webp"},
+                                        {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+                                        {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
+                                        {{"GIF8", 4}, 0, "image/gif", ".gif"},
+                                        {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
+
+constexpr std::uint64_t max_side = 16384;
+constexpr std::uint64_t max_decoded_bytes = std::uint64_t{1} << 30;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+[[noreturn]] void fail(const Image& image, const std::string& what) {
+    throw InputError(image.uri, "image '" + image.name + "'", what);
+}
+
+void check_size(const Image& image, const OIIO::ImageSpec& spec) {
+    const bool positive = spec.width > 0 && spec.height > 0 && spec.depth == 1 && spec.nchannels > 0;
+    const auto width = static_cast<std::uint64_t>(spec.width),
+               height = static_cast<std::uint64_t>(spec.height);
+    if (!positive || width > max_side || height > max_side || width * height * 4 > max_decoded_bytes)
+        fail(image, "is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                        " pixels, at most 16384 x 16384 are read");
+}
+
+/// Spreads 1 to 4 channels to RGBA from the last pixel to the first, in place.
+void spread_to_rgba(std::vector<std::uint8_t>& bytes, std::size_t pixels, std::size_t channels) {
+    const bool grey = channels < 3;
+    const bool alpha = channels == 2 || channels == 4;
+    for (std::size_t i = pixels; i-- > 0;) {
+        std::array<std::uint8_t, 4> from = {};
+        std::memcpy(from.data(), bytes.data() + i * channels, channels);
+        std::uint8_t* to = bytes.data() + i * 4;
+        to[0] = from[0];
+        to[1] = grey ? from[0] : from[1];
+        to[2] = grey ? from[0] : from[2];
+        to[3] = alpha ? from[channels - 1] : std::uint8_t{255};
+    }
+}
+
+}  // namespace
+
+std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (const Kind& kind : kinds)
+        if (text.size() >= kind.at && text.substr(kind.at, kind.magic.size()) == kind.magic)
+            return kind.mime_type;
+    return "";
+}
+
+std::string file_ending(const std::string& mime_type) {
+    for (const Kind& kind : kinds)
+        if (mime_type == kind.mime_type) return kind.ending;
+    return ".bin";
+}
+
+}  // namespace detail
+
+Pixels decode(const Image& image) {
+    const std::string type = detail::sniff_mime_type(image.encoded);
+    if (type != "image/png" && type != "image/jpeg")
+        throw UnsupportedError(
+            image.uri, "image '" + image.name + "'",
+            type.empty() ? "is neither PNG nor JPEG" : type + " is not supported, only PNG and JPEG are");
+    OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
+    const std::string format = type.substr(6);
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+    if (!input) throw Error("OpenImageIO has no reader for " + format + ": " + OIIO::geterror());
+    input->set_ioproxy(&bytes);
+    OIIO::ImageSpec spec, config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input->open("memory." + format, spec, config))
+        detail::fail(image, detail::first_line(input->geterror()));
+    detail::check_size(image, spec);
+
+    Pixels pixels;
+    pixels.width = static_cast<std::uint32_t>(spec.width);
+    pixels.height = static_cast<std::uint32_t>(spec.height);
+    const int channels = std::min(spec.nchannels, 4);
+    const std::size_t count = std::size_t{pixels.width} * pixels.height;
+    pixels.rgba.resize(count * 4);
+    const bool read = input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.rgba.data());
+    const bool closed = input->close();
+    const std::string error = input->geterror();
+    if (!read || !closed || !error.empty())
+        detail::fail(image, error.empty() ? "is damaged" : "is damaged: " + detail::first_line(error));
+    detail::spread_to_rgba(pixels.rgba, count, static_cast<std::size_t>(channels));
+    for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
+        pixels.has_alpha = pixels.rgba[4 * i + 3] != 255;
+    return pixels;
+}
+
+Image encode_png(const Pixels& pixels, const std::string& name) {
+    const std::size_t count = std::size_t{pixels.width} * pixels.height;
+    if (count == 0 || pixels.rgba.size() != count * 4)
+        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
+    const int channels = pixels.has_alpha ? 4 : 3;
+    std::vector<std::uint8_t> rgb;
+    if (!pixels.has_alpha) {
+        rgb.resize(count * 3);
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], &pixels.rgba[4 * i], 3);
+    }
+
+    Image image;
+    image.name = name;
+    image.mime_type = "image/png";
+    OIIO::Filesystem::IOVecOutput bytes(image.encoded);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+    if (!output) throw Error("OpenImageIO has no writer for PNG: " + OIIO::geterror());
+    output->set_ioproxy(&bytes);
+    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
+                         OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    const bool opened = output->open("memory.png", spec);
+    const bool written = opened && output->write_image(OIIO::TypeDesc::UINT8,
+                                                       pixels.has_alpha ? pixels.rgba.data() : rgb.data());
+    const bool closed = opened && output->close();
+    // OpenImageIO 2.4 reports some failures here only.
+    const std::string error = output->geterror();
+    if (!written || !closed || !error.empty())
+        throw WriteError("image '" + name + "': cannot encode: " + error);
+    return image;
+}
+
+}  // namespace faqem

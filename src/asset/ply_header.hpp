@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The header of a PLY file.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faqem::detail {
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Bytes of a value in a binary file.
+std::size_t ply_size(PlyType type);
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::float32;  ///< of the value, or of the items of the list
+    bool is_list = false;
+    PlyType count_type = PlyType::uint8;  ///< of the length of the list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<PlyElement> elements;
+    bool has_texture_file = false;  ///< a `comment TextureFile`, as some programs write it
+    std::size_t size = 0;           ///< bytes up to the data
+    std::uint64_t lines = 0;
+};
+
+/// \param file  for messages
+/// \throws InputError  with the line
+PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
+
+}  // namespace faqem::detail

@@ -1,0 +1,87 @@
+#pragma once
+// What the tests of the file formats share.
+
+#include <unistd.h>
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::testing {
+
+/// A new folder that goes away with the object.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        static std::atomic<int> count{0};
+        path_ = std::filesystem::temp_directory_path() /
+                ("faqem-formats-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
+        std::filesystem::create_directory(path_);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline void put(const std::filesystem::path& file, const std::string& content) {
+    std::ofstream(file, std::ios::binary) << content;
+}
+
+inline std::string get(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    content << in.rdbuf();
+    return content.str();
+}
+
+inline std::span<const std::uint8_t> bytes_of(std::string_view text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// Message of the Exception that the call throws; of nothing else.
+template <class Exception = InputError, class Call>
+std::string message_of(Call&& call) {
+    try {
+        call();
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "(nothing thrown)";
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+inline bool any_contains(const std::vector<std::string>& texts, const std::string& part) {
+    for (const std::string& text : texts)
+        if (contains(text, part)) return true;
+    return false;
+}
+
+/// One part whose faces all have no material.
+inline Asset one_part(std::vector<Vec3> positions, std::vector<Triangle> triangles) {
+    Asset asset;
+    Part& part = asset.parts.emplace_back();
+    part.face_material.assign(triangles.size(), no_index);
+    part.positions = std::move(positions);
+    part.triangles = std::move(triangles);
+    return asset;
+}
+
+}  // namespace faqem::testing

@@ -1,0 +1,125 @@
+// Choice of format, and where the parts are in the scene.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "asset/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+Vec3 transformed(const Instance& instance, const Vec3& p) {
+    const auto& m = instance.transform;
+    Vec3 q;
+    for (std::size_t row = 0; row < 3; ++row)
+        q[row] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
+    return q;
+}
+
+void check_close(const Vec3& a, const Vec3& b) {
+    for (std::size_t i = 0; i < 3; ++i) CHECK(a[i] == Approx(b[i]).margin(1e-12));
+}
+
+/// The square with the given nodes instead of its own, and no scene.
+Asset with_nodes(const char* nodes) {
+    GltfBuilder builder = square_gltf();
+    builder.json.erase("scenes");
+    builder.json["nodes"] = Json::parse(nodes);
+    return load_glb(builder);
+}
+
+}  // namespace
+
+TEST_CASE("the format is found from the content before the name") {
+    const TemporaryFolder folder;
+    put(folder / "scan.bin", square_gltf().glb());
+    CHECK(load(folder / "scan.bin").parts.size() == 1);
+    put(folder / "scan.obj", square_gltf().glb());
+    CHECK(load(folder / "scan.obj").parts[0].triangles.size() == 2);
+    put(folder / "text.GLTF", " \n" + GltfBuilder().text());
+    CHECK(load(folder / "text.GLTF").parts.empty());
+}
+
+TEST_CASE("files of no known format, folders and missing files are refused") {
+    const TemporaryFolder folder;
+    put(folder / "a.txt", "hello");
+    CHECK(contains(message_of<UnsupportedError>([&] { load(folder / "a.txt"); }), "a.txt"));
+    CHECK(contains(message_of<ReadError>([&] { load(folder / "gone.glb"); }), "gone.glb"));
+    CHECK_THROWS_AS(load(folder.path()), ReadError);
+    CHECK_THROWS_AS(save(Asset{}, folder / "a.xyz"), UnsupportedError);
+    CHECK_THROWS_AS(save(Asset{}, folder / "a.off"), UnsupportedError);
+    CHECK_FALSE(std::filesystem::exists(folder / "a.xyz"));
+}
+
+TEST_CASE("saving does not overwrite unasked") {
+    const TemporaryFolder folder;
+    const Asset asset = load_glb(square_gltf());
+    save(asset, folder / "a.glb");
+    const std::string before = get(folder / "a.glb");
+    CHECK_THROWS_AS(save(asset, folder / "a.glb"), WriteError);
+    CHECK(get(folder / "a.glb") == before);
+    CHECK_NOTHROW(save(asset, folder / "a.glb", Overwrite::yes));
+}
+
+TEST_CASE("an empty asset can be saved and loaded") {
+    const TemporaryFolder folder;
+    save(Asset{}, folder / "a.glb");
+    CHECK(load(folder / "a.glb").parts.empty());
+}
+
+TEST_CASE("parts without a scene are at home, once each") {
+    Asset asset;
+    asset.parts.resize(2);
+    const std::vector<Instance> all = instances(asset);
+    REQUIRE(all.size() == 2);
+    CHECK(all[1].part == 1);
+    check_close(transformed(all[1], {1, 2, 3}), {1, 2, 3});
+}
+
+TEST_CASE("transforms are accumulated from the root: translation after rotation after scale") {
+    // A quarter turn about z takes x to y.
+    const Asset asset = with_nodes(R"([
+        {"children":[1],"translation":[10,0,0]},
+        {"mesh":0,"translation":[0,5,0],"rotation":[0,0,0.70710678118654752,0.70710678118654752],"scale":[2,3,4]}])");
+    const std::vector<Instance> all = instances(asset);
+    REQUIRE(all.size() == 1);
+    check_close(transformed(all[0], {1, 0, 0}), {10, 7, 0});
+    check_close(transformed(all[0], {0, 1, 0}), {7, 5, 0});
+    check_close(transformed(all[0], {0, 0, 1}), {10, 5, 4});
+}
+
+TEST_CASE("matrices, mirrored and zero scales are kept as they are") {
+    const Asset asset = with_nodes(R"([
+        {"mesh":0,"matrix":[-1,0,0,0,0,1,0,0,0,0,1,0,4,5,6,1]},{"mesh":0,"scale":[0,0,0]}])");
+    const std::vector<Instance> all = instances(asset);
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].part == 0);
+    CHECK(all[1].part == 0);
+    check_close(transformed(all[0], {1, 1, 1}), {3, 6, 7});
+    check_close(transformed(all[1], {1, 1, 1}), {0, 0, 0});
+}
+
+TEST_CASE("only the default scene counts, in the order of its nodes") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"] = Json::parse(R"([{"mesh":0,"translation":[1,0,0]},{"mesh":0,"translation":[2,0,0]},
+                                           {"mesh":0,"translation":[3,0,0]}])");
+    builder.json["scenes"] = Json::parse(R"([{"nodes":[0]},{"nodes":[2,1]}])");
+    builder.json["scene"] = 1;
+    const std::vector<Instance> all = instances(load_glb(builder));
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].transform[12] == 3);
+    CHECK(all[1].transform[12] == 2);
+}
+
+TEST_CASE("100000 nodes in a chain do not exhaust the stack") {
+    GltfBuilder builder = square_gltf();
+    Json nodes = Json::array();
+    for (int i = 0; i < 99999; ++i) nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+    nodes.push_back({{"mesh", 0}});
+    builder.json["nodes"] = nodes;
+    const std::vector<Instance> all = instances(load_glb(builder));
+    REQUIRE(all.size() == 1);
+    CHECK(all[0].transform[12] == 99999);
+}

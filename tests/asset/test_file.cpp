@@ -1,0 +1,231 @@
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <numeric>
+#include <thread>
+
+#include "asset/file.hpp"
+#include "asset/format_support.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::size_t files_in(const TemporaryFolder& folder) {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+}
+
+mode_t mode_of(const fs::path& file) {
+    struct stat status = {};
+    REQUIRE(::stat(file.c_str(), &status) == 0);
+    return status.st_mode & 07777;
+}
+
+}  // namespace
+
+TEST_CASE("a file is read whole", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "a", std::string("x\0\xFFy", 4));
+    CHECK(read_file(folder / "a") == std::vector<std::uint8_t>{'x', 0, 255, 'y'});
+    put(folder / "empty", "");
+    CHECK(read_file(folder / "empty").empty());
+}
+
+TEST_CASE("a file above the cap is refused, one at the cap is not", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "a", "12345");
+    CHECK(read_file(folder / "a", 5).size() == 5);
+    const std::string message = message_of<ReadError>([&] { read_file(folder / "a", 4); });
+    CHECK(contains(message, (folder / "a").string()));
+    CHECK(contains(message, "has 5 bytes"));
+}
+
+TEST_CASE("what is not a regular file is not read, and a FIFO does not block", "[file]") {
+    const TemporaryFolder folder;
+    REQUIRE(::mkfifo((folder / "fifo").c_str(), 0600) == 0);
+    CHECK(contains(message_of<ReadError>([&] { read_file(folder / "fifo"); }), "regular"));
+    CHECK(contains(message_of<ReadError>([&] { read_file(folder.path()); }), "regular"));
+    CHECK(contains(message_of<ReadError>([&] { read_file("/dev/zero"); }), "regular"));
+    CHECK(contains(message_of<ReadError>([&] { read_file(folder / "none"); }), "No such file"));
+}
+
+TEST_CASE("a new file has the usual permissions, a replaced one keeps its own", "[file]") {
+    const TemporaryFolder folder;
+    const mode_t mask = ::umask(0027);
+    write_file(folder / "a", bytes_of("new"), Overwrite::no);
+    ::umask(mask);
+    CHECK(get(folder / "a") == "new");
+    CHECK(mode_of(folder / "a") == 0640);
+    REQUIRE(::chmod((folder / "a").c_str(), 0604) == 0);
+    write_file(folder / "a", bytes_of("newer"), Overwrite::yes);
+    CHECK(get(folder / "a") == "newer");
+    CHECK(mode_of(folder / "a") == 0604);
+    CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("an existing file is not replaced unasked", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "a", "old");
+    const std::string message =
+        message_of<WriteError>([&] { write_file(folder / "a", bytes_of("b"), Overwrite::no); });
+    CHECK(contains(message, (folder / "a").string()));
+    CHECK(contains(message, "File exists"));
+    CHECK(get(folder / "a") == "old");
+    CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("of many writers that may not overwrite, one wins", "[file]") {
+    const TemporaryFolder folder;
+    std::atomic<int> won{0}, lost{0};
+    std::vector<std::thread> writers;
+    for (int i = 0; i < 8; ++i)
+        writers.emplace_back([&, i] {
+            try {
+                write_file(folder / "a", bytes_of(std::to_string(i)), Overwrite::no);
+                ++won;
+            } catch (const WriteError&) {
+                ++lost;
+            }
+        });
+    for (std::thread& writer : writers) writer.join();
+    CHECK(won == 1);
+    CHECK(lost == 7);
+    CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("a link is followed, a dangling one is not overwritten unasked", "[file]") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "sub");
+    put(folder / "sub/real", "old");
+    fs::create_symlink("sub/real", folder / "link");
+    write_file(folder / "link", bytes_of("new"), Overwrite::yes);
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(get(folder / "sub/real") == "new");
+    fs::create_symlink("nowhere", folder / "dangling");
+    CHECK_THROWS_AS(write_file(folder / "dangling", bytes_of("x"), Overwrite::no), WriteError);
+    CHECK(!fs::exists(folder / "nowhere"));
+}
+
+TEST_CASE("folders, devices and missing folders are no place to write to", "[file]") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_AS(write_file(folder.path(), bytes_of("x"), Overwrite::yes), WriteError);
+    CHECK_THROWS_AS(write_file("/dev/full", bytes_of("x"), Overwrite::yes), WriteError);
+    CHECK_THROWS_AS(write_file(folder / "none/a", bytes_of("x"), Overwrite::yes), WriteError);
+    CHECK(files_in(folder) == 0);
+}
+
+TEST_CASE("a write that stops half-way leaves the old file and nothing else", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "a", "old");
+    // The limit of the file size stands for a full disk: write() stores a part, then fails.
+    struct rlimit old_limit = {};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &old_limit) == 0);
+    auto* const old_handler = std::signal(SIGXFSZ, SIG_IGN);
+    struct rlimit limit = old_limit;
+    limit.rlim_cur = 1000;
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const std::string large(5000, 'x');
+    const std::string message =
+        message_of<WriteError>([&] { write_file(folder / "a", bytes_of(large), Overwrite::yes); });
+    const FileContent files[] = {{folder / "first", bytes_of("fits")}, {folder / "second", bytes_of(large)}};
+    CHECK_THROWS_AS(write_files(files, Overwrite::no), WriteError);
+    ::setrlimit(RLIMIT_FSIZE, &old_limit);
+    std::signal(SIGXFSZ, old_handler);
+    CHECK(contains(message, "File too large"));
+    CHECK(get(folder / "a") == "old");
+    CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("several files are refused together", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "b", "old");
+    const FileContent files[] = {{folder / "a", bytes_of("1")}, {folder / "b", bytes_of("2")}};
+    CHECK_THROWS_AS(write_files(files, Overwrite::no), WriteError);
+    CHECK(files_in(folder) == 1);
+    write_files(files, Overwrite::yes);
+    CHECK(get(folder / "a") == "1");
+    CHECK(get(folder / "b") == "2");
+}
+
+TEST_CASE("a signal handler can remove the temporary file of a write under way", "[file]") {
+    const TemporaryFolder folder;
+    // The write is larger than the limit; the signal this raises arrives while the temporary file is there.
+    static std::atomic<std::size_t> before, after;
+    static const TemporaryFolder* place;
+    place = &folder;
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        std::signal(SIGXFSZ, [](int) {
+            before = files_in(*place);
+            remove_temporary_files();
+            after = files_in(*place);
+            ::_exit(before == 1 && after == 0 ? 0 : 1);
+        });
+        const struct rlimit limit = {1000, 1000};
+        if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(2);
+        try {
+            write_file(folder / "a", bytes_of(std::string(5000, 'x')), Overwrite::no);
+        } catch (...) {
+        }
+        ::_exit(3);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("references are found inside the folder", "[file]") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "sub dir");
+    put(folder / "sub dir/a b.png", "x");
+    put(folder / "100%.png", "x");
+    const fs::path expected = fs::canonical(folder / "sub dir/a b.png");
+    CHECK(resolve_inside(folder.path(), "sub%20dir/a%20b.png") == expected);
+    CHECK(resolve_inside(folder.path(), "./sub dir/../sub dir/a b.png") == expected);
+    CHECK(resolve_inside(folder.path(), "sub dir\\a b.png", Reference::file_name) == expected);
+    CHECK(resolve_inside(folder.path(), "100%.png").filename() == "100%.png");
+    CHECK_THROWS_AS(resolve_inside(folder.path(), "sub%20dir/a%20b.png", Reference::file_name), ReadError);
+    CHECK_THROWS_AS(resolve_inside(folder.path(), "sub dir\\a b.png"), ReadError);
+}
+
+TEST_CASE("references that lead outside are refused before anything is looked at", "[file]") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "in");
+    put(folder / "secret", "x");
+    put(folder / "in/a", "x");
+    fs::create_symlink("../secret", folder / "in/link");
+    fs::create_directory_symlink("..", folder / "in/up");
+    fs::create_symlink("a", folder / "in/good");
+    for (const char* reference :
+         {"", "../secret", "..%2fsecret", "%2e%2e/secret", "a/../../secret", "../none", "/etc/passwd",
+          "%2Fetc/passwd", "http://host/a", "HTTPS://host/a", "file:///etc/passwd", "file:a", "C:/a", "link",
+          "up/secret", ".", "a%00b"}) {
+        CAPTURE(reference);
+        bool refused = false;
+        try {
+            resolve_inside(folder / "in", reference);
+        } catch (const ReadError&) {
+        } catch (const InputError&) {
+            refused = true;
+        }
+        CHECK(refused);
+    }
+    CHECK_THROWS_AS(resolve_inside(folder / "in", "..\\secret", Reference::file_name), InputError);
+    CHECK_THROWS_AS(resolve_inside(folder / "in", "none"), ReadError);
+    CHECK(resolve_inside(folder / "in", "good").filename() == "a");
+    // A folder whose name only starts like the asset's folder is outside.
+    fs::create_directory(folder / "inside");
+    put(folder / "inside/a", "x");
+    CHECK_THROWS_AS(resolve_inside(folder / "in", "../inside/a"), InputError);
+}
