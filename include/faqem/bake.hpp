@@ -30,6 +30,7 @@ SmallParts simplify_parts(const Asset& source, const Options& options);
 /// Stage two: gives the small parts normals, UVs, materials and images.
 /// \param source   the asset that `small` was made from
 /// \param small    result of simplify_parts() with the same options
+/// \return report.stop is `cancelled`, and the asset has no parts, if the progress callback cancelled
 /// \throws InputError  an image is damaged
 LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
 

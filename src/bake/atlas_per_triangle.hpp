@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// The paper's atlas: every triangle on its own (FA-QEM, Sec. 3.2.3, per-triangle flattening).
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// What the atlas must know of a triangle. Its largest angle becomes the right one.
+struct AtlasTriangle {
+    std::uint8_t right = 0;  ///< corner with the largest angle
+    /// Wanted lengths in texels of the edges from `right` to the next corner and to the one after.
+    std::array<double, 2> legs = {0, 0};
+    std::uint64_t order = 0;  ///< triangles with close numbers are close together (Morton code)
+};
+
+/// A triangle's place. Corner UVs are in texels; texel (i, j)'s centre is at (i + 0.5, j + 0.5), v down.
+struct AtlasPlace {
+    std::array<std::array<double, 2>, 3> uv = {};
+    std::array<std::uint32_t, 2> legs = {0, 0};  ///< as given lengths; 0, 0: all of it is one texel
+};
+
+/// A rectangle of texels that belongs to one triangle or to two.
+struct AtlasCell {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;
+    Index first = no_index, second = no_index;  ///< triangles; second is first's turned by 180 degrees
+};
+
+/// A page. Cells do not overlap, and every texel that a bilinear read inside a triangle touches is in its
+/// cell and on its side of the cell.
+struct Atlas {
+    std::uint32_t width = 0, height = 0;  ///< powers of two
+    std::vector<AtlasPlace> places;       ///< by triangle
+    std::vector<AtlasCell> cells;         ///< by row
+    double scale = 1;                     ///< of the wanted lengths
+};
+
+/// Packs triangles by twos into rectangles of size classes, four to the octave and width and height apart, on
+/// shelves. Takes the smallest page that holds the wanted lengths, and then the largest scale that fits it,
+/// at most sqrt 2. Gutters grow with the triangles, from none to 8 texels around each, so that the first mip
+/// levels stay clean on triangles large enough to show it; smaller triangles bleed when minified.
+/// \param side  largest width and height, a power of two
+/// \return nothing if there are more triangles than texels
+/// O(n log n)
+std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side);
+
+/// Barycentrics of a triangle with a place, at texel coordinates.
+class AtlasFrame {
+public:
+    explicit AtlasFrame(const AtlasPlace& place);
+
+    /// Of (x, y); negative outside.
+    Vec3 at(double x, double y) const;
+    /// Of the point of the triangle that is closest to (x, y) on the page.
+    Vec3 closest(double x, double y) const;
+
+private:
+    AtlasPlace place_;
+    std::array<std::array<double, 3>, 2> gradient_ = {};  ///< of the second and third weight: x, y, constant
+};
+
+}  // namespace faqem::detail

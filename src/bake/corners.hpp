@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// From attributes on corners to vertices as files want them.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/simplify.hpp"
+#include "faqem/surface_map.hpp"
+
+namespace faqem::detail {
+
+/// A part of the source with its small mesh.
+struct SmallPart {
+    Index index = 0;  ///< into Asset::parts
+    const Part* source = nullptr;
+    const SimplifyResult* small = nullptr;
+    std::unique_ptr<const SurfaceMap> map;  ///< null where the small mesh has no faces
+
+    std::size_t faces() const { return small->mesh.triangles.size(); }
+};
+
+/// Corners of the small mesh by vertex.
+struct VertexCorners {
+    std::vector<std::uint64_t> begin;    ///< vertices + 1
+    std::vector<std::uint64_t> corners;  ///< 3 * face + corner, ascending at each vertex
+
+    std::span<const std::uint64_t> at(std::size_t vertex) const {
+        return std::span(corners).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
+    }
+};
+
+/// O(faces + vertices)
+VertexCorners vertex_corners(const TriangleMesh& mesh);
+
+/// Barycentrics of a point at a corner, moved by `inset` of the way to the middle of the opposite edge.
+Vec3 near_corner(std::size_t corner, double inset);
+
+/// One entry per corner of the small mesh in each; empty ones are not written.
+struct CornerLayers {
+    std::vector<Vec3f> normals;
+    std::vector<std::vector<Vec2f>> uvs;
+    std::vector<Vec4f> colors;
+};
+
+/// The output part, and for each of its vertices a corner of the small mesh that it stands for.
+struct JoinedPart {
+    Part part;
+    std::vector<std::uint64_t> corner;
+};
+
+/// Joins the corners of a small vertex that agree in every layer. Output vertices come in the order of their
+/// first use. Name and source are those of the source part. O(corners log valence)
+JoinedPart join_corners(const SmallPart& part, const CornerLayers& layers);
+
+}  // namespace faqem::detail

@@ -1,0 +1,78 @@
+#pragma once
+/// \file
+/// What all ways of baking share: the parts with their maps, and the result in the making.
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "bake/corners.hpp"
+#include "bake/groups.hpp"
+#include "bake/normals.hpp"
+#include "faqem/bake.hpp"
+#include "parallel.hpp"
+
+namespace faqem::detail {
+
+/// Thrown through the baker when the progress callback cancels; never leaves it.
+struct Cancelled {};
+
+/// One call of bake().
+struct BakeJob {
+    const Asset& source;
+    const Options& options;
+    std::vector<SmallPart> parts;
+    std::vector<CornerNormals> normals;  ///< by part
+    LightAsset result;
+
+    /// \throws Cancelled
+    void poll(Phase phase, double fraction) const {
+        if (options.progress && options.progress(phase, fraction) == Continue::cancel) throw Cancelled{};
+    }
+    void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
+};
+
+/// parallel_blocks(), asking the progress callback in between; `done` of `total` work was done before.
+template <class Work>
+void polled_blocks(const BakeJob& job, Phase phase, std::size_t size, std::size_t block, double done,
+                   double total, Work&& work) {
+    const std::size_t stretch = std::max(block, (size / 32 / block + 1) * block);
+    for (std::size_t begin = 0; begin < size; begin += stretch) {
+        job.poll(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
+        const std::size_t count = std::min(stretch, size - begin);
+        parallel_blocks(count, block, job.options.threads,
+                        [&](std::size_t b, std::size_t e) { work(begin + b, begin + e); });
+    }
+}
+
+/// Wall-clock seconds since it was made.
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// `material 'red'`, or by number where it has no name.
+std::string material_title(const Asset& asset, Index material);
+
+/// `part 'leg'`, or by number where it has no name.
+std::string part_title(const Asset& asset, std::size_t part);
+
+/// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
+bool bake_per_triangle(BakeJob& job);
+
+/// Colours on vertices.
+void bake_vertex(BakeJob& job);
+
+/// The source's UVs, colours and images. \throws InputError  the small mesh does not carry them
+void bake_keep(BakeJob& job);
+
+/// No UVs, no images.
+void bake_none(BakeJob& job);
+
+}  // namespace faqem::detail

@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Reading textures: wrap modes, bilinear filtering, footprints.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "faqem/asset.hpp"
+
+namespace faqem::detail {
+
+/// How the numbers of an image are meant.
+enum class Encoding {
+    colour,         ///< sRGB, alpha counts: filtered premultiplied
+    opaque_colour,  ///< sRGB, alpha is ignored and read as 1
+    data,           ///< linear numbers in RGB, alpha is ignored and read as 1
+};
+
+/// RGBA in linear light, premultiplied.
+using Linear = std::array<float, 4>;
+
+/// An image with its mip pyramid: level 0 as decoded, the others 16 bits per channel in linear light,
+/// premultiplied. 4 + 8 / 3 bytes per texel.
+class MipImage {
+public:
+    /// \param pixels  at least one texel
+    MipImage(Pixels pixels, Encoding encoding);
+
+    std::uint32_t width() const { return pixels_.width; }
+    std::uint32_t height() const { return pixels_.height; }
+
+    /// \param use  wrap modes and filter; its transform is not applied here
+    /// \param u,v  texture coordinates, v down; what is not finite or beyond 1e9 reads as 0
+    /// \param lod  log2 of the footprint in texels of level 0; below 0 as 0
+    Linear sample(const TextureRef& use, double u, double v, double lod) const;
+
+private:
+    struct Level {
+        std::uint32_t width, height;
+        std::vector<std::uint16_t> rgba;
+    };
+    Linear texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& use) const;
+    Linear read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
+    Linear at_level(std::size_t level, double u, double v, const TextureRef& use) const;
+    Level half(std::size_t from) const;
+    std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
+    std::uint32_t height(std::size_t level) const {
+        return level ? levels_[level - 1].height : pixels_.height;
+    }
+
+    Pixels pixels_;
+    Encoding encoding_;
+    std::vector<Level> levels_;  ///< from level 1 on
+};
+
+/// An affine map of texture coordinates.
+struct UvTransform {
+    std::array<double, 3> u = {1, 0, 0}, v = {0, 1, 0};
+
+    std::array<double, 2> apply(double x, double y) const {
+        return {u[0] * x + u[1] * y + u[2], v[0] * x + v[1] * y + v[2]};
+    }
+};
+
+/// KHR_texture_transform: scaled, rotated, moved. A positive rotation turns UVs counter-clockwise as seen on
+/// an image whose v points down.
+UvTransform uv_transform(const TextureRef& use);
+
+/// 0..1 linear light to an sRGB byte. NaN gives 0.
+std::uint8_t srgb_byte(double linear);
+
+/// 0..1 to a byte. NaN gives 0.
+std::uint8_t linear_byte(double value);
+
+}  // namespace faqem::detail

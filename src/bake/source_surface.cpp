@@ -1,0 +1,163 @@
+#include "bake/source_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "faqem/engine/vector.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+
+double face_area(const Part& part, std::size_t f) {
+    const Triangle& t = part.triangles[f];
+    return engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
+                               to_eigen(part.positions[t[2]]))
+               .norm() /
+           2;
+}
+
+double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t) {
+    const Vec2f &a = uvs[t[0]], &b = uvs[t[1]], &c = uvs[t[2]];
+    const double x1 = double(b[0]) - a[0], y1 = double(b[1]) - a[1];
+    const double x2 = double(c[0]) - a[0], y2 = double(c[1]) - a[1];
+    return std::abs(x1 * y2 - x2 * y1) / 2;
+}
+
+template <class V>
+double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std::size_t k) {
+    return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];
+}
+
+}  // namespace
+
+SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset_(asset) {
+    std::vector<bool> used(asset.materials.size() + 1, false);
+    for (const Part& part : asset.parts) {
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            used[std::min<std::size_t>(face_material(part, f), asset.materials.size())] = true;
+        }
+    }
+    for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
+        const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
+        Surface surface;
+        surface.material = &material_or_default(asset, index);
+        const Material& material = *surface.material;
+        const Encoding colour =
+            material.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
+        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index);
+        if (used[m] && wanted.metallic_roughness) {
+            surface.metallic_roughness = slot(material.metallic_roughness_texture, Encoding::data, index);
+        }
+        if (used[m] && wanted.occlusion)
+            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index);
+        if (used[m] && wanted.emissive) {
+            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index);
+        }
+        surfaces_.push_back(surface);
+    }
+    scales_.resize(asset.parts.size());
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) measure(asset.parts[p], scales_[p]);
+}
+
+SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material) {
+    if (!use) return {};
+    auto& image = images_[{use.image, encoding}];
+    if (!image) {
+        Pixels pixels = decode(asset_.images[use.image]);
+        if (pixels.width == 0 || pixels.height == 0) {
+            throw InputError("", "material " + std::to_string(material), "its image has no pixels");
+        }
+        image = std::make_unique<const MipImage>(std::move(pixels), encoding);
+    }
+    const double texels = double(image->width()) * image->height();
+    return {image.get(), &use, std::sqrt(texels * std::abs(double(use.scale[0]) * use.scale[1])),
+            uv_transform(use)};
+}
+
+void SourceSurface::measure(const Part& part, PartScale& scale) const {
+    const std::size_t faces = part.triangles.size();
+    std::vector<float> length(faces);  // sqrt of the area
+    double area = 0;
+    for (std::size_t f = 0; f < faces; ++f) {
+        const double a = face_area(part, f);
+        area += a;
+        length[f] = static_cast<float>(std::sqrt(a));
+    }
+    if (area > 0) scale.untextured = std::sqrt(2 * static_cast<double>(faces) / area);
+    scale.uv_per_length.resize(part.uvs.size());
+    for (std::size_t set = 0; set < part.uvs.size(); ++set) {
+        const bool needed = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) {
+            const auto uses = [&](const Slot& slot) { return slot.image && slot.use->uv_set == set; };
+            return uses(s.base) || uses(s.metallic_roughness) || uses(s.occlusion) || uses(s.emissive);
+        });
+        if (!needed) continue;
+        std::vector<float>& ratio = scale.uv_per_length[set];
+        ratio.resize(faces, 0.0f);
+        for (std::size_t f = 0; f < faces; ++f) {
+            const double r = std::sqrt(uv_area(part.uvs[set], part.triangles[f])) / length[f];
+            if (std::isfinite(r)) ratio[f] = static_cast<float>(r);
+        }
+    }
+}
+
+Linear SourceSurface::fetch(const Slot& slot, Index p, const SurfacePoint& point, double spacing) const {
+    const Part& part = asset_.parts[p];
+    const std::uint32_t set = slot.use->uv_set;
+    if (set >= part.uvs.size()) return slot.image->sample(*slot.use, 0, 0, 0);
+    const Triangle& t = part.triangles[point.face];
+    const auto uv = slot.transform.apply(blend(part.uvs[set], t, point.barycentric, 0),
+                                         blend(part.uvs[set], t, point.barycentric, 1));
+    const double footprint = scales_[p].uv_per_length[set][point.face] * slot.texels_per_uv * spacing;
+    return slot.image->sample(*slot.use, uv[0], uv[1], footprint > 1 ? std::log2(footprint) : 0);
+}
+
+Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spacing) const {
+    const Part& part = asset_.parts[p];
+    const Surface& s = surface(face_material(part, point.face));
+    const Material& m = *s.material;
+    Appearance result;
+    Vec4f factor = m.base_color;
+    if (!part.colors.empty()) {
+        const Triangle& t = part.triangles[point.face];
+        for (std::size_t k = 0; k < 4; ++k)
+            factor[k] *= static_cast<float>(blend(part.colors, t, point.barycentric, k));
+    }
+    if (m.alpha_mode == AlphaMode::opaque) factor[3] = 1;
+    const Linear base = s.base.image ? fetch(s.base, p, point, spacing) : Linear{1, 1, 1, 1};
+    for (std::size_t k = 0; k < 3; ++k) result.base[k] = base[k] * factor[k] * factor[3];
+    result.base[3] = base[3] * factor[3];
+
+    result.metallic = m.metallic;
+    result.roughness = m.roughness;
+    if (s.metallic_roughness.image) {
+        const Linear c = fetch(s.metallic_roughness, p, point, spacing);
+        result.roughness *= c[1];
+        result.metallic *= c[2];
+    }
+    if (s.occlusion.image) {
+        result.occlusion = 1 + m.occlusion_strength * (fetch(s.occlusion, p, point, spacing)[0] - 1);
+    }
+    result.emissive = m.emissive;
+    if (s.emissive.image) {
+        const Linear c = fetch(s.emissive, p, point, spacing);
+        for (std::size_t k = 0; k < 3; ++k) result.emissive[k] *= c[k];
+    }
+    return result;
+}
+
+double SourceSurface::texel_density(Index p, Index face) const {
+    const Part& part = asset_.parts[p];
+    const Surface& s = surface(face_material(part, face));
+    double density = 0;
+    for (const Slot* slot : {&s.base, &s.metallic_roughness, &s.occlusion, &s.emissive}) {
+        if (!slot->image || slot->use->uv_set >= part.uvs.size()) continue;
+        density = std::max(density, scales_[p].uv_per_length[slot->use->uv_set][face] * slot->texels_per_uv);
+    }
+    return density > 0 ? density : scales_[p].untextured;
+}
+
+}  // namespace faqem::detail

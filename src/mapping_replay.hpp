@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// A collapse history made ready for walking backwards.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "faqem/history.hpp"
+
+namespace faqem::detail {
+
+/// A sphere around a triangle: tells from 16 bytes whether a look at its corners is worth while.
+struct Bound {
+    std::array<float, 3> centre = {};
+    float radius = 0;  ///< rounded up; infinite where the centre is not finite
+};
+
+/// What the walks read. "Entry" e is a place in CollapseHistory::patch_faces.
+struct Replay {
+    std::vector<Vec3> positions;  ///< of all versions, originals first
+
+    std::vector<Triangle> corners;       ///< per entry: corner versions of its face just before the collapse
+    std::vector<Bound> bounds;           ///< per entry: around those corners
+    std::vector<Index> previous;         ///< per entry: the latest earlier collapse that touched its face
+    std::vector<std::uint8_t> umbrella;  ///< per entry: component of its patch over edges with two faces
+    std::vector<float> mean_edge;        ///< per collapse: mean edge length of its patch
+
+    std::vector<Triangle> kept_corners;  ///< per face of the small mesh: corner versions
+    std::vector<Index> kept_last;  ///< per face of the small mesh: last collapse that touched it, or no_index
+};
+
+/// What is needed by the walk over vertices: positions and kept_corners. O(size of the history)
+Replay replay_vertices(const CollapseHistory& history);
+
+/// Everything. O(size of the history) time, 37 bytes per patch face.
+Replay replay_patches(const CollapseHistory& history);
+
+}  // namespace faqem::detail

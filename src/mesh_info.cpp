@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "faqem/compare.hpp"
+#include "faqem/engine/vector.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem {
+
+namespace {
+
+using engine::Vector3;
+
+/// For each vertex the smallest vertex at the same position; -0 equals 0.
+std::vector<Index> weld_equal(const MeshView& mesh) {
+    struct Key {
+        std::array<std::uint64_t, 3> bits;  // bits, because an order of doubles breaks at the first NaN
+        Index vertex;
+        bool operator<(const Key& other) const {
+            return bits != other.bits ? bits < other.bits : vertex < other.vertex;
+        }
+    };
+    std::vector<Key> keys(mesh.positions.size());
+    for (std::size_t v = 0; v < keys.size(); ++v) {
+        const Vec3 p = mesh.positions[v];
+        for (std::size_t k = 0; k < 3; ++k) keys[v].bits[k] = std::bit_cast<std::uint64_t>(p[k] + 0.0);
+        keys[v].vertex = static_cast<Index>(v);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<Index> first(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const bool same = i > 0 && keys[i].bits == keys[i - 1].bits;
+        first[keys[i].vertex] = same ? first[keys[i - 1].vertex] : keys[i].vertex;
+    }
+    return first;
+}
+
+/// The faces with three different corners, over welded vertices; counts the others.
+std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
+    const std::vector<Index> first = weld_equal(mesh);
+    std::vector<Triangle> faces;
+    faces.reserve(mesh.triangles.size());
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        Triangle t = mesh.triangles[f];
+        for (Index& v : t) {
+            if (v >= first.size()) {
+                throw InputError(
+                    {}, "face " + std::to_string(f),
+                    "refers to vertex " + std::to_string(v) + " of " + std::to_string(first.size()));
+            }
+            v = first[v];
+        }
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+            ++result.degenerate_faces;
+        } else {
+            faces.push_back(t);
+        }
+    }
+    result.faces = faces.size();
+    return faces;
+}
+
+std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) {
+    std::vector<std::uint64_t> edges;
+    edges.reserve(3 * faces.size());
+    for (const Triangle& t : faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index u = t[k], v = t[(k + 1) % 3];
+            edges.push_back(std::uint64_t{std::min(u, v)} << 32 | std::max(u, v));
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::uint64_t count = 0;
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j, ++count) {
+        while (j < edges.size() && edges[j] == edges[i]) ++j;
+        if (j - i == 1) ++result.boundary_edges;
+        if (j - i > 2) ++result.nonmanifold_edges;
+    }
+    return count;
+}
+
+std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
+    std::vector<Index> parent(used.size());
+    std::iota(parent.begin(), parent.end(), Index{0});
+    const auto root = [&](Index v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (const Triangle& t : faces) {
+        for (const Index v : {t[1], t[2]}) {
+            const Index r = root(t[0]), s = root(v);
+            parent[std::max(r, s)] = std::min(r, s);
+        }
+    }
+    std::uint64_t count = 0;
+    for (std::size_t v = 0; v < used.size(); ++v) count += used[v] && parent[v] == v;
+    return count;
+}
+
+}  // namespace
+
+MeshInfo info(const MeshView& mesh) {
+    MeshInfo result;
+    const std::vector<Triangle> faces = welded_faces(mesh, result);
+    if (faces.empty()) return result;
+    std::vector<bool> used(mesh.positions.size());
+    const auto position = [&](Index v) { return engine::to_eigen(mesh.positions[v]); };
+    Vector3 low = position(faces[0][0]), high = low;
+    for (const Triangle& t : faces) {
+        for (const Index v : t) {
+            used[v] = true;
+            low = low.cwiseMin(position(v));
+            high = high.cwiseMax(position(v));
+        }
+        result.area += engine::area_vector(position(t[0]), position(t[1]), position(t[2])).norm() / 2;
+    }
+    result.vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+    const std::uint64_t edges = count_edges(faces, result);
+    result.components = count_components(faces, used);
+    result.euler = static_cast<std::int64_t>(result.vertices) - static_cast<std::int64_t>(edges) +
+                   static_cast<std::int64_t>(result.faces);
+    result.box_min = engine::to_array(low);
+    result.box_max = engine::to_array(high);
+    result.diagonal = (high - low).norm();
+    return result;
+}
+
+}  // namespace faqem

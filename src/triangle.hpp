@@ -1,0 +1,94 @@
+#pragma once
+/// \file
+/// Closest point on a triangle, safe for slivers, segments and points.
+
+#include <algorithm>
+#include <limits>
+
+#include "faqem/engine/vector.hpp"
+
+namespace faqem::detail {
+
+/// The point of a triangle that is closest to a query point.
+struct ClosestPoint {
+    engine::Vector3 point = engine::Vector3::Zero();
+    engine::Vector3 barycentric = engine::Vector3::Zero();  ///< weights of a, b, c; >= 0, sum 1
+    double distance_squared = std::numeric_limits<double>::infinity();
+};
+
+namespace closest_point {
+
+using engine::Vector3;
+
+inline ClosestPoint at(const Vector3& p, const Vector3& point, const Vector3& barycentric) {
+    return {point, barycentric, (point - p).squaredNorm()};
+}
+
+/// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a equals b.
+inline double on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {
+    const Vector3 d = b - a;
+    const double length_squared = d.squaredNorm();
+    if (!(length_squared > 0)) return 0;
+    const double t = (p - a).dot(d) / length_squared;
+    if (!(t > 0)) return 0;
+    return t < 1 ? t : 1;
+}
+
+inline ClosestPoint on_boundary(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double s = on_segment(p, a, b), t = on_segment(p, b, c), u = on_segment(p, c, a);
+    // At the ends the corner itself: a + 1 (b - a) need not be b in floating point.
+    const auto mix = [](const Vector3& from, const Vector3& to, double x) -> Vector3 {
+        if (x == 0) return from;
+        if (x == 1) return to;
+        return from + x * (to - from);
+    };
+    ClosestPoint best = at(p, mix(a, b, s), {1 - s, s, 0});
+    for (const ClosestPoint& other :
+         {at(p, mix(b, c, t), {0, 1 - t, t}), at(p, mix(c, a, u), {u, 0, 1 - u})}) {
+        if (other.distance_squared < best.distance_squared) best = other;
+    }
+    return best;
+}
+
+/// Sine of the smallest angle, roughly, below which the interior formula has lost half its digits.
+inline constexpr double thin = 1e-6;
+
+}  // namespace closest_point
+
+/// The point of triangle abc that is closest to p, by Voronoi regions (Ericson, Real-Time Collision
+/// Detection, 5.1.5). The interior formula divides by the squared area, so triangles that are thin, or have
+/// no area at all, are treated by their three edges as well, and the nearer answer is taken. Corners are
+/// returned to the last bit. O(1)
+inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const engine::Vector3& a,
+                                              const engine::Vector3& b, const engine::Vector3& c) {
+    using namespace closest_point;
+    const Vector3 ab = b - a, ac = c - a, bc = c - b;
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
+    const double area_squared = ab.cross(ac).squaredNorm();
+    const bool well_shaped = area_squared > thin * thin * longest * longest;
+
+    const Vector3 ap = p - a;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    const Vector3 bp = p - b;
+    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+    const Vector3 cp = p - c;
+    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (well_shaped) {
+        if (d1 <= 0 && d2 <= 0) return at(p, a, {1, 0, 0});
+        if (d3 >= 0 && d4 <= d3) return at(p, b, {0, 1, 0});
+        if (d6 >= 0 && d5 <= d6) return at(p, c, {0, 0, 1});
+        if (va > 0 && vb > 0 && vc > 0) {
+            const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
+            return at(p, a + v * ab + w * ac, {va / sum, v, w});
+        }
+        return on_boundary(p, a, b, c);
+    }
+    const ClosestPoint edge = on_boundary(p, a, b, c);
+    if (!(va > 0 && vb > 0 && vc > 0)) return edge;
+    const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
+    const ClosestPoint inside = at(p, a + v * ab + w * ac, {va / sum, v, w});
+    return inside.distance_squared < edge.distance_squared ? inside : edge;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// A bumpy n x n grid: 2 n^2 faces.
+Part grid(Index n) {
+    Part part;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i)
+            part.positions.push_back({double(i), double(j), std::sin(i * 0.9) * std::cos(j * 0.7)});
+    }
+    for (Index j = 0; j < n; ++j) {
+        for (Index i = 0; i < n; ++i) {
+            const Index a = (n + 1) * j + i, b = a + 1, c = a + n + 2, d = a + n + 1;
+            part.triangles.push_back({a, b, c});
+            part.triangles.push_back({a, c, d});
+        }
+    }
+    return part;
+}
+
+}  // namespace
+
+TEST_CASE("a face count is shared out by size, and tiny parts keep their faces") {
+    Asset asset;
+    asset.parts = {grid(20), grid(10), square(), Part{}};
+    asset.parts[2].face_material.clear();
+    Options options;
+    options.target = faces(500);
+    const SmallParts small = simplify_parts(asset, options);
+    REQUIRE(small.parts.size() == 4);
+    // 800, 200 and 2 of 1002 faces: 399, 100, 1; the square's share is raised to its 2 faces.
+    CHECK(small.parts[0].report.target_faces == 399);
+    CHECK(small.parts[1].report.target_faces == 100);
+    CHECK(small.parts[2].mesh.triangles.size() == 2);
+    CHECK(small.parts[3].mesh.triangles.empty());
+    CHECK(small.report.faces_in == 1002);
+    CHECK(small.report.faces_out <= 501);
+    CHECK(small.report.stop == StopReason::reached_target);
+    CHECK(small.report.collapses == small.parts[0].report.collapses + small.parts[1].report.collapses);
+    for (std::size_t p = 0; p < 3; ++p) {
+        CHECK(small.parts[p].history.kept_faces.size() == small.parts[p].mesh.triangles.size());
+    }
+}
+
+TEST_CASE("a ratio holds for every part") {
+    Asset asset;
+    asset.parts = {grid(20), grid(10)};
+    Options options;
+    options.target = ratio(0.25);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[0].mesh.triangles.size() <= 200);
+    CHECK(small.parts[1].mesh.triangles.size() <= 50);
+    CHECK(small.report.target_faces == 250);
+}
+
+TEST_CASE("cancelling the first stage leaves the second nothing to do") {
+    Asset asset;
+    asset.parts = {grid(20), grid(20)};
+    Options options;
+    options.progress = [](Phase, double) { return Continue::cancel; };
+    const LightAsset light = simplify(asset, options);
+    CHECK(light.report.stop == StopReason::cancelled);
+    CHECK(light.asset.parts.empty());
+}
+
+TEST_CASE("the result of the whole way shows the source's colours") {
+    // A bumpy sheet whose texture is a ramp over its plan: colour tells place.
+    Asset asset = textured_square(ramp(128));
+    asset.parts = {grid(24)};
+    Part& part = asset.parts[0];
+    part.uvs.resize(1);
+    for (const Vec3& p : part.positions) {
+        part.uvs[0].push_back({static_cast<float>(p[0] / 24), static_cast<float>(p[1] / 24)});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    Options options;
+    options.target = ratio(0.2);
+    options.bake.texture_size = 512;
+    options.bake.mapping = GENERATE(Mapping::projection, Mapping::lineage);
+    options.history = Recording::on;
+    const LightAsset light = simplify(asset, options);
+    REQUIRE(light.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
+    CHECK(light.histories.size() == 1);
+    const Pixels atlas = decode(light.asset.images[0]), painted = ramp(128);
+    const Part& out = light.asset.parts[0];
+    double error = 0, count = 0;
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        for (const Vec3& w : spread(8)) {
+            const auto p = blend(out.positions, out.triangles[f], w);
+            const auto expected = read(painted, p[0] / 24, p[1] / 24), got = look(out, atlas, f, w);
+            for (std::size_t k = 0; k < 2; ++k) error += std::abs(expected[k] - got[k]);
+            count += 2;
+        }
+    }
+    // The ramp spans 180 levels over 24 cells, 7.5 a cell. Lineage ends at vertices, about a cell away;
+    // projection hardly errs at all.
+    CHECK(error / count < (options.bake.mapping == Mapping::projection ? 2.5 : 7.5));
+    CHECK(light.report.seconds.bake > 0);
+}

@@ -1,0 +1,290 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "faqem/surface_map.hpp"
+#include "hand_history.hpp"
+
+using namespace faqem;
+using faqem::test::HandHistory;
+using faqem::test::small_mesh;
+
+namespace {
+
+Vec3 mix(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) {
+    Vec3 p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i];
+    return p;
+}
+
+Vec3 small_point(const TriangleMesh& mesh, Index face, const Vec3& w) {
+    const Triangle& t = mesh.triangles[face];
+    return mix(w, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+}
+
+Vec3 original_point(const CollapseHistory& history, const SurfacePoint& p) {
+    const Triangle& t = history.triangles[p.face];
+    return mix(p.barycentric, history.positions[t[0]], history.positions[t[1]], history.positions[t[2]]);
+}
+
+double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+// Barycentrics spread over a triangle, corners included.
+std::vector<Vec3> spread(int n) {
+    std::vector<Vec3> result;
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j) {
+            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
+        }
+    }
+    return result;
+}
+
+// Faces of an n x n grid over vertices numbered by vertex(i, j); even faces below their diagonal.
+template <class Vertex>
+std::vector<Triangle> grid_faces(Index n, Vertex&& vertex) {
+    std::vector<Triangle> faces;
+    for (Index j = 0; j < n; ++j) {
+        for (Index i = 0; i < n; ++i) {
+            faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+            faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    return faces;
+}
+
+// 6--7--8      Collapses (4, 5) into 9 at (1.5, 1), then (9, 7) into 10 at (1.25, 1.5).
+// | /| /|
+// 3--4--5
+// | /| /|
+// 0--1--2
+CollapseHistory grid_with_two_collapses() {
+    std::vector<Vec3> positions;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
+    const Index nine = hand.collapse(4, 5, {1.5, 1, 0});
+    hand.collapse(nine, 7, {1.25, 1.5, 0});
+    return hand.finish();
+}
+
+// Two layers of (n + 1)^2 vertices, z = +h and -h, that share their rim (z = 0): a pillow. Top faces first.
+struct Pillow {
+    Index n = 0;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> faces;
+    Index top_faces() const { return 2 * n * n; }
+    bool rim(Index i, Index j) const { return i == 0 || j == 0 || i == n || j == n; }
+    Index top(Index i, Index j) const { return (n + 1) * j + i; }
+    Index bottom(Index i, Index j) const { return rim(i, j) ? top(i, j) : (n + 1) * (n + 1) + top(i, j); }
+};
+
+Pillow pillow(Index n, double h) {
+    Pillow p{n, {}, {}};
+    for (double side : {1.0, -1.0}) {
+        for (Index j = 0; j <= n; ++j) {
+            for (Index i = 0; i <= n; ++i)
+                p.positions.push_back({double(i), double(j), p.rim(i, j) ? 0 : side * h});
+        }
+    }
+    p.faces = grid_faces(n, [&](Index i, Index j) { return p.top(i, j); });
+    for (Triangle t : grid_faces(n, [&](Index i, Index j) { return p.bottom(i, j); })) {
+        p.faces.push_back({t[0], t[2], t[1]});
+    }
+    return p;
+}
+
+// Collapses every other rim vertex and every other inner vertex into its left neighbour; the new places lie
+// beyond the other layer.
+CollapseHistory squeezed_pillow(const Pillow& p, const std::set<Index>& reversed) {
+    std::vector<Triangle> faces = p.faces;
+    for (Index f : reversed) std::swap(faces[f][1], faces[f][2]);
+    HandHistory hand(p.positions, faces);
+    for (Index j = 0; j <= p.n; ++j) {
+        for (Index i = 1; i + 1 <= p.n; i += 2) {
+            for (double side : {1.0, -1.0}) {
+                const Index a = side > 0 ? p.top(i, j) : p.bottom(i, j);
+                const Index b = side > 0 ? p.top(i + 1, j) : p.bottom(i + 1, j);
+                if (side < 0 && p.rim(i, j)) continue;
+                if (p.rim(i, j) != p.rim(i + 1, j)) continue;
+                hand.collapse(
+                    a, b, {i + 0.5, double(j), p.rim(i, j) ? 0 : -3 * side * p.positions[p.top(1, 1)][2]});
+            }
+        }
+    }
+    return hand.finish();
+}
+
+}  // namespace
+
+TEST_CASE("without collapses every point maps to itself") {
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    const CollapseHistory history = hand.finish();
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < 2; ++f) {
+        for (const Vec3& w : spread(5)) {
+            const SurfacePoint p = map.map(f, w);
+            CHECK(p.step == MapStep::history);
+            CHECK(distance(original_point(history, p), small_point(small_mesh(history), f, w)) < 1e-15);
+        }
+        CHECK(map.map(f, {0.2, 0.3, 0.5}).face == f);
+    }
+}
+
+TEST_CASE("in a plane, projection finds the very same point") {
+    const CollapseHistory history = grid_with_two_collapses();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() == 4);
+    const SurfaceMap map(history, Mapping::projection);
+    double area = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Vec3 a = small_point(small, f, {1, 0, 0}), b = small_point(small, f, {0, 1, 0}),
+                   c = small_point(small, f, {0, 0, 1});
+        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if (twice < 0) continue;  // folded over by the arbitrary collapses
+        area += twice / 2;
+        for (const Vec3& w : spread(7)) {
+            const Vec3 p0 = small_point(small, f, w);
+            const SurfacePoint p = map.map(f, w);
+            CHECK(p.face < history.triangles.size());
+            CHECK(p.barycentric[0] + p.barycentric[1] + p.barycentric[2] == Approx(1));
+            CHECK(distance(original_point(history, p), p0) < 1e-14);
+            CHECK(p.step == MapStep::history);
+            const SurfacePoint again = map.map_near(f, w, p);
+            CHECK(distance(original_point(history, again), p0) < 1e-14);
+        }
+    }
+    CHECK(area == Approx(2.75));
+}
+
+TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
+    const CollapseHistory history = grid_with_two_collapses();
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::lineage);
+    const std::set<Index> merged = {4, 5, 7};
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint p = map.map(f, w);
+            const Triangle& t = history.triangles[p.face];
+            std::size_t corner = 0;
+            while (p.barycentric[corner] != 1) REQUIRE(++corner < 3);
+            for (Index g = 0; g < p.face; ++g) {  // the smallest face there
+                for (Index v : history.triangles[g]) CHECK(v != t[corner]);
+            }
+            // By hand: the closest small corner; where it is 10, go to 9 or 7, and from 9 to 4 or 5.
+            const Vec3 p0 = small_point(small, f, w);
+            Index best = small.triangles[f][0];
+            for (Index v : small.triangles[f]) {
+                if (distance(small.positions[v], p0) < distance(small.positions[best], p0)) best = v;
+            }
+            const Index version = history.kept_versions[best];
+            if (version < 9) {
+                CHECK(t[corner] == version);
+                continue;
+            }
+            const bool seven = distance(p0, history.position(7)) < distance(p0, history.position(9));
+            const bool five = distance(p0, history.position(5)) < distance(p0, history.position(4));
+            CHECK(t[corner] == (seven ? 7u : five ? 5u : 4u));
+            CHECK(merged.count(t[corner]) == 1);
+        }
+    }
+}
+
+TEST_CASE("samples of one side of a thin plate never map to the other") {
+    const Pillow p = pillow(6, 1e-3);
+    std::set<Index> reversed;
+    SECTION("wound alike") {}
+    SECTION("every fourth face wound wrongly") {
+        for (Index f = 0; f < p.faces.size(); f += 4) reversed.insert(f);
+    }
+    const CollapseHistory history = squeezed_pillow(p, reversed);
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < p.faces.size());
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const bool top = history.kept_faces[f] < p.top_faces();
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint q = map.map(f, w);
+            CHECK((q.face < p.top_faces()) == top);
+            CHECK(distance(original_point(history, q), small_point(small, f, w)) < 0.6);
+        }
+    }
+}
+
+TEST_CASE("samples stay in their material group") {
+    std::vector<Vec3> positions;
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    const auto faces = grid_faces(3, [](Index i, Index j) { return 4 * j + i; });
+    std::vector<Index> groups;
+    for (Index f = 0; f < faces.size(); ++f) groups.push_back(f % 6 < 2 ? 7 : no_index);  // left column
+    HandHistory hand(positions, faces, groups);
+    hand.collapse(5, 6, {1.9, 1, 0});  // pulls the border into the other group
+    const CollapseHistory history = hand.finish();
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < history.kept_faces.size(); ++f) {
+        for (const Vec3& w : spread(4)) {
+            CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.kept_faces[f]]);
+        }
+    }
+}
+
+// Seen from above; h = (P, B, Q) is folded over f, so that it alone looks up.
+//
+//        E            g = (E, B, A), f = (A, B, P) look down. (P, Q) becomes D, then (D, E) becomes C at E's
+//       / \           place: f = (A, B, C) now looks up. Its samples lie in g, which looks down and was never
+//      / g \          touched before: the walk ends there, on the wrong side.
+//     A-----B
+//      \ f / \.       The answer must be h.
+//       \ /  Q
+//        P
+TEST_CASE("a walk that ends on the wrong side falls back to the closest face that looks the right way") {
+    const Index a = 0, b = 1, p = 2, q = 3, e = 4;
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}, {0.4, -0.2, 0}, {0.5, 1, 0}},
+                     {{a, b, p}, {e, b, a}, {p, b, q}});
+    const Index d = hand.collapse(p, q, {0.5, -0.6, 0});
+    hand.collapse(d, e, {0.5, 1, 0});
+    const CollapseHistory history = hand.finish();
+    REQUIRE(history.kept_faces == std::vector<Index>{0, 1});
+    const SurfaceMap map(history, Mapping::projection);
+    const SurfacePoint hit = map.map(0, {0.4, 0.3, 0.3});
+    CHECK(hit.face == 2);
+    CHECK(hit.step == MapStep::closest);
+    CHECK(map.map(1, {0.4, 0.3, 0.3}).face == 1);
+}
+
+TEST_CASE("a face that was turned over has no right side and says so") {
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    hand.collapse(2, 3, {0.5, -1, 0});
+    const CollapseHistory history = hand.finish();
+    const SurfacePoint hit = SurfaceMap(history, Mapping::projection).map(0, {0.4, 0.3, 0.3});
+    CHECK(hit.step != MapStep::history);
+    CHECK(hit.face < 2);
+}
+
+TEST_CASE("several threads get the same answers") {
+    const CollapseHistory history = squeezed_pillow(pillow(8, 1e-3), {});
+    const SurfaceMap map(history, Mapping::projection);
+    const auto all = [&] {
+        std::vector<SurfacePoint> result;
+        for (Index f = 0; f < history.kept_faces.size(); ++f) {
+            for (const Vec3& w : spread(5)) result.push_back(map.map(f, w));
+        }
+        return result;
+    };
+    const std::vector<SurfacePoint> serial = all();
+    std::vector<SurfacePoint> other;
+    std::thread helper([&] { other = all(); });
+    const std::vector<SurfacePoint> mine = all();
+    helper.join();
+    for (std::size_t i = 0; i < serial.size(); ++i) {
+        REQUIRE(mine[i].face == serial[i].face);
+        REQUIRE(other[i].face == serial[i].face);
+        REQUIRE(mine[i].barycentric == serial[i].barycentric);
+        REQUIRE(other[i].barycentric == serial[i].barycentric);
+    }
+}
