@@ -37,10 +37,34 @@ Settings stmw() {
     return s;
 }
 
+// Memoryless costs are measured on the surface as it is, so small turns are no longer paid for later: the
+// veto is stricter than the paper's.
+Settings fast() {
+    Settings s;
+    s.carry = Settings::Carry::memoryless;
+    s.link = LinkCondition::on;
+    s.least_turn = 0.3;
+    return s;
+}
+
+Settings named(Preset preset) {
+    switch (preset) {
+        case Preset::qem:
+            return qem();
+        case Preset::paper:
+            return paper();
+        case Preset::stmw:
+            return stmw();
+        case Preset::fast:
+            break;
+    }
+    return fast();
+}
+
 }  // namespace
 
 Settings settings(const Options& options) {
-    Settings s = options.preset == Preset::paper ? paper() : options.preset == Preset::qem ? qem() : stmw();
+    Settings s = named(options.preset);
     const Weights& w = options.weights;
     if (w.plane_area) {
         s.weights.base = *w.plane_area > 0 ? BaseWeight::inverse_area : BaseWeight::unit;

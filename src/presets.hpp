@@ -9,6 +9,9 @@ namespace faqem::detail {
 
 /// A preset with the user's weights and rules put in.
 struct Settings {
+    /// Memory: quadrics are summed up along the collapses. Memoryless: they belong to the surface as it is.
+    enum class Carry { memory, memoryless };
+    Carry carry = Carry::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;
     double least_turn = 0;  ///< flip veto: smallest cosine between old and new normal

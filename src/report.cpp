@@ -11,12 +11,12 @@ namespace faqem {
 namespace {
 
 // Names by enumerator; the order is the enums'.
-constexpr std::array<std::string_view, 3> preset_names = {"qem", "paper", "stmw"};
+constexpr std::array<std::string_view, 4> preset_names = {"qem", "paper", "stmw", "fast"};
 constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
-    "reseed", "tiny_components", "without_link", "flip_half", "flip_any", "any_component"};
+    "reseed", "tiny_components", "without_link", "flip_zero", "flip_half", "flip_any", "any_component"};
 
 std::uint64_t peak_rss_bytes() {
     rusage usage{};

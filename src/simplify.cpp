@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "faqem/engine/engine.hpp"
+#include "faqem/engine/memoryless.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
 #include "virtual_edges.hpp"
@@ -77,10 +78,13 @@ engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedge
         seam.resize(complex.vertex_slots());
         for (Index v = 0; v < seam.size(); ++v) seam[v] = wedges.is_seam(complex, v);
     }
-    engine::MemoryMetric metric(settings.weights, seam);
-    engine::Engine<engine::MemoryMetric, engine::HeapQueue, Recorder> engine(complex, pairs, wedges, locked,
+    const auto collapse = [&](auto metric) {
+        engine::Engine<decltype(metric), engine::HeapQueue, Recorder> engine(complex, pairs, wedges, locked,
                                                                              metric, recorder);
-    return engine.run(loop);
+        return engine.run(loop);
+    };
+    if (settings.carry == detail::Settings::Carry::memoryless) return collapse(engine::MemorylessMetric());
+    return collapse(engine::MemoryMetric(settings.weights, seam));
 }
 
 // Everything of one run, in the order it is made.

@@ -78,11 +78,24 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
         if (d1 <= 0 && d2 <= 0) return at(p, a, {1, 0, 0});
         if (d3 >= 0 && d4 <= d3) return at(p, b, {0, 1, 0});
         if (d6 >= 0 && d5 <= d6) return at(p, c, {0, 0, 1});
+        if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+            const double t = d1 / (d1 - d3);
+            return at(p, a + t * ab, {1 - t, t, 0});
+        }
+        if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+            const double t = d2 / (d2 - d6);
+            return at(p, a + t * ac, {1 - t, 0, t});
+        }
+        const double e = d4 - d3, f = d5 - d6;
+        if (va <= 0 && e >= 0 && f >= 0) {
+            const double t = e / (e + f);
+            return at(p, b + t * bc, {0, 1 - t, t});
+        }
         if (va > 0 && vb > 0 && vc > 0) {
             const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
             return at(p, a + v * ab + w * ac, {va / sum, v, w});
         }
-        return on_boundary(p, a, b, c);
+        return on_boundary(p, a, b, c);  // rounding put the query between two regions
     }
     const ClosestPoint edge = on_boundary(p, a, b, c);
     if (!(va > 0 && vb > 0 && vc > 0)) return edge;

@@ -27,6 +27,7 @@ enum class Preset {
     qem,    ///< Garland and Heckbert 1997: plane quadrics, link condition
     paper,  ///< FA-QEM as written: inverse-area base, curvature boundary, normal and area terms
     stmw,   ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
+    fast,   ///< area-weighted planes without memory, planes that hold open edges; the weights do not apply
 };
 
 /// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
@@ -102,7 +103,7 @@ struct BakeOptions {
 /// Everything that can be asked of simplify().
 struct Options {
     Target target = {};
-    Preset preset = Preset::stmw;
+    Preset preset = Preset::fast;
     Weights weights = {};
     Topology topology = {};
     Recording history = Recording::off;

@@ -37,11 +37,12 @@ enum class Rung {
     reseed,           ///< all pairs evaluated anew
     tiny_components,  ///< whole tiny components deleted
     without_link,     ///< link condition lifted
+    flip_zero,        ///< flips allowed down to dot = 0, where the preset asks for more
     flip_half,        ///< flips allowed down to dot = -0.5
     flip_any,         ///< flips allowed
     any_component,    ///< whole components deleted, smallest first
 };
-inline constexpr std::size_t rung_kinds = 6;
+inline constexpr std::size_t rung_kinds = 7;
 
 /// Wall-clock seconds of the phases. `simplify` runs from flat arrays to flat arrays and includes `weld`.
 struct PhaseSeconds {
@@ -50,7 +51,7 @@ struct PhaseSeconds {
 
 /// The result's passport. Counts are sums where several meshes were simplified.
 struct Report {
-    Preset preset = Preset::stmw;
+    Preset preset = Preset::fast;
     std::uint64_t faces_in = 0, faces_out = 0;
     std::uint64_t vertices_in = 0, vertices_out = 0;
     std::uint64_t target_faces = 0;

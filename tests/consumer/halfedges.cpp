@@ -6,7 +6,8 @@ int main() {
     OpenMesh::TriMesh_ArrayKernelT<> mesh;
     std::vector<OpenMesh::VertexHandle> v;
     for (int i = 0; i <= 10; ++i) {
-        for (int j = 0; j <= 10; ++j) v.push_back(mesh.add_vertex({float(i), float(j), 0.1f * float(i * j % 3)}));
+        for (int j = 0; j <= 10; ++j)
+            v.push_back(mesh.add_vertex({float(i), float(j), 0.1f * float(i * j % 3)}));
     }
     for (std::size_t i = 0; i < 10; ++i) {
         for (std::size_t j = 0; j < 10; ++j) {

@@ -4,15 +4,17 @@
 struct ShortestEdge {
     void initialise(const faqem::engine::Complex&, const faqem::engine::PairTable&) {}
     std::optional<faqem::engine::Candidate> evaluate(const faqem::engine::Complex& complex,
-                                                     const faqem::engine::PairTable&, faqem::Index u, faqem::Index v,
-                                                     faqem::engine::Freedom freedom) const {
+                                                     const faqem::engine::PairTable&, faqem::Index u,
+                                                     faqem::Index v, faqem::engine::Freedom freedom) const {
         if (freedom != faqem::engine::Freedom::anywhere) return std::nullopt;
         const auto& a = complex.position(u);
         const auto& b = complex.position(v);
         return faqem::engine::Candidate{0.5 * (a + b), (a - b).norm()};
     }
-    void collapsing(const faqem::engine::Complex&, const faqem::engine::PairTable&, faqem::Index, faqem::Index,
-                    const faqem::engine::Vector3&) {}
+    void collapsing(const faqem::engine::Complex&, const faqem::engine::PairTable&, faqem::Index,
+                    faqem::Index, const faqem::engine::Vector3&) {}
+    void collapsed(const faqem::engine::Complex&, const faqem::engine::PairTable&, faqem::Index,
+                   std::span<const faqem::engine::PairTable::Change>) {}
     bool affects(const faqem::engine::PairTable::Change&) const { return true; }
 };
 

@@ -32,5 +32,6 @@ int main() {
     faqem::save(light.asset, file, faqem::Overwrite::yes);
     const auto again = faqem::load(file);
     std::filesystem::remove(file);
-    return again.images.size() == 1 && again.parts.size() == 1 && again.parts[0].triangles.size() <= 128 ? 0 : 1;
+    return again.images.size() == 1 && again.parts.size() == 1 && again.parts[0].triangles.size() <= 128 ? 0
+                                                                                                         : 1;
 }

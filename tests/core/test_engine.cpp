@@ -37,6 +37,7 @@ struct Script {
         return Candidate{at->second, order};
     }
     void collapsing(const Complex&, const PairTable&, Index, Index, const Vector3&) {}
+    void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
     bool affects(const PairTable::Change&) const { return false; }
 };
 

@@ -182,6 +182,7 @@ private:
         killed_.clear();
         pairs_.merge(complex_, survivor, gone, killed_, changes_);
         for (const Index pair : killed_) queue_.erase(pair);
+        metric_.collapsed(complex_, pairs_, survivor, changes_);
         ++result_.collapses;
         for (const PairTable::Change& change : changes_) {
             if (change.neighbour.pair != no_index) evaluate(change.neighbour.pair);
@@ -214,6 +215,8 @@ private:
                 if (rules_.link != LinkCondition::on) return false;
                 rules_.link = LinkCondition::off;
                 return true;
+            case Rung::flip_zero:
+                return relax_turn(0);
             case Rung::flip_half:
                 return relax_turn(-0.5);
             case Rung::flip_any:

@@ -21,13 +21,16 @@ namespace faqem::engine {
 template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const Complex& complex,
                                   const PairTable& pairs, Index u, Index v, Freedom freedom, const Vector3& p,
-                                  const PairTable::Change& change) {
+                                  const PairTable::Change& change,
+                                  std::span<const PairTable::Change> around) {
     {metric.initialise(complex, pairs)};
     // Candidate for the pair (u, v); nothing if it must not be collapsed. Finite, cost >= 0.
     { const_metric.evaluate(complex, pairs, u, v, freedom) } -> std::same_as<std::optional<Candidate>>;
     // u and v are about to become u at p; the complex is still as before.
     {metric.collapsing(complex, pairs, u, v, p)};
-    // After a collapse: did it change the cost of other pairs of this neighbour of the survivor?
+    // The collapse is done; `around` are the survivor's neighbours.
+    {metric.collapsed(complex, pairs, u, around)};
+    // Did it change the cost of other pairs of this neighbour of the survivor?
     { const_metric.affects(change) } -> std::same_as<bool>;
 };
 
@@ -92,6 +95,8 @@ public:
     void collapsing(const Complex&, const PairTable&, Index survivor, Index gone, const Vector3&) {
         quadrics_[survivor] += quadrics_[gone];
     }
+
+    void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
 
     bool affects(const PairTable::Change& change) const {
         return weights_.area > 0 && change.boundary_changed;
