@@ -1,0 +1,32 @@
+#!/bin/sh
+# Builds faqem and makes a textured model of more than 200,000 faces light: 10% and 1% of the faces, with new textures.
+# Needs Debian 12 and nothing else; what is made lies in out/.
+set -eu
+cd "$(dirname "$0")/.."
+build=build/release
+faqem=$build/src/tool/faqem
+
+echo "== packages (installed with apt-get; sudo only when not root)"
+cmake/install-packages.sh
+echo "== build faqem (Release) in $build"
+cmake --preset release -DFAQEM_BUILD_TESTS=OFF >/dev/null
+cmake --build --preset release --target faqem_tool make_model
+
+mkdir -p out
+echo "== make a model: out/model.glb"
+$build/examples/make_model out/model.glb
+$faqem info out/model.glb
+
+for percent in 10 1; do
+    echo "== simplify to $percent%: out/model-$percent.glb"
+    $faqem simplify out/model.glb out/model-$percent.glb --ratio "$(awk "BEGIN { print $percent / 100 }")" \
+        --report out/report-$percent.json --force
+    cat out/report-$percent.json
+done
+
+echo "== picture: out/before-after.png (original, 10%, 1%)"
+$faqem render out/model.glb out/model-10.glb out/model-1.glb out/before-after.png --views 3 --force
+
+echo
+echo "Done. Open out/before-after.png, or the .glb files in any glTF viewer. On a file of your own:"
+echo "    $faqem simplify YOUR.glb light.glb --ratio 0.1"

@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// How the command ends.
+
+namespace faqem::tool {
+
+/// Exit codes, documented in docs/cli.md.
+enum ExitCode : int {
+    exit_ok = 0,
+    exit_internal = 1,
+    exit_usage = 2,
+    exit_bad_input = 3,
+    exit_unsupported = 4,
+    exit_target_missed = 5,
+    exit_cannot_write = 7,
+    exit_cancelled = 8,
+};
+
+}  // namespace faqem::tool

@@ -1,0 +1,41 @@
+#include "tool/interrupt.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include "asset/file.hpp"
+#include "tool/exit_code.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+volatile sig_atomic_t signals = 0, unattended = 0;
+
+void on_signal(int) {
+    if (unattended == 0 && signals == 0) {
+        signals = 1;
+        return;
+    }
+    detail::remove_temporary_files();
+    _exit(exit_cancelled);
+}
+
+}  // namespace
+
+void handle_interrupts() {
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return signals != 0; }
+
+Unattended::Unattended() {
+    unattended = 1;
+    if (signals != 0) _exit(exit_cancelled);  // it came after the last question and before this
+}
+Unattended::~Unattended() { unattended = 0; }
+
+}  // namespace faqem::tool

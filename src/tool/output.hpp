@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// What is checked about output files before any work is done, and how they are written.
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "faqem/asset.hpp"
+
+namespace faqem::tool {
+
+/// Makes sure that a file may be written: its folder is there and can be written to, it is none of the inputs
+/// (by inode, so that links do not hide it), and it does not exist unless that is allowed.
+/// \throws OptionError  it is an input
+/// \throws WriteError   otherwise
+void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
+                  Overwrite overwrite);
+
+/// Makes sure that the name ends in one of the endings, in any case.
+/// \throws OptionError
+void check_ending(const std::filesystem::path& file, const std::vector<std::string_view>& endings);
+
+/// Writes a text or binary file, complete or not at all. \throws WriteError
+void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
+
+}  // namespace faqem::tool

@@ -1,0 +1,270 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "faqem/bake.hpp"
+#include "faqem/error.hpp"
+#include "tool/commands.hpp"
+#include "tool/exit_code.hpp"
+#include "tool/interrupt.hpp"
+#include "tool/output.hpp"
+#include "tool/progress_bar.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Bake>, 4> bakes = {{{"per-triangle", Bake::per_triangle},
+                                                                     {"vertex", Bake::vertex},
+                                                                     {"keep", Bake::keep},
+                                                                     {"none", Bake::none}}};
+constexpr std::array<std::pair<std::string_view, Mapping>, 2> mappings = {
+    {{"projection", Mapping::projection}, {"lineage", Mapping::lineage}}};
+
+template <class Value, std::size_t n>
+Value named(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
+            const char* option) {
+    std::string known;
+    for (const auto& [name, value] : names) {
+        if (name == text) return value;
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    }
+    throw OptionError(std::string(option) + ": unknown value '" + text + "' (known: " + known + ")");
+}
+
+double number(const std::string& text, const char* option) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end)
+        throw OptionError(std::string(option) + ": '" + text + "' is no number");
+    return value;
+}
+
+/// The command line as it was given.
+struct Arguments {
+    std::string in, out, report, history;
+    std::string preset, bake, mapping;
+    std::string virtual_edges;  ///< empty: off
+    double ratio = 0.1;
+    std::uint64_t faces = 0;
+    bool link = false, lock_border = false;
+    bool strict_target = false, force = false, quiet = false;
+    Options options;
+
+    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+};
+
+Options make_options(const Arguments& arguments) {
+    Options options = arguments.options;
+    options.target = arguments.faces > 0 ? faces(arguments.faces) : ratio(arguments.ratio);
+    if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
+    if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
+    if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
+    if (arguments.link) options.topology.link = LinkCondition::on;
+    if (arguments.lock_border) options.topology.border = Border::locked;
+    if (!arguments.virtual_edges.empty()) {
+        options.topology.virtual_edges = VirtualEdges::on;
+        options.topology.virtual_edge_distance = number(arguments.virtual_edges, "--virtual-edges");
+    }
+    if (!arguments.history.empty()) options.history = Recording::on;
+    validate(options);
+    return options;
+}
+
+/// Everything that can be wrong about the output, before hours of work go into it.
+void check_outputs(const Arguments& arguments) {
+    check_ending(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
+    std::vector<std::filesystem::path> taken = {arguments.in};
+    for (const std::string& file : {arguments.out, arguments.report, arguments.history}) {
+        if (file.empty()) continue;
+        check_output(file, taken, arguments.overwrite());
+        for (const auto& other : taken) {
+            if (std::filesystem::path(file).lexically_normal() == other.lexically_normal()) {
+                throw OptionError(file + ": is named twice");
+            }
+        }
+        taken.emplace_back(file);
+    }
+}
+
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void write_histories(const Arguments& arguments, const std::vector<CollapseHistory>& histories) {
+    std::ostringstream out;
+    for (const CollapseHistory& history : histories) write(history, out);
+    write_output(arguments.history, out.view(), arguments.overwrite());
+}
+
+void print_counts(std::ostream& out, const Report& report) {
+    std::string_view separator = "refused: ";
+    for (std::size_t i = 0; i < refusal_kinds; ++i) {
+        if (report.refusals[i] == 0) continue;
+        out << separator << report.refusals[i] << " " << name(static_cast<Refusal>(i));
+        separator = ", ";
+    }
+    if (separator == ", ") out << "\n";
+    separator = "rungs taken: ";
+    for (std::size_t i = 0; i < rung_kinds; ++i) {
+        if (report.rungs[i] == 0) continue;
+        out << separator << name(static_cast<Rung>(i)) << " " << report.rungs[i] << " times";
+        separator = ", ";
+    }
+    if (separator == ", ") out << "\n";
+}
+
+void print_summary(const Arguments& arguments, const Report& report) {
+    std::ostringstream out;
+    out << arguments.in << " -> " << arguments.out << "\n"
+        << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
+        << name(report.stop) << ", preset " << name(report.preset) << "\n";
+    print_counts(out, report);
+    out << report.warnings.size() << (report.warnings.size() == 1 ? " warning\n" : " warnings\n");
+    for (const std::string& warning : report.warnings) out << "  " << warning << "\n";
+    const PhaseSeconds& s = report.seconds;
+    out << std::fixed << std::setprecision(2) << "seconds: load " << s.load << ", simplify " << s.simplify
+        << ", map " << s.map << ", bake " << s.bake << ", save " << s.save << ", total " << s.total << "\n";
+    std::cout << out.str();
+}
+
+Asset load_input(const std::string& file, PhaseSeconds& seconds) {
+    const Unattended unattended;
+    const Stopwatch watch;
+    Asset asset = load(file);
+    seconds.load = watch.seconds();
+    std::uint64_t faces = 0;
+    for (const Part& part : asset.parts) faces += part.triangles.size();
+    if (faces == 0) throw InputError(file, "", "has no triangles");
+    return asset;
+}
+
+int cancelled() {
+    std::cerr << "faqem: cancelled\n";
+    return exit_cancelled;
+}
+
+/// Writes the model last but for the report, which tells how long that took.
+void save_result(const Arguments& arguments, LightAsset& light) {
+    const Unattended unattended;
+    const Stopwatch watch;
+    if (!arguments.history.empty()) write_histories(arguments, light.histories);
+    const std::vector<std::string> losses = save(light.asset, arguments.out, arguments.overwrite());
+    light.report.warnings.insert(light.report.warnings.end(), losses.begin(), losses.end());
+    light.report.seconds.save = watch.seconds();
+}
+
+int run(const Arguments& arguments) {
+    Options options = make_options(arguments);
+    check_outputs(arguments);
+    handle_interrupts();
+    const Stopwatch watch;
+    LightAsset light;
+    {
+        ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
+        options.progress = [&bar](Phase phase, double fraction) {
+            bar.show(phase, fraction);
+            return interrupted() ? Continue::cancel : Continue::yes;
+        };
+        PhaseSeconds seconds;
+        bar.show(Phase::load, 0);
+        const Asset source = load_input(arguments.in, seconds);
+        light = simplify(source, options);
+        light.report.seconds.load = seconds.load;
+        light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
+                                     source.warnings.end());
+        if (interrupted() || light.report.stop == StopReason::cancelled) return cancelled();
+    }
+    const bool missed = light.report.faces_out > light.report.target_faces;
+    const bool refused = missed && arguments.strict_target;
+    if (!refused) save_result(arguments, light);
+    light.report.seconds.total = watch.seconds();
+    if (!arguments.report.empty()) {
+        const Unattended unattended;
+        write_output(arguments.report, to_json(light.report), arguments.overwrite());
+    }
+    if (!arguments.quiet) print_summary(arguments, light.report);
+    if (!refused) return exit_ok;
+    std::cerr << "faqem: target missed: " << light.report.faces_out << " faces, " << light.report.target_faces
+              << " wanted; " << arguments.out << " was not written\n";
+    return exit_target_missed;
+}
+
+void add_target_options(CLI::App& command, Arguments& a) {
+    auto* ratio =
+        command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
+    auto* faces =
+        command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
+    ratio->excludes(faces);
+    command.add_option(
+        "--preset", a.preset,
+        "Metric and rules: qem, paper, stmw ... (default " + std::string(name(Options{}.preset)) + ")");
+    command.add_option("--w-area", a.options.weights.area, "Weight of the boundary area term");
+    command.add_option("--w-boundary", a.options.weights.boundary, "Weight of the boundary curvature term");
+    command.add_option("--w-normal", a.options.weights.normal, "Weight of the normal term");
+    command.add_option("--w-uv", a.options.weights.uv, "Factor on quadrics at UV seams, where UVs are kept");
+    command.add_option("--w-plane-area", a.options.weights.plane_area,
+                       "Inverse-area weight of planes; 0: unweighted");
+}
+
+void add_look_options(CLI::App& command, Arguments& a) {
+    command.add_option("--bake", a.bake, "Where colours go: per-triangle (default), vertex, keep, none");
+    command.add_option("--texture-size", a.options.bake.texture_size,
+                       "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
+    command.add_option("--mapping", a.mapping, "Way back to the original: projection (default), lineage");
+}
+
+void add_topology_options(CLI::App& command, Arguments& a) {
+    command.add_flag_callback(
+        "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
+    command.add_flag("--lock-border", a.lock_border, "Open borders stay where they are");
+    command.add_option("--weld", a.options.topology.weld_distance, "Join vertices at most this far apart");
+    // A flag, not an option: an option would take the file name that may follow for its value.
+    command.add_flag(
+        "--virtual-edges{0.01}", a.virtual_edges,
+        "Join parts that do not touch; =TAU: over gaps up to TAU of the diagonal (default 0.01)");
+}
+
+void add_run_options(CLI::App& command, Arguments& a) {
+    command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
+        ->check(CLI::Range(0, 1024));
+    command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
+    command.add_option("--history", a.history, "Write the collapse history to this file");
+    command.add_flag("--strict-target", a.strict_target,
+                     "Exit with 5, and write no model, when the target is missed");
+    command.add_flag("--force", a.force, "Replace files that exist");
+    command.add_flag("--quiet", a.quiet, "No summary, no progress bar");
+}
+
+}  // namespace
+
+void add_simplify_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("simplify", "Make a model lighter and bake its look into a new texture");
+    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
+    command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
+    add_target_options(*command, *arguments);
+    add_look_options(*command, *arguments);
+    add_topology_options(*command, *arguments);
+    add_run_options(*command, *arguments);
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,208 @@
+#include <signal.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "faqem/history.hpp"
+#include "tool_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::size_t files_in(const Folder& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), {}));
+}
+
+std::size_t face_count(const faqem::Asset& asset) {
+    std::size_t faces = 0;
+    for (const faqem::Part& part : asset.parts) faces += part.triangles.size();
+    return faces;
+}
+
+}  // namespace
+
+TEST_CASE("simplify writes a lighter model, a report and a summary") {
+    const Folder folder;
+    faqem::save(sheet(20), folder / "in.glb");
+    const Outcome outcome =
+        run(folder, "simplify in.glb out.glb --faces 100 --texture-size 256 --report r.json");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("800 -> ") != std::string::npos);
+    CHECK(outcome.out.find("reached_target") != std::string::npos);
+    CHECK(outcome.out.find("warnings") != std::string::npos);
+
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    CHECK(face_count(light) <= 100);
+    CHECK(face_count(light) >= 90);
+    CHECK(light.images.size() >= 1);
+    CHECK(files_in(folder) == 3);
+
+    const Json report = Json::parse(read(folder / "r.json"));
+    for (const char* key : {"preset", "faces_in", "faces_out", "vertices_in", "vertices_out", "target_faces",
+                            "stop_reason", "refusals", "warnings", "seconds", "peak_rss_bytes"}) {
+        CAPTURE(key);
+        CHECK(report.contains(key));
+    }
+    CHECK(report["faces_in"] == 800);
+    CHECK(report["faces_out"] == face_count(light));
+    CHECK(report["target_faces"] == 100);
+    CHECK(report["stop_reason"] == "reached_target");
+    CHECK(report["warnings"].is_array());
+    double sum = 0;
+    for (const char* phase : {"load", "simplify", "map", "bake", "save"}) {
+        CAPTURE(phase);
+        CHECK(report["seconds"][phase] > 0);
+        sum += report["seconds"][phase].get<double>();
+    }
+    CHECK(report["seconds"].contains("weld"));
+    CHECK(report["seconds"]["total"] >= 0.99 * sum);
+    CHECK(report["peak_rss_bytes"] > 1'000'000);
+}
+
+TEST_CASE("every choice on the command line is taken") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    for (const char* arguments :
+         {"--ratio 0.5", "--preset qem", "--preset paper", "--preset stmw", "--bake vertex", "--bake keep",
+          "--bake none", "--bake per-triangle --mapping lineage", "--mapping projection", "--link",
+          "--lock-border", "--weld 0.001", "--threads 1",
+          "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"}) {
+        CAPTURE(arguments);
+        const Outcome outcome = run(
+            folder, std::string("simplify in.glb out.glb --force --quiet --texture-size 64 ") + arguments);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.empty());
+    }
+    run(folder, "simplify in.glb none.glb --bake none --quiet");
+    CHECK(faqem::load(folder / "none.glb").images.empty());
+    run(folder, "simplify in.glb vertex.glb --bake vertex --quiet");
+    CHECK(!faqem::load(folder / "vertex.glb").parts.at(0).colors.empty());
+}
+
+TEST_CASE("every output format is written") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    for (const char* ending : {"gltf", "obj", "ply", "stl", "GLB"}) {
+        const std::string out = std::string("as_") + ending + "." + ending;
+        CAPTURE(out);
+        CHECK(run(folder, "simplify in.glb " + out + " --ratio 0.5 --texture-size 64 --quiet").code == 0);
+        CHECK(face_count(faqem::load(folder / out)) > 0);
+    }
+}
+
+TEST_CASE("the same command gives the same bytes at any thread count") {
+    const Folder folder;
+    faqem::save(sheet(24), folder / "in.glb");
+    for (const char* threads : {"1", "2", "5"}) {
+        run(folder, std::string("simplify in.glb ") + threads + ".glb --texture-size 128 --quiet --threads " +
+                        threads);
+    }
+    CHECK(!read(folder / "1.glb").empty());
+    CHECK(read(folder / "1.glb") == read(folder / "2.glb"));
+    CHECK(read(folder / "1.glb") == read(folder / "5.glb"));
+}
+
+TEST_CASE("a missed target is an error only where that was asked for, and then no model is written") {
+    const Folder folder;
+    // A strip: all of its vertices are on the border, which must stay.
+    faqem::Asset strip = sheet(1, 0);
+    faqem::Part& part = strip.parts[0];
+    part.positions.clear();
+    part.triangles.clear();
+    part.uvs.clear();
+    for (faqem::Index i = 0; i < 42; ++i) {
+        part.positions.push_back({double(i / 2), double(i % 2), 0.1 * (i % 3)});
+        if (i < 2) continue;
+        part.triangles.push_back(i % 2 ? faqem::Triangle{i - 2, i, i - 1} : faqem::Triangle{i - 2, i - 1, i});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    strip.images.clear();
+    strip.materials[0].base_color_texture = {};
+    faqem::save(strip, folder / "in.glb");
+    const std::string common =
+        "simplify in.glb out.glb --faces 10 --lock-border --bake none --report r.json ";
+    CHECK(run(folder, common).code == 0);
+    CHECK(Json::parse(read(folder / "r.json"))["stop_reason"] == "no_legal_collapse");
+    CHECK(face_count(faqem::load(folder / "out.glb")) > 10);
+
+    fs::remove(folder / "out.glb");
+    const Outcome strict = run(folder, common + "--strict-target --force");
+    CHECK(strict.code == 5);
+    CHECK(!strict.err.empty());
+    CHECK(!fs::exists(folder / "out.glb"));
+    CHECK(Json::parse(read(folder / "r.json"))["faces_out"] > 10);
+    CHECK(run(folder, "simplify in.glb ok.glb --ratio 1 --lock-border --bake none --strict-target").code ==
+          0);
+}
+
+TEST_CASE("--history writes the histories of all parts, one after the other") {
+    const Folder folder;
+    faqem::Asset two = sheet(12);
+    two.parts.push_back(sheet(8).parts[0]);
+    for (faqem::Vec3& p : two.parts[1].positions) p[2] += 3;
+    faqem::save(two, folder / "in.glb");
+    const faqem::Asset loaded = faqem::load(folder / "in.glb");
+    REQUIRE(loaded.parts.size() == 2);
+    CHECK(run(folder, "simplify in.glb out.glb --history h.bin --bake none --quiet").code == 0);
+    std::ifstream in(folder / "h.bin", std::ios::binary);
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    for (std::size_t p = 0; p < 2; ++p) {
+        const faqem::CollapseHistory history = faqem::read_history(in);
+        CHECK(history.triangles.size() == loaded.parts[p].triangles.size());
+        CHECK(faqem::replay(history).triangles.size() == light.parts[p].triangles.size());
+    }
+    CHECK(in.peek() == std::ifstream::traits_type::eof());
+}
+
+namespace {
+
+/// Whether a process has become the command and has a handler of its own for a signal.
+bool handles(pid_t process, int number) {
+    std::ifstream name("/proc/" + std::to_string(process) + "/comm");
+    std::string running;
+    if (!(name >> running) || running != "faqem")
+        return false;  // still a copy of the test, with its handlers
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    std::string line;
+    while (std::getline(status, line)) {
+        if (line.rfind("SigCgt:", 0) == 0) {
+            return std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("SIGTERM and SIGINT end the work with 8 and leave nothing behind") {
+    for (const int number : {SIGTERM, SIGINT}) {
+        const Folder folder;
+        faqem::save(sheet(200), folder / "in.glb");
+        const pid_t process = fork();
+        REQUIRE(process >= 0);
+        if (process == 0) {
+            if (chdir(folder.path().c_str()) != 0) _exit(99);
+            execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--quiet", nullptr);
+            _exit(99);
+        }
+        int status = 0;
+        // A process that ended before its handler was there would make this wait for ever: ask for both.
+        while (!handles(process, number) && waitpid(process, &status, WNOHANG) == 0)
+            std::this_thread::yield();
+        kill(process, number);
+        waitpid(process, &status, 0);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 8);
+        CHECK(!fs::exists(folder / "out.glb"));
+        CHECK(files_in(folder) == 1);
+    }
+}

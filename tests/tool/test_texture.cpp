@@ -1,0 +1,87 @@
+#include "tool/texture.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace faqem::tool;
+using Eigen::Vector2d;
+using faqem::TextureRef;
+using faqem::Wrap;
+
+namespace {
+
+/// Grey texels in a row.
+Texture row(const std::vector<int>& greys, Encoding encoding = Encoding::linear) {
+    faqem::Pixels pixels;
+    pixels.width = static_cast<std::uint32_t>(greys.size());
+    pixels.height = 1;
+    for (const int grey : greys) {
+        for (const int byte : {grey, grey, grey, 255}) pixels.rgba.push_back(static_cast<std::uint8_t>(byte));
+    }
+    return make_texture(pixels, encoding);
+}
+
+double grey(const Texture& texture, double u, Wrap wrap = Wrap::repeat, double lod = 0) {
+    TextureRef use;
+    use.wrap_u = use.wrap_v = wrap;
+    return 255 * sample(texture, use, {u, 0.5}, lod)[0];
+}
+
+}  // namespace
+
+TEST_CASE("texels are hit at their centres and mixed between them") {
+    const Texture texture = row({0, 100, 200, 40});
+    CHECK(grey(texture, 0.375) == Approx(100));
+    CHECK(grey(texture, 0.5) == Approx(150));
+    CHECK(grey(texture, 0.4375) == Approx(125));
+}
+
+TEST_CASE("textures go on outside as their wrap mode says") {
+    const Texture texture = row({0, 100, 200, 40});
+    CHECK(grey(texture, 1.375) == Approx(100));
+    CHECK(grey(texture, -0.125) == Approx(40));
+    CHECK(grey(texture, 1.0) == Approx(20));
+    CHECK(grey(texture, 1.375, Wrap::mirror) == Approx(200));
+    CHECK(grey(texture, -0.375, Wrap::mirror) == Approx(100));
+    CHECK(grey(texture, 1.0, Wrap::mirror) == Approx(40));
+    CHECK(grey(texture, 7, Wrap::clamp) == Approx(40));
+    CHECK(grey(texture, -7, Wrap::clamp) == Approx(0).margin(1e-4));
+    for (const double far : {1e300, -1e300, std::nan(""), HUGE_VAL}) CHECK(std::isfinite(grey(texture, far)));
+}
+
+TEST_CASE("nearest takes the texel the place is in") {
+    const Texture texture = row({0, 100, 200, 40});
+    TextureRef use;
+    use.filter = faqem::Filter::nearest;
+    CHECK(255 * sample(texture, use, {0.51, 0.5}, 0)[0] == Approx(200));
+    CHECK(255 * sample(texture, use, {0.49, 0.5}, 0)[0] == Approx(100));
+}
+
+TEST_CASE("colours are mixed in linear light, data as they are") {
+    const Texture colours = row({0, 255}, Encoding::srgb);
+    CHECK(sample(colours, TextureRef{}, {0.5, 0.5}, 0)[0] == Approx(0.5));
+    CHECK(sample(row({188, 188}, Encoding::srgb), TextureRef{}, {0.5, 0.5}, 0)[0] ==
+          Approx(0.503).epsilon(0.01));
+    // The level above holds their mean: half the light is 188 of 255.
+    CHECK(int(colours.levels.at(1).rgba[0]) == 188);
+    CHECK(int(row({0, 255}).levels.at(1).rgba[0]) == 128);
+}
+
+TEST_CASE("coarser levels are means of finer ones and are mixed between") {
+    const Texture texture = row({0, 100, 200, 40});
+    REQUIRE(texture.levels.size() == 3);
+    CHECK(grey(texture, 0.25, Wrap::clamp, 1) == Approx(50));
+    CHECK(grey(texture, 0.75, Wrap::clamp, 1) == Approx(120));
+    CHECK(grey(texture, 0.3, Wrap::clamp, 9) == Approx(85));
+    CHECK(grey(texture, 0.25, Wrap::clamp, 1.5) == Approx(67.5));
+}
+
+TEST_CASE("a texture transform scales, turns against the sense of v, and moves") {
+    TextureRef use;
+    use.scale = {2, 3};
+    use.rotation = static_cast<float>(3.14159265358979 / 2);
+    use.offset = {0.25f, 0.5f};
+    // By a quarter turn u goes to -v, which is up in the picture, and v to u.
+    CHECK(transformed(use, {1, 0}).isApprox(Vector2d(0.25, 0.5 - 2), 1e-6));
+    CHECK(transformed(use, {0, 1}).isApprox(Vector2d(0.25 + 3, 0.5), 1e-6));
+}

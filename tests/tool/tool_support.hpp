@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// Running the faqem command in a folder of its own, and small models to run it on.
+
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "faqem/asset.hpp"
+
+namespace tool_test {
+
+namespace fs = std::filesystem;
+
+/// A folder that is gone afterwards.
+class Folder {
+public:
+    Folder() {
+        std::string name = (fs::temp_directory_path() / "faqem-tool-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path_ = name;
+    }
+    ~Folder() {
+        std::error_code error;
+        fs::remove_all(path_, error);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+inline std::string read(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+struct Outcome {
+    int code = -1;
+    std::string out, err;
+};
+
+/// Runs `faqem ARGUMENTS` in the folder. \param arguments  as typed in a shell
+inline Outcome run(const Folder& folder, const std::string& arguments) {
+    const Folder streams;
+    const std::string command = "cd '" + folder.path().string() + "' && '" FAQEM_TOOL "' " + arguments +
+                                " >'" + (streams / "out").string() + "' 2>'" + (streams / "err").string() +
+                                "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(streams / "out"), read(streams / "err")};
+}
+
+/// Left half red, right half blue.
+inline faqem::Image two_colours() {
+    faqem::Pixels pixels;
+    pixels.width = 64;
+    pixels.height = 32;
+    for (int i = 0; i < 64 * 32; ++i) {
+        const bool left = i % 64 < 32;
+        for (const int byte : {left ? 255 : 0, 0, left ? 0 : 255, 255}) {
+            pixels.rgba.push_back(static_cast<std::uint8_t>(byte));
+        }
+    }
+    return faqem::encode_png(pixels, "two");
+}
+
+/// A bumpy n x n grid of quads over [-1, 1]^2 that looks to +z, red on the left and blue on the right.
+inline faqem::Asset sheet(faqem::Index n, double bumps = 0.05) {
+    faqem::Asset asset;
+    faqem::Part part;
+    part.name = "sheet";
+    part.uvs.resize(1);
+    for (faqem::Index y = 0; y <= n; ++y) {
+        for (faqem::Index x = 0; x <= n; ++x) {
+            const double u = double(x) / n, v = double(y) / n;
+            part.positions.push_back({2 * u - 1, 2 * v - 1, bumps * std::sin(9 * u) * std::cos(7 * v)});
+            part.uvs[0].push_back({static_cast<float>(u), static_cast<float>(1 - v)});
+        }
+    }
+    for (faqem::Index y = 0; y < n; ++y) {
+        for (faqem::Index x = 0; x < n; ++x) {
+            const faqem::Index v = y * (n + 1) + x;
+            part.triangles.push_back({v, v + 1, v + n + 2});
+            part.triangles.push_back({v, v + n + 2, v + n + 1});
+        }
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    faqem::Material material;
+    material.base_color_texture.image = 0;
+    material.metallic = 0;
+    asset.materials.push_back(material);
+    asset.images.push_back(two_colours());
+    asset.parts.push_back(part);
+    return asset;
+}
+
+}  // namespace tool_test
