@@ -35,13 +35,14 @@ TEST_CASE("a face count is shared out by size, and tiny parts keep their faces")
     options.target = faces(500);
     const SmallParts small = simplify_parts(asset, options);
     REQUIRE(small.parts.size() == 4);
-    // 800, 200 and 2 of 1002 faces: 399, 100, 1; the square's share is raised to its 2 faces.
-    CHECK(small.parts[0].report.target_faces == 399);
+    // The square keeps its 2 faces; 498 for 800 and 200 faces are 398.4 and 99.6.
+    CHECK(small.parts[0].report.target_faces == 398);
     CHECK(small.parts[1].report.target_faces == 100);
     CHECK(small.parts[2].mesh.triangles.size() == 2);
     CHECK(small.parts[3].mesh.triangles.empty());
     CHECK(small.report.faces_in == 1002);
-    CHECK(small.report.faces_out <= 501);
+    CHECK(small.report.target_faces == 500);
+    CHECK(small.report.faces_out <= 500);
     CHECK(small.report.stop == StopReason::reached_target);
     CHECK(small.report.collapses == small.parts[0].report.collapses + small.parts[1].report.collapses);
     for (std::size_t p = 0; p < 3; ++p) {
@@ -58,6 +59,47 @@ TEST_CASE("a ratio holds for every part") {
     CHECK(small.parts[0].mesh.triangles.size() <= 200);
     CHECK(small.parts[1].mesh.triangles.size() <= 50);
     CHECK(small.report.target_faces == 250);
+}
+
+TEST_CASE("a part of many small components keeps them all") {
+    // Twelve labels in one part, beside a sheet of 800 faces that can pay for them.
+    Asset asset;
+    asset.parts = {grid(20), Part{}};
+    Part& labels = asset.parts[1];
+    for (Index i = 0; i < 12; ++i) {
+        for (Vec3 p : square().positions) labels.positions.push_back({p[0], p[1] + 2 * i, p[2]});
+        labels.triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
+        labels.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
+    }
+    Options options;
+    options.target = GENERATE(ratio(0.1), faces(82));
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[1].mesh.triangles.size() == 24);
+    CHECK(small.report.components_deleted == 0);
+    CHECK(small.report.target_faces == 82);
+    CHECK(small.report.faces_out <= 82);
+
+    // No room for them: every part goes down in proportion, but keeps 4 faces.
+    options.target = faces(20);
+    const SmallParts smaller = simplify_parts(asset, options);
+    CHECK(smaller.parts[0].report.target_faces == 16);
+    CHECK(smaller.parts[1].report.target_faces == 4);
+}
+
+TEST_CASE("seams between vertices at one place do not make components") {
+    // The grid as a soup of single triangles: its share is its part of the whole, not all its faces.
+    Asset asset;
+    asset.parts = {grid(20), grid(10)};
+    Part soup;
+    for (const Triangle& t : asset.parts[1].triangles) {
+        const Index n = static_cast<Index>(soup.positions.size());
+        for (Index v : t) soup.positions.push_back(asset.parts[1].positions[v]);
+        soup.triangles.push_back({n, n + 1, n + 2});
+    }
+    asset.parts[1] = soup;
+    Options options;
+    options.target = ratio(0.25);
+    CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
 
 TEST_CASE("cancelling the first stage leaves the second nothing to do") {

@@ -31,7 +31,7 @@ TEST_CASE("the defaults are valid") {
     CHECK(complaint([](Options&) {}) == "accepted");
 }
 
-TEST_CASE("a ratio lies in (0, 1], a number of faces is at least one") {
+TEST_CASE("a ratio is above 0 and at most 1, a number of faces is at least one") {
     for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, infinity}) {
         CHECK(complaint([&](Options& o) { o.target = ratio(bad); }) == "target ratio must be in (0, 1]");
     }

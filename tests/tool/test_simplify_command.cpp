@@ -144,7 +144,7 @@ TEST_CASE("a missed target is an error only where that was asked for, and then n
           0);
 }
 
-TEST_CASE("--history writes the histories of all parts, one after the other") {
+TEST_CASE("the histories of all parts are written one after the other") {
     const Folder folder;
     faqem::Asset two = sheet(12);
     two.parts.push_back(sheet(8).parts[0]);
