@@ -209,6 +209,12 @@ private:
 
     void finish_report() {
         Report& report = result_.report;
+        const Weights& w = options_.weights;
+        if (settings_.carry == detail::Settings::Carry::memoryless &&
+            (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
+            report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
+                                      std::string(name(options_.preset)) + " has none of their terms");
+        }
         report.faces_out = result_.mesh.triangles.size();
         report.vertices_out = result_.mesh.positions.size();
         if (report.faces_dropped > 0) {

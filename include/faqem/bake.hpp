@@ -22,8 +22,9 @@ struct LightAsset {
     std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
 };
 
-/// Stage one: simplifies every part by itself, in its own coordinates. Targets: see Target; a face count is
-/// shared out in proportion to the parts' faces.
+/// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset
+/// and is shared out in proportion to the parts' faces. Where it has room for them, a part gets no fewer than
+/// 4 faces (or all it has) for each of its connected components, at the others' cost; else no fewer than 4.
 /// \throws as simplify(const MeshView&, ...)
 SmallParts simplify_parts(const Asset& source, const Options& options);
 
@@ -31,7 +32,8 @@ SmallParts simplify_parts(const Asset& source, const Options& options);
 /// \param source   the asset that `small` was made from
 /// \param small    result of simplify_parts() with the same options
 /// \return report.stop is `cancelled`, and the asset has no parts, if the progress callback cancelled
-/// \throws InputError  an image is damaged
+/// \throws InputError        an image is damaged
+/// \throws UnsupportedError  an image that is needed is neither PNG nor JPEG
 LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
 
 /// Both stages in one call.

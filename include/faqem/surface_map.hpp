@@ -13,7 +13,7 @@ namespace faqem {
 enum class MapStep {
     history,  ///< the walk through the history, every test passed
     relaxed,  ///< the walk, with the sheet or side test dropped somewhere
-    closest,  ///< the walk ended nowhere: closest face among those that collapsed into this one
+    closest,  ///< the walk ended on a wrong face: closest one among those that collapsed into the small face
 };
 
 /// A place on the original surface.
@@ -40,9 +40,10 @@ public:
     /// \return a face of the original and barycentrics on it; never no_index
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// As map(), but faster for many points close together: where the point projects into the inside of
-    /// `near.face`, that face is the answer and nothing is searched.
-    /// \param near  answer for a nearby point of the same small face
+    /// As map(), but faster for many points close together: the search starts at `near` and goes from face to
+    /// neighbour, under the same rules. Where that does not end soon, map() answers. The face found may be
+    /// another than map()'s where several are about as close. \param near  answer for a nearby point of the
+    /// same small face
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:

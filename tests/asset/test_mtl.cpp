@@ -30,7 +30,7 @@ float linear(double display) { return static_cast<float>(linear_from_srgb(displa
 
 }  // namespace
 
-TEST_CASE("Kd is sRGB; a material is not metallic by default", "[mtl]") {
+TEST_CASE("Kd is sRGB, a material is not metallic by default", "[mtl]") {
     const Material m = one("newmtl a b\nKd 0.5 0.25 1\nKa 1 1 1\nKs 0 0 0\nNi 1.45\nillum 2\n").values;
     CHECK(m.name == "a b");
     CHECK(m.base_color == Vec4f{linear(0.5), linear(0.25), 1, 1});

@@ -152,7 +152,7 @@ TEST_CASE("doubles are written as doubles, floats short", "[obj_writer]") {
     CHECK(read_obj(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
 }
 
-TEST_CASE("a plain mesh has no library; a face without a material beside others gets a default",
+TEST_CASE("a plain mesh has no library, a face without a material beside others gets a default",
           "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});

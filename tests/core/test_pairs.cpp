@@ -102,7 +102,7 @@ bool changes_agree(const std::vector<PairTable::Change>& changes, const Model& b
 
 }  // namespace
 
-TEST_CASE("pairs are numbered by smaller vertex, then in the order of its corners; virtual ones last") {
+TEST_CASE("pairs are numbered by smaller vertex, then in the order of its corners, virtual ones last") {
     // Corners of vertex 0 of the quad: (0 1 2), then (0 2 3).
     const Complex complex = test::complex_of(test::both(test::quad(), test::quad()));
     const std::vector<Ends> extra = {{2, 7}};

@@ -32,7 +32,7 @@ std::string complaint(const MeshView& mesh) {
 
 }  // namespace
 
-TEST_CASE("vertices at one place become one; faces keep their index") {
+TEST_CASE("vertices at one place become one, faces keep their index") {
     // The two triangles of the square, not sharing vertices.
     const TriangleMesh mesh = test::make(
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, -0.0}, {-0.0, 1, 0}, {0, 0, 0}}, {{0, 1, 2}, {5, 3, 4}});
@@ -65,7 +65,7 @@ TEST_CASE("doubles of a face are dropped, back-to-back faces and those of other 
           std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, dead, dead, dead});
 }
 
-TEST_CASE("the model is centred and scaled to the wanted diagonal; unused vertices do not count") {
+TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertices do not count") {
     TriangleMesh mesh = test::moved(test::scaled(test::quad(), 3), {10, 20, 30});
     mesh.positions.push_back({-1e6, 1e9, 4});
     const Prepared p = prepare(mesh.view(), 100);

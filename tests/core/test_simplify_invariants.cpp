@@ -11,7 +11,7 @@ using namespace faqem;
 
 namespace {
 
-constexpr Preset presets[] = {Preset::qem, Preset::paper, Preset::stmw};
+constexpr Preset presets[] = {Preset::qem, Preset::paper, Preset::stmw, Preset::fast};
 constexpr double ratios[] = {0.5, 0.1, 0.01};
 
 SimplifyResult run(const TriangleMesh& mesh, Preset preset, double share) {
@@ -115,7 +115,7 @@ TEST_CASE("results are finite, use every vertex, have faces with area and origin
     }
 }
 
-TEST_CASE("the target is met or the report says why not; something is always left") {
+TEST_CASE("the target is met or the report says why not, something is always left") {
     for (const TriangleMesh& input : all_sorts()) {
         everywhere(input, [](const TriangleMesh& mesh, const SimplifyResult& result) {
             const Report& report = result.report;

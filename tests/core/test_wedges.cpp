@@ -50,7 +50,7 @@ TEST_CASE("without attributes there is no rule and nothing to keep") {
     none.collapsing(complex, 0, 2, {0.5, 0.5, 0});
 }
 
-TEST_CASE("corners with equal values share a wedge; a vertex with two is on a seam") {
+TEST_CASE("corners with equal values share a wedge, a vertex with two is on a seam") {
     const Split split;
     for (Index v = 0; v < 9; ++v) CHECK(split.wedges.is_seam(split.complex, v) == (v % 3 == 1));
     CHECK(split.wedges.width() == 2);

@@ -1,0 +1,119 @@
+#include "faqem/engine/memoryless.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/meshes.hpp"
+#include "faqem/engine/recorder.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+Candidate evaluated(const Complex& complex, Index u, Index v, const MemorylessWeights& weights = {}) {
+    const PairTable pairs(complex, {});
+    MemorylessMetric metric(weights);
+    metric.initialise(complex, pairs);
+    const auto found = metric.evaluate(complex, pairs, u, v, Freedom::anywhere);
+    REQUIRE(found);
+    return *found;
+}
+
+// Two unit squares side by side in the plane, as four triangles:
+//
+//   3---4---5
+//   | / | / |
+//   0---1---2
+Complex strip() {
+    return Complex({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+                   {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+}
+
+}  // namespace
+
+TEST_CASE("memoryless: an open edge costs its squared length times the squared distance from its line") {
+    // Collapsing (0, 1) to a point at height y: faces are in the plane, so only border planes count. At 0: x
+    // = 0 and y = 0; at 1: y = 0 twice, edges (0, 1) and (1, 2); the shared edge (0, 1) less half of what
+    // both say of it.
+    const Complex complex = strip();
+    const PairTable pairs(complex, {});
+    MemorylessMetric metric;
+    metric.initialise(complex, pairs);
+    const Candidate at_first = *metric.evaluate(complex, pairs, 0, 1, Freedom::at_first);
+    CHECK(at_first.cost == Approx(0).margin(1e-15));
+    // From the plane x = 0 of edge (0, 3), length 1: squared distance 1.
+    const Candidate at_second = *metric.evaluate(complex, pairs, 0, 1, Freedom::at_second);
+    CHECK(at_second.cost == Approx(1));
+}
+
+TEST_CASE("memoryless: without weights of edges a plane sheet costs nothing anywhere") {
+    CHECK(evaluated(strip(), 1, 4, {0, 0}).cost == Approx(0).margin(1e-15));
+}
+
+TEST_CASE("memoryless: a shared face counts one and a half times") {
+    // A ridge: two triangles over the edge (0, 1), one in z = 0, one in y = 0; both vertices see both faces.
+    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
+    const PairTable pairs(complex, {});
+    MemorylessMetric metric({0, 0});
+    metric.initialise(complex, pairs);
+    const Candidate found = *metric.evaluate(complex, pairs, 0, 2, Freedom::at_second);
+    // (0, 2) shares the face in z = 0, on which vertex 2 lies; the other face has area 1/2 and is 1 away from
+    // it.
+    CHECK(found.cost == Approx(0.5));
+}
+
+TEST_CASE("memoryless: the corner of a cube is found from the edges beside it") {
+    const TriangleMesh cube = test::cube();
+    const Complex complex = test::complex_of(cube);
+    const Triangle& t = complex.triangle(0);
+    const Candidate found = evaluated(complex, t[0], t[1]);
+    CHECK(found.cost > 0.1);  // any point off a corner or edge leaves a face of area 1
+}
+
+TEST_CASE("memoryless: the last faces of a part cost more than anything else") {
+    const Complex triangle({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    CHECK(evaluated(triangle, 0, 1).cost > 1e5);
+}
+
+TEST_CASE("memoryless: after collapses the costs are those of the surface as it is") {
+    const TriangleMesh mesh = test::icosphere(2);
+    Complex complex = test::complex_of(mesh);
+    PairTable pairs(complex, {});
+    MemorylessMetric metric;
+    metric.initialise(complex, pairs);
+    std::vector<Index> killed;
+    std::vector<PairTable::Change> changes;
+    for (int round = 0; round < 40; ++round) {
+        Index pair = static_cast<Index>(round * 7);
+        while (!pairs.alive(pair)) ++pair;
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        const auto found = metric.evaluate(complex, pairs, u, v, Freedom::anywhere);
+        REQUIRE(found);
+        metric.collapsing(complex, pairs, u, v, found->point);
+        complex.collapse(u, v, found->point);
+        pairs.merge(complex, u, v, killed, changes);
+        metric.collapsed(complex, pairs, u, changes);
+    }
+    MemorylessMetric anew;
+    anew.initialise(complex, pairs);
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        if (!pairs.alive(pair)) continue;
+        const auto a =
+            metric.evaluate(complex, pairs, pairs.first(pair), pairs.second(pair), Freedom::anywhere);
+        const auto b =
+            anew.evaluate(complex, pairs, pairs.first(pair), pairs.second(pair), Freedom::anywhere);
+        REQUIRE(a);
+        REQUIRE(b);
+        CHECK(a->cost == Approx(b->cost).epsilon(1e-9).margin(1e-15));
+    }
+}
+
+TEST_CASE("fast says that weights do not apply to it") {
+    const TriangleMesh mesh = test::icosphere(1);
+    const SimplifyResult with =
+        simplify(mesh.view(), {.target = ratio(0.5), .preset = Preset::fast, .weights = {.area = 5}});
+    REQUIRE(with.report.warnings.size() == 1);
+    CHECK_THAT(with.report.warnings[0], Catch::Contains("preset fast has none of their terms"));
+    CHECK(simplify(mesh.view(), {.target = ratio(0.5), .preset = Preset::fast}).report.warnings.empty());
+}
