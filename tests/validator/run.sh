@@ -1,0 +1,16 @@
+#!/bin/sh
+# run.sh FAQEM MAKE_MODEL MODULES WORK: what the command writes is clean for Khronos' glTF validator.
+set -eu
+faqem=$1 make_model=$2 modules=$3 work=$4
+here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$work"
+mkdir -p "$work"
+"$make_model" "$work/model.glb" --faces 6000
+for bake in per-triangle vertex keep none; do
+    "$faqem" simplify "$work/model.glb" "$work/$bake.glb" --ratio 0.2 --bake $bake --texture-size 256 --quiet
+done
+"$faqem" simplify "$work/model.glb" "$work/files.gltf" --ratio 0.2 --texture-size 256 --quiet
+# Through OBJ and back: no scene graph, materials made anew.
+"$faqem" simplify "$work/model.glb" "$work/plain.obj" --ratio 0.5 --texture-size 256 --quiet
+"$faqem" simplify "$work/plain.obj" "$work/from-obj.glb" --ratio 0.5 --texture-size 256 --quiet
+node "$here/validate.js" "$modules" "$work"/*.glb "$work"/*.gltf

@@ -1,0 +1,26 @@
+// validate.js MODULES FILE...: fails when Khronos' validator finds an error or a warning in a file.
+const fs = require("fs");
+const path = require("path");
+
+const [modules, ...files] = process.argv.slice(2);
+const validator = require(path.join(modules, "gltf-validator"));
+
+async function problems(file) {
+    const beside = (uri) => fs.promises.readFile(path.join(path.dirname(file), decodeURIComponent(uri)));
+    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
+        uri: path.basename(file),
+        maxIssues: 20,
+        externalResourceFunction: async (uri) => new Uint8Array(await beside(uri)),
+    });
+    return report.issues.messages.filter((message) => message.severity <= 1);
+}
+
+(async () => {
+    let failed = files.length === 0;
+    for (const file of files) {
+        const found = await problems(file);
+        console.log(file, found.length ? JSON.stringify(found, null, 1) : "clean");
+        failed = failed || found.length > 0;
+    }
+    process.exit(failed ? 1 : 0);
+})();
