@@ -32,7 +32,6 @@ struct ProjectionWalk::Query {
     Index original = no_index;  // what the small face was
     Index sheet = no_index, group = no_index;
     double sign = 1;
-    double longest_edge = 0;
 };
 
 struct ProjectionWalk::Best {
@@ -70,8 +69,6 @@ ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric)
     query.sheet = sheets_.sheet[query.original];
     query.sign = sheets_.sign[query.original];
     query.group = group(query.original);
-    query.longest_edge =
-        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     return query;
 }
 
@@ -142,38 +139,46 @@ bool ProjectionWalk::passes(Index f, const Query& query) const {
         query);
 }
 
-const ProjectionWalk::Originals& ProjectionWalk::originals() const {
-    std::call_once(originals_once_, [this] {
-        std::vector<Index> root(replay_.positions.size());
-        std::iota(root.begin(), root.end(), Index{0});
+// Original faces by the last versions of their corners. Versions beyond the vertices are numbered as they
+// are, so that FaceRings can serve.
+const FaceRings& ProjectionWalk::descendants() const {
+    std::call_once(descendants_once_, [this] {
+        std::vector<Index> last(replay_.positions.size());
+        std::iota(last.begin(), last.end(), Index{0});
         for (std::size_t k = history_.collapses.size(); k-- > 0;) {
-            const Index made = root[history_.positions.size() + k];
-            root[history_.collapses[k].first] = made;
-            root[history_.collapses[k].second] = made;
+            const Index made = last[history_.positions.size() + k];
+            last[history_.collapses[k].first] = made;
+            last[history_.collapses[k].second] = made;
         }
-        originals_ = std::make_unique<const Originals>(
-            Originals{Bvh(history_.positions, history_.triangles), std::move(root)});
+        std::vector<Triangle> triangles = history_.triangles;
+        for (Triangle& t : triangles) {
+            if (t[0] != no_index) t = {last[t[0]], last[t[1]], last[t[2]]};
+        }
+        descendants_ = std::make_unique<const FaceRings>(last.size(), triangles);
     });
-    return *originals_;
+    return *descendants_;
 }
 
 // The closest original face that passes the tests and has a corner that collapsed into one of the small
 // face's.
-SurfacePoint ProjectionWalk::closest_descendant(const Query& query, double reach) const {
-    const Originals& all = originals();
-    const auto collapsed_into_ours = [&](Index v) {
-        const Index r = all.root[v];
-        return r == query.corners[0] || r == query.corners[1] || r == query.corners[2];
-    };
-    const Bvh::Hit hit = all.tree.closest_if(
-        to_array(query.p0),
-        [&](Index f) {
-            const Triangle& t = history_.triangles[f];
-            return (collapsed_into_ours(t[0]) || collapsed_into_ours(t[1]) || collapsed_into_ours(t[2])) &&
-                   passes(f, query);
-        },
-        reach * reach);
-    return {hit.face, hit.barycentric, MapStep::closest};
+SurfacePoint ProjectionWalk::closest_descendant(const Query& query) const {
+    Index best = no_index;
+    double least = infinity;
+    for (const Index corner : query.corners) {
+        for (const Index f : descendants().at(corner)) {
+            if (!passes(f, query)) continue;
+            const double d = distance_to_original(f, query.p0);
+            if (d < least || (d == least && f < best)) least = d, best = f;
+        }
+    }
+    return best == no_index ? SurfacePoint{} : on_original(best, query.p0, MapStep::closest);
+}
+
+double ProjectionWalk::distance_to_original(Index face, const Vector3& p) const {
+    const Triangle& t = history_.triangles[face];
+    return closest_point_on_triangle(p, to_eigen(history_.positions[t[0]]),
+                                     to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]))
+        .distance_squared;
 }
 
 SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
@@ -192,10 +197,7 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     const MapStep step = relaxed ? MapStep::relaxed : MapStep::history;
     const SurfacePoint answer = on_original(at.face, query.p0, step);
     if (!relaxed || passes(at.face, query)) return answer;
-    const Triangle& t = history_.triangles[at.face];
-    Vector3 point = Vector3::Zero();
-    for (std::size_t i = 0; i < 3; ++i) point += answer.barycentric[i] * to_eigen(history_.positions[t[i]]);
-    const SurfacePoint closest = closest_descendant(query, (point - query.p0).norm() + query.longest_edge);
+    const SurfacePoint closest = closest_descendant(query);
     return closest.face != no_index ? closest : answer;
 }
 
@@ -212,20 +214,13 @@ SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const
 // From `face` to the closest face around it, again and again. False when it takes too long: then the sample
 // is not as close by as was thought.
 bool ProjectionWalk::descend(const Query& query, Index& face) const {
-    const auto distance = [&](Index f) {
-        const Triangle& t = history_.triangles[f];
-        return closest_point_on_triangle(query.p0, to_eigen(history_.positions[t[0]]),
-                                         to_eigen(history_.positions[t[1]]),
-                                         to_eigen(history_.positions[t[2]]))
-            .distance_squared;
-    };
-    double least = distance(face);
+    double least = distance_to_original(face, query.p0);
     for (int step = 0; step < longest_descent; ++step) {
         const Index from = face;
         for (const Index v : history_.triangles[from]) {
             for (const Index g : rings_.at(v)) {
                 if (g == from || !passes(g, query)) continue;
-                const double d = distance(g);
+                const double d = distance_to_original(g, query.p0);
                 if (d < least || (d == least && g < face)) least = d, face = g;
             }
         }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "bvh.hpp"
+#include "faqem/engine/vector.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
 #include "mapping_replay.hpp"
@@ -43,7 +43,8 @@ private:
     bool faces_away(Index candidate, const engine::Vector3& area_vector, const Query& query) const;
     Best best_of_patch(Index collapse, Index face, const Query& query) const;
     void consider(std::uint64_t entry, Patch& patch) const;
-    SurfacePoint closest_descendant(const Query& query, double reach) const;
+    SurfacePoint closest_descendant(const Query& query) const;
+    double distance_to_original(Index face, const engine::Vector3& p) const;
     SurfacePoint on_original(Index face, const engine::Vector3& p0, MapStep step) const;
     bool descend(const Query& query, Index& face) const;
     bool passes(Index original_face, const Query& query) const;
@@ -55,13 +56,9 @@ private:
     FaceRings rings_;
 
     /// Only made when a walk ends on the wrong side.
-    struct Originals {
-        Bvh tree;
-        std::vector<Index> root;  ///< per version: the last version it became part of
-    };
-    const Originals& originals() const;
-    mutable std::once_flag originals_once_;
-    mutable std::unique_ptr<const Originals> originals_;
+    const FaceRings& descendants() const;
+    mutable std::once_flag descendants_once_;
+    mutable std::unique_ptr<const FaceRings> descendants_;
 };
 
 }  // namespace faqem::detail
