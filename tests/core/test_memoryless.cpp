@@ -48,14 +48,14 @@ TEST_CASE("memoryless: an open edge costs its squared length times the squared d
 }
 
 TEST_CASE("memoryless: without weights of edges a plane sheet costs nothing anywhere") {
-    CHECK(evaluated(strip(), 1, 4, {0, 0}).cost == Approx(0).margin(1e-15));
+    CHECK(evaluated(strip(), 1, 4, {0, 0, 0}).cost == Approx(0).margin(1e-15));
 }
 
 TEST_CASE("memoryless: a shared face counts one and a half times") {
     // A ridge: two triangles over the edge (0, 1), one in z = 0, one in y = 0; both vertices see both faces.
     const Complex complex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
     const PairTable pairs(complex, {});
-    MemorylessMetric metric({0, 0});
+    MemorylessMetric metric({0, 0, 0});
     metric.initialise(complex, pairs);
     const Candidate found = *metric.evaluate(complex, pairs, 0, 2, Freedom::at_second);
     // (0, 2) shares the face in z = 0, on which vertex 2 lies; the other face has area 1/2 and is 1 away from
@@ -69,6 +69,20 @@ TEST_CASE("memoryless: the corner of a cube is found from the edges beside it") 
     const Triangle& t = complex.triangle(0);
     const Candidate found = evaluated(complex, t[0], t[1]);
     CHECK(found.cost > 0.1);  // any point off a corner or edge leaves a face of area 1
+}
+
+TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cube is not") {
+    // Two triangles nearly on each other over the edge (0, 1): (0, 1, 2) looks down, (1, 0, 3) up.
+    const auto cost = [](double height, double fold) {
+        const Complex blade({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}}, {{1, 0, 2}, {0, 1, 3}});
+        const PairTable pairs(blade, {});
+        MemorylessMetric metric({0, 0, fold});
+        metric.initialise(blade, pairs);
+        return metric.evaluate(blade, pairs, 0, 2, Freedom::at_second)->cost;
+    };
+    // Vertex 2 is 1 away from the rim, of length 1, along which each face has a plane.
+    CHECK(cost(0.01, 0.2) - cost(0.01, 0) == Approx(0.4).epsilon(1e-3));
+    CHECK(cost(10, 0.2) == cost(10, 0));
 }
 
 TEST_CASE("memoryless: the last faces of a part cost more than anything else") {
