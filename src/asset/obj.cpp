@@ -317,6 +317,9 @@ void add_materials(Asset& asset, const Statements& in, const std::filesystem::pa
         }
         m = added[m];
     }
+    if (!libraries.empty() && asset.materials.empty()) {
+        asset.warnings.push_back("material libraries are named, but no face uses a material (usemtl)");
+    }
 }
 
 }  // namespace

@@ -207,3 +207,13 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
     CHECK(asset.images[0].uri == "inside.png");
     CHECK(asset.warnings.empty());
 }
+
+TEST_CASE("a library that no face uses is told of", "[mtl]") {
+    const TemporaryFolder folder;
+    put(folder / "a.mtl", "newmtl m\nKd 1 0 0\n");
+    put(folder / "a.obj", "mtllib a.mtl\n" + triangle);
+    const Asset asset = read_obj(folder / "a.obj");
+    CHECK(asset.materials.empty());
+    REQUIRE(asset.warnings.size() == 1);
+    CHECK_THAT(asset.warnings[0], Catch::Contains("no face uses a material"));
+}
