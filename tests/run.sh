@@ -8,7 +8,7 @@ preset=${1:-release}
 echo "== packages"
 cmake/install-packages.sh
 echo "== configure ($preset)"
-cmake --preset "$preset"
+cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start turns them off
 echo "== build"
 cmake --build --preset "$preset"
 echo "== test"
