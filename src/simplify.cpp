@@ -1,6 +1,5 @@
 #include "faqem/simplify.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,24 +8,16 @@
 #include "faqem/engine/memoryless.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
+#include "stopwatch.hpp"
 #include "virtual_edges.hpp"
 
 namespace faqem {
 
 namespace {
 
+using detail::Stopwatch;
 using engine::Complex;
 using engine::Vector3;
-
-class Stopwatch {
-public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
 std::uint64_t target_faces(const Target& target, std::size_t faces) {

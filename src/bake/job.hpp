@@ -3,7 +3,6 @@
 /// What all ways of baking share: the parts with their maps, and the result in the making.
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "bake/normals.hpp"
 #include "faqem/bake.hpp"
 #include "parallel.hpp"
+#include "stopwatch.hpp"
 
 namespace faqem::detail {
 
@@ -45,17 +45,6 @@ void polled_blocks(const BakeJob& job, Phase phase, std::size_t size, std::size_
                         [&](std::size_t b, std::size_t e) { work(begin + b, begin + e); });
     }
 }
-
-/// Wall-clock seconds since it was made.
-class Stopwatch {
-public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// `material 'red'`, or by number where it has no name.
 std::string material_title(const Asset& asset, Index material);

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -13,6 +12,7 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
+#include "stopwatch.hpp"
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/interrupt.hpp"
@@ -22,6 +22,8 @@
 namespace faqem::tool {
 
 namespace {
+
+using detail::Stopwatch;
 
 constexpr std::array<std::pair<std::string_view, Bake>, 4> bakes = {{{"per-triangle", Bake::per_triangle},
                                                                      {"vertex", Bake::vertex},
@@ -96,16 +98,6 @@ void check_outputs(const Arguments& arguments) {
         taken.emplace_back(file);
     }
 }
-
-class Stopwatch {
-public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void write_histories(const Arguments& arguments, const std::vector<CollapseHistory>& histories) {
     std::ostringstream out;

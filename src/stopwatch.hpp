@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// Time for the report.
+
+#include <chrono>
+
+namespace faqem::detail {
+
+/// Wall-clock seconds since it was made.
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace faqem::detail
