@@ -20,6 +20,7 @@ struct Arguments {
 
 Json side_json(const OneSided& side) {
     return {{"max", side.max},
+            {"max_bound", side.max_bound},
             {"mean", side.mean},
             {"mean_squared", side.mean_squared},
             {"mean_normal_degrees", side.mean_normal_degrees}};
@@ -43,6 +44,8 @@ int run(const Arguments& arguments) {
                 {"diagonal", d},
                 {"hausdorff", result.hausdorff},
                 {"hausdorff_rel", result.hausdorff / d},
+                {"hausdorff_bound", result.hausdorff_bound},
+                {"hausdorff_bound_rel", result.hausdorff_bound / d},
                 {"chamfer", result.chamfer},
                 {"chamfer_rel", result.chamfer / (d * d)},
                 {"mean_normal_degrees", result.mean_normal_degrees},
@@ -51,7 +54,8 @@ int run(const Arguments& arguments) {
                 {"info_a", info_json(info(view_a))},
                 {"info_b", info_json(info(view_b))},
                 {"samples", arguments.options.samples},
-                {"seed", arguments.options.seed}});
+                {"seed", arguments.options.seed},
+                {"tolerance", arguments.options.tolerance}});
     return exit_ok;
 }
 
@@ -65,6 +69,10 @@ void add_compare_command(CLI::App& app, Action& action) {
     command->add_option("--samples", arguments->options.samples, "Samples on each model (default 200000)")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
     command->add_option("--seed", arguments->options.seed, "Another seed, other samples (default 1)");
+    command
+        ->add_option("--tolerance", arguments->options.tolerance,
+                     "Gap allowed between a largest distance and its bound, as a share of it (default 0.01)")
+        ->check(CLI::Range(0.0, 1e9));
     command
         ->add_option("--threads", arguments->options.threads,
                      "Threads at most; the result does not depend on it")

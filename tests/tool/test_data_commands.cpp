@@ -51,6 +51,12 @@ TEST_CASE("compare measures distances and tells what it measured") {
     CHECK(result["chamfer"].get<double>() == Approx(0.5));
     CHECK(result["diagonal"].get<double>() == Approx(std::sqrt(8.0)));
     CHECK(result["hausdorff_rel"].get<double>() == Approx(0.5 / std::sqrt(8.0)));
+    const double bound = result["hausdorff_bound"].get<double>();
+    CHECK(bound >= result["hausdorff"].get<double>());
+    CHECK(bound <= 0.5 * 1.01 + 1e-7);
+    CHECK(result["hausdorff_bound_rel"].get<double>() == Approx(bound / std::sqrt(8.0)));
+    CHECK(result["b_to_a"]["max_bound"].get<double>() >= result["b_to_a"]["max"].get<double>());
+    CHECK(result["tolerance"] == 0.01);
     CHECK(result["chamfer_rel"].get<double>() == Approx(0.5 / 8));
     CHECK(result["a_to_b"]["mean"].get<double>() == Approx(0.5));
     CHECK(result["info_a"]["faces"] == 50);

@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// Meshes as surfaces to measure between: their faces with area, and nearest faces of many points.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bvh.hpp"
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// The faces with area of a mesh.
+struct Surface {
+    std::vector<Vec3> positions;           ///< used ones, each once (-0 equals 0), in order of x, y, z
+    std::vector<Triangle> triangles;       ///< with area
+    std::vector<engine::Vector3> normals;  ///< unit, per triangle
+    std::vector<double> area_up_to;        ///< per triangle: area of it and all before
+    engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();
+
+    double diagonal() const { return (high - low).norm(); }
+    engine::Vector3 corner(Index f, std::size_t k) const {
+        return engine::to_eigen(positions[triangles[f][k]]);
+    }
+    /// Squared distance of p to face f.
+    double distance_squared(const engine::Vector3& p, Index f) const {
+        return closest_point_on_triangle(p, corner(f, 0), corner(f, 1), corner(f, 2)).distance_squared;
+    }
+};
+
+/// Leaves out faces that are lower than 1e-12 of their longest edge, and those that are not finite.
+/// \param name  of the mesh, for errors
+/// \throws InputError  no face has area, or an index is out of range
+/// O(n log n)
+Surface make_surface(const MeshView& mesh, const char* name);
+
+/// Closest points for queries that come in spatial order: the answer to one bounds the next. Refers to its
+/// arguments; the tree is that of the surface.
+class CoherentQuery {
+public:
+    CoherentQuery(const Surface& surface, const Bvh& tree) : surface_(surface), tree_(tree) {}
+
+    /// The point closest to p, as Bvh::closest().
+    Bvh::Hit operator()(const Vec3& p) {
+        const ClosestPoint near_last =
+            closest_point_on_triangle(engine::to_eigen(p), surface_.corner(last_, 0),
+                                      surface_.corner(last_, 1), surface_.corner(last_, 2));
+        Bvh::Hit hit = tree_.closest(p, near_last.distance_squared);
+        if (hit.face == no_index) {  // rounding: the box may seem a last digit farther than what is in it
+            hit = {last_, engine::to_array(near_last.barycentric), engine::to_array(near_last.point),
+                   near_last.distance_squared};
+        }
+        last_ = hit.face;
+        return hit;
+    }
+
+    /// As the call with one argument, where p is thought to be near this face.
+    Bvh::Hit operator()(const Vec3& p, Index near) {
+        last_ = near;
+        return (*this)(p);
+    }
+
+private:
+    const Surface& surface_;
+    const Bvh& tree_;
+    Index last_ = 0;
+};
+
+}  // namespace faqem::detail
