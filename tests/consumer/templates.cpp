@@ -15,7 +15,9 @@ struct ShortestEdge {
                     faqem::Index, const faqem::engine::Vector3&) {}
     void collapsed(const faqem::engine::Complex&, const faqem::engine::PairTable&, faqem::Index,
                    std::span<const faqem::engine::PairTable::Change>) {}
-    bool affects(const faqem::engine::PairTable::Change&) const { return true; }
+    faqem::engine::Staleness staleness(const faqem::engine::PairTable::Change&) const {
+        return faqem::engine::Staleness::now;
+    }
 };
 
 int main() {

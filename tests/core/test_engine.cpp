@@ -38,7 +38,7 @@ struct Script {
     }
     void collapsing(const Complex&, const PairTable&, Index, Index, const Vector3&) {}
     void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
-    bool affects(const PairTable::Change&) const { return false; }
+    Staleness staleness(const PairTable::Change&) const { return Staleness::none; }
 };
 
 // A run of the engine over a mesh, with everything that it changed.
@@ -177,6 +177,39 @@ TEST_CASE("the cheapest pair goes first, and the loop ends at the target") {
     CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(0, 1));
     CHECK(play.complex.face_count() == 5);
     CHECK(result.rungs == decltype(result.rungs){});
+}
+
+namespace {
+
+// As Script, but some pairs turn out dearer when it comes to it.
+struct Surprise : Script {
+    std::map<Ends, double> real;
+    double refine(const Complex&, Index u, Index v, const Candidate& candidate) {
+        const auto at = real.find(ends(u, v));
+        return at == real.end() ? candidate.cost : at->second;
+    }
+};
+static_assert(RefiningMetric<Surprise> && !RefiningMetric<Script>);
+
+}  // namespace
+
+TEST_CASE("a pair that turns out dearer than the next one waits for its turn") {
+    Surprise script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
+    script.real = {{{0, 1}, 1.5}};  // the costs are 0, 1 and 2: it comes second now
+    Play<Surprise> play(test::grid(2), script);
+    CHECK(play.run(5, {LinkCondition::off, 0, 0}).collapses == 2);
+    const CollapseHistory history = play.recorder.take();
+    CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(3, 4));
+    CHECK(ends(history.collapses[1].first, history.collapses[1].second) == Ends(0, 1));
+}
+
+TEST_CASE("a pair that is the last one goes, however dear it is") {
+    Surprise script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}};
+    script.real = {{{0, 1}, 1e9}};
+    Play<Surprise> play(test::grid(2), script);
+    CHECK(play.run(7, {LinkCondition::off, 0, 0}).collapses == 1);
 }
 
 TEST_CASE("the ladder allows flips to -1/2, then all of them, each step counted") {

@@ -145,8 +145,8 @@ TEST_CASE("the area term is that of the border as it is now, not of its history"
 TEST_CASE("only the area term reaches beyond the survivor's own pairs") {
     const PairTable::Change open{{1, 2}, true}, inner{{1, 2}, false};
     CompositeWeights w;
-    CHECK_FALSE(MemoryMetric(w).affects(open));
+    CHECK(MemoryMetric(w).staleness(open) == Staleness::none);
     w.area = 1;
-    CHECK(MemoryMetric(w).affects(open));
-    CHECK_FALSE(MemoryMetric(w).affects(inner));
+    CHECK(MemoryMetric(w).staleness(open) == Staleness::now);
+    CHECK(MemoryMetric(w).staleness(inner) == Staleness::none);
 }

@@ -53,12 +53,13 @@ Model after_collapse(const Model& before, const Complex& complex, Index u, Index
 
 bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) {
     Model found;
-    std::vector<std::uint32_t> open(complex.vertex_slots(), 0);
+    std::vector<std::uint32_t> open(complex.vertex_slots(), 0), crowded(complex.vertex_slots(), 0);
     for (Index p = 0; p < pairs.size(); ++p) {
         if (!pairs.alive(p)) continue;
         const Ends e = ends(pairs.first(p), pairs.second(p));
         if (!found.insert({e, {pairs.face_count(p), false}}).second) return false;
         if (pairs.face_count(p) == 1) ++open[e.first], ++open[e.second];
+        if (pairs.face_count(p) > 2) ++crowded[e.first], ++crowded[e.second];
     }
     if (found.size() != model.size()) return false;
     for (const auto& [pair, what] : model) {
@@ -75,7 +76,9 @@ bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) 
         for (const auto& entry : model) {
             if (entry.first.first == v || entry.first.second == v) expected.insert(entry.first);
         }
-        if (!good || listed != expected || pairs.boundary_degree(v) != open[v]) return false;
+        if (!good || listed != expected || pairs.boundary_degree(v) != open[v] ||
+            pairs.nonmanifold_degree(v) != crowded[v])
+            return false;
     }
     return true;
 }

@@ -20,6 +20,16 @@ TEST_CASE("equal costs come out by index, however they went in") {
     CHECK(order == std::vector<Index>{5, 0, 1, 2, 3, 4});
 }
 
+TEST_CASE("the queue knows what is in it") {
+    HeapQueue queue;
+    queue.reserve(3);
+    queue.set(1, 2.0);
+    CHECK(queue.contains(1));
+    CHECK_FALSE(queue.contains(0));
+    queue.pop();
+    CHECK_FALSE(queue.contains(1));
+}
+
 TEST_CASE("the heap does what an ordered set does") {
     test::Random random(5);
     HeapQueue queue;

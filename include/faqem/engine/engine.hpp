@@ -114,7 +114,8 @@ private:
                 result_.stop = StopReason::cancelled;
                 return true;
             }
-            try_collapse(queue_.pop());
+            const double cost = queue_.lowest();
+            try_collapse(queue_.pop(), cost);
         }
         return true;
     }
@@ -157,13 +158,17 @@ private:
         }
     }
 
-    void try_collapse(Index pair) {
+    void try_collapse(Index pair, double expected) {
         Index u = pairs_.first(pair), v = pairs_.second(pair);
         const auto found = candidate(pair);
         if (!found) return;
+        if (postpone(pair, found->cost, expected)) return;
         if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces);
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
             return refuse(*refusal);
+        }
+        if constexpr (RefiningMetric<Metric>) {
+            if (postpone(pair, metric_.refine(complex_, u, v, *found), expected)) return;
         }
         // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
         // a hub.
@@ -171,6 +176,13 @@ private:
             locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
         collapse(u, v, found->point);
+    }
+
+    // A pair that turns out dearer than it seemed, and than the next one, waits for its turn.
+    bool postpone(Index pair, double cost, double expected) {
+        if (!(cost > expected) || queue_.empty() || !(cost > queue_.lowest())) return false;
+        queue_.set(pair, cost);
+        return true;
     }
 
     void collapse(Index survivor, Index gone, const Vector3& p) {
@@ -188,9 +200,11 @@ private:
             if (change.neighbour.pair != no_index) evaluate(change.neighbour.pair);
         }
         for (const PairTable::Change& change : changes_) {
-            if (!metric_.affects(change)) continue;
+            const Staleness staleness = metric_.staleness(change);
+            if (staleness == Staleness::none) continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
-                if (n.vertex != survivor) evaluate(n.pair);
+                if (n.vertex == survivor) return;
+                if (staleness == Staleness::now || !queue_.contains(n.pair)) evaluate(n.pair);
             });
         }
     }

@@ -105,9 +105,8 @@ private:
     }
 
     static bool is_manifold(const PairTable& pairs, Index v) {
-        bool manifold = pairs.boundary_degree(v) == 0 || pairs.boundary_degree(v) == 2;
-        pairs.for_each_pair(v, [&](Neighbour n) { manifold &= pairs.face_count(n.pair) <= 2; });
-        return manifold;
+        return pairs.nonmanifold_degree(v) == 0 &&
+               (pairs.boundary_degree(v) == 0 || pairs.boundary_degree(v) == 2);
     }
 
     void mark_edges(const PairTable& pairs, Index u) {

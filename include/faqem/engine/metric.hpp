@@ -17,6 +17,13 @@
 
 namespace faqem::engine {
 
+/// What a collapse does to the cost of other pairs of the survivor's neighbours.
+enum class Staleness {
+    none,    ///< nothing
+    lazily,  ///< it is looked at again when the pair's turn comes; vetoed pairs are tried again
+    now,     ///< it is evaluated at once
+};
+
 /// A metric owns its state per vertex and is told of every collapse.
 template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const Complex& complex,
@@ -30,8 +37,16 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Complex
     {metric.collapsing(complex, pairs, u, v, p)};
     // The collapse is done; `around` are the survivor's neighbours.
     {metric.collapsed(complex, pairs, u, around)};
-    // Did it change the cost of other pairs of this neighbour of the survivor?
-    { const_metric.affects(change) } -> std::same_as<bool>;
+    // What it did to other pairs of this neighbour of the survivor.
+    { const_metric.staleness(change) } -> std::same_as<Staleness>;
+};
+
+/// A metric whose costs come in two steps: evaluate() tells at least, refine() what it really is.
+template <class M>
+concept RefiningMetric = CollapseMetric<M> &&
+    requires(M metric, const Complex& complex, Index u, Index v, const Candidate& candidate) {
+    // Cost of a candidate of evaluate(): not below candidate.cost.
+    { metric.refine(complex, u, v, candidate) } -> std::same_as<double>;
 };
 
 /// When the area term takes part.
@@ -98,8 +113,8 @@ public:
 
     void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
 
-    bool affects(const PairTable::Change& change) const {
-        return weights_.area > 0 && change.boundary_changed;
+    Staleness staleness(const PairTable::Change& change) const {
+        return weights_.area > 0 && change.boundary_changed ? Staleness::now : Staleness::none;
     }
 
     /// The quadric that vertex v carries.

@@ -28,6 +28,7 @@ public:
     PairTable(const Complex& complex, std::span<const std::pair<Index, Index>> virtual_pairs)
         : first_(complex.vertex_slots(), no_index),
           boundary_degree_(complex.vertex_slots(), 0),
+          nonmanifold_degree_(complex.vertex_slots(), 0),
           mark_(complex.vertex_slots(), no_index) {
         for (Index v = 0; v < complex.vertex_slots(); ++v) add_edges_above(complex, v);
         for (const auto& [a, b] : virtual_pairs) is_virtual_[add(a, b)] = 1;
@@ -41,6 +42,8 @@ public:
     std::uint32_t face_count(Index pair) const { return face_count_[pair]; }
     /// Number of edges at v with exactly one face.
     std::uint32_t boundary_degree(Index v) const { return boundary_degree_[v]; }
+    /// Number of edges at v with more than two faces.
+    std::uint32_t nonmanifold_degree(Index v) const { return nonmanifold_degree_[v]; }
 
     /// Calls visit(Neighbour) for each living pair of v.
     template <class Visit>
@@ -120,7 +123,8 @@ private:
         });
         for (Index pair = begin; pair < size(); ++pair) {
             mark_[second(pair)] = no_index;
-            if (face_count_[pair] == 1) ++boundary_degree_[v], ++boundary_degree_[second(pair)];
+            const std::uint32_t count = std::exchange(face_count_[pair], 0);
+            set_face_count(pair, count);
         }
     }
 
@@ -148,14 +152,18 @@ private:
 
     void move_end(Index pair, Index from, Index to, Index slot) {
         if (face_count_[pair] == 1) --boundary_degree_[from], ++boundary_degree_[to];
+        if (face_count_[pair] > 2) --nonmanifold_degree_[from], ++nonmanifold_degree_[to];
         ends_[slot] = to;
     }
 
     void set_face_count(Index pair, std::uint32_t count) {
-        const int change = (count == 1) - (face_count_[pair] == 1);
-        boundary_degree_[first(pair)] += static_cast<std::uint32_t>(change);
-        boundary_degree_[second(pair)] += static_cast<std::uint32_t>(change);
-        face_count_[pair] = count;
+        const std::uint32_t before = std::exchange(face_count_[pair], count);
+        if ((before == 1) != (count == 1)) change_degree(boundary_degree_, pair, count == 1);
+        if ((before > 2) != (count > 2)) change_degree(nonmanifold_degree_, pair, count > 2);
+    }
+
+    void change_degree(std::vector<std::uint32_t>& degree, Index pair, bool up) {
+        for (const Index v : {first(pair), second(pair)}) up ? ++degree[v] : --degree[v];
     }
 
     void count_faces(const Complex& complex, Index survivor, std::vector<Change>& changes) {
@@ -184,7 +192,7 @@ private:
     std::vector<Index> first_, next_;  // lists of slots (2 * pair + end) per vertex
     std::vector<std::uint32_t> face_count_;
     std::vector<std::uint8_t> is_virtual_;
-    std::vector<std::uint32_t> boundary_degree_;
+    std::vector<std::uint32_t> boundary_degree_, nonmanifold_degree_;
     std::vector<Index> mark_;  // scratch: pair to a vertex, while gathering
 };
 

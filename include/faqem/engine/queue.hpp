@@ -20,6 +20,7 @@ concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, doub
     {queue.erase(pair)};                     // does nothing when the pair is not in it
     { queue.pop() } -> std::same_as<Index>;  // removes and returns the cheapest; not empty
     { const_queue.empty() } -> std::same_as<bool>;
+    { const_queue.contains(pair) } -> std::same_as<bool>;
     { const_queue.lowest() } -> std::same_as<double>;  // cost of the cheapest; not empty
 };
 
@@ -33,6 +34,7 @@ public:
     }
 
     bool empty() const { return heap_.empty(); }
+    bool contains(Index pair) const { return place_[pair] != no_index; }
     double lowest() const { return heap_.front().cost; }
 
     void set(Index pair, double cost) {
