@@ -47,6 +47,12 @@ Settings fast() {
     return s;
 }
 
+Settings balanced() {
+    Settings s = fast();
+    s.carry = Settings::Carry::tracked;
+    return s;
+}
+
 Settings named(Preset preset) {
     switch (preset) {
         case Preset::qem:
@@ -56,9 +62,11 @@ Settings named(Preset preset) {
         case Preset::stmw:
             return stmw();
         case Preset::fast:
+            return fast();
+        case Preset::balanced:
             break;
     }
-    return fast();
+    return balanced();
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace faqem::detail {
 /// A preset with the user's weights and rules put in.
 struct Settings {
     /// Memory: quadrics are summed up along the collapses. Memoryless: they belong to the surface as it is.
-    enum class Carry { memory, memoryless };
+    /// Tracked: memoryless, and the distance to the original is watched.
+    enum class Carry { memory, memoryless, tracked };
     Carry carry = Carry::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;

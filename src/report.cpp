@@ -11,7 +11,7 @@ namespace faqem {
 namespace {
 
 // Names by enumerator; the order is the enums'.
-constexpr std::array<std::string_view, 4> preset_names = {"qem", "paper", "stmw", "fast"};
+constexpr std::array<std::string_view, 5> preset_names = {"qem", "paper", "stmw", "fast", "balanced"};
 constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};

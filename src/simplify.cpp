@@ -6,6 +6,8 @@
 
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/tracked.hpp"
+#include "original_tree.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
 #include "stopwatch.hpp"
@@ -74,8 +76,16 @@ engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedge
                                                                              metric, recorder);
         return engine.run(loop);
     };
-    if (settings.carry == detail::Settings::Carry::memoryless) return collapse(engine::MemorylessMetric());
-    return collapse(engine::MemoryMetric(settings.weights, seam));
+    switch (settings.carry) {
+        case detail::Settings::Carry::memory:
+            return collapse(engine::MemoryMetric(settings.weights, seam));
+        case detail::Settings::Carry::memoryless:
+            return collapse(engine::MemorylessMetric());
+        case detail::Settings::Carry::tracked:
+            break;
+    }
+    const detail::OriginalTree original(complex);
+    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, original, loop.target_faces));
 }
 
 // Everything of one run, in the order it is made.
@@ -201,7 +211,7 @@ private:
     void finish_report() {
         Report& report = result_.report;
         const Weights& w = options_.weights;
-        if (settings_.carry == detail::Settings::Carry::memoryless &&
+        if (settings_.carry != detail::Settings::Carry::memory &&
             (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
             report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
                                       std::string(name(options_.preset)) + " has none of their terms");

@@ -24,10 +24,11 @@ constexpr Target faces(std::uint64_t n) { return {Target::Kind::faces, static_ca
 
 /// A named choice of metric, weights and rules.
 enum class Preset {
-    qem,    ///< Garland and Heckbert 1997: plane quadrics, link condition
-    paper,  ///< FA-QEM as written: inverse-area base, curvature boundary, normal and area terms
-    stmw,   ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
-    fast,   ///< area-weighted planes without memory, planes that hold open edges; the weights do not apply
+    qem,       ///< Garland and Heckbert 1997: plane quadrics, link condition
+    paper,     ///< FA-QEM as written: inverse-area base, curvature boundary, normal and area terms
+    stmw,      ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
+    fast,      ///< area-weighted planes without memory, planes that hold open edges; the weights do not apply
+    balanced,  ///< as fast, and what a collapse adds to the largest distance from the original counts too
 };
 
 /// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
@@ -103,7 +104,7 @@ struct BakeOptions {
 /// Everything that can be asked of simplify().
 struct Options {
     Target target = {};
-    Preset preset = Preset::fast;
+    Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};
     Recording history = Recording::off;

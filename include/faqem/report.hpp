@@ -51,7 +51,7 @@ struct PhaseSeconds {
 
 /// The result's passport. Counts are sums where several meshes were simplified.
 struct Report {
-    Preset preset = Preset::fast;
+    Preset preset = Preset::balanced;
     std::uint64_t faces_in = 0, faces_out = 0;
     std::uint64_t vertices_in = 0, vertices_out = 0;
     std::uint64_t target_faces = 0;

@@ -47,6 +47,16 @@ TEST_CASE("qem is Garland and Heckbert's: plain planes, the link condition") {
     CHECK(s.weld_distance == 0);
 }
 
+TEST_CASE("fast has no memory, balanced tracks the distance besides") {
+    CHECK(of(Preset::fast).carry == detail::Settings::Carry::memoryless);
+    const detail::Settings s = of(Preset::balanced);
+    CHECK(s.carry == detail::Settings::Carry::tracked);
+    CHECK(s.link == LinkCondition::on);
+    CHECK(s.least_turn == 0.3);
+    CHECK(s.diagonal == 1);
+    CHECK(detail::settings({}).carry == detail::Settings::Carry::tracked);
+}
+
 TEST_CASE("stmw weighs planes by area and places with the area term") {
     const detail::Settings s = of(Preset::stmw);
     CHECK(s.weights.base == BaseWeight::area);

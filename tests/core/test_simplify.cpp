@@ -11,7 +11,7 @@ using namespace faqem;
 
 namespace {
 
-constexpr Preset presets[] = {Preset::qem, Preset::paper, Preset::stmw, Preset::fast};
+constexpr Preset presets[] = {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced};
 
 Options options(Preset preset, Target target) {
     Options o;

@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// Squared distance from many points to one triangle.
+
+#include <algorithm>
+
+#include "faqem/engine/vector.hpp"
+
+namespace faqem::engine {
+
+/// A triangle prepared for distance queries. Slivers, segments and points are triangles too.
+class TriangleDistance {
+public:
+    TriangleDistance(const Vector3& a, const Vector3& b, const Vector3& c)
+        : a_(a), ab_(b - a), ac_(c - a), bc_(c - b) {
+        ab2_ = ab_.squaredNorm(), ac2_ = ac_.squaredNorm(), ab_ac_ = ab_.dot(ac_);
+        const double det = ab2_ * ac2_ - ab_ac_ * ab_ac_;
+        if (det > least_sine_squared * ab2_ * ac2_) per_det_ = 1 / det;
+        per_ab2_ = inverse(ab2_), per_ac2_ = inverse(ac2_), per_bc2_ = inverse(bc_.squaredNorm());
+    }
+
+    /// Squared distance of p. O(1)
+    double operator()(const Vector3& p) const {
+        const Vector3 from_a = p - a_, from_b = from_a - ab_;
+        const double along_ab = ab_.dot(from_a), along_ac = ac_.dot(from_a);
+        const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * per_det_;
+        const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * per_det_;
+        if (per_det_ > 0 && v >= 0 && w >= 0 && v + w <= 1) return (from_a - v * ab_ - w * ac_).squaredNorm();
+        return std::min({(from_a - unit(along_ab * per_ab2_) * ab_).squaredNorm(),
+                         (from_a - unit(along_ac * per_ac2_) * ac_).squaredNorm(),
+                         (from_b - unit(bc_.dot(from_b) * per_bc2_) * bc_).squaredNorm()});
+    }
+
+private:
+    /// Below it the inside of a triangle says no more than its sides do.
+    static constexpr double least_sine_squared = 1e-14;
+
+    static double inverse(double x) { return x > 0 ? 1 / x : 0; }
+    static double unit(double t) { return std::clamp(t, 0.0, 1.0); }
+
+    Vector3 a_, ab_, ac_, bc_;
+    double ab2_ = 0, ac2_ = 0, ab_ac_ = 0;
+    double per_det_ = 0, per_ab2_ = 0, per_ac2_ = 0, per_bc2_ = 0;  // reciprocals; 0 where there is none
+};
+
+}  // namespace faqem::engine

@@ -1,0 +1,37 @@
+#include "faqem/engine/distance.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/meshes.hpp"
+#include "triangle.hpp"
+
+using namespace faqem;
+using engine::TriangleDistance;
+using engine::Vector3;
+
+TEST_CASE("distance: inside, beyond a side and beyond a corner of a right triangle") {
+    const TriangleDistance triangle({0, 0, 0}, {4, 0, 0}, {0, 3, 0});
+    CHECK(triangle({1, 1, 2}) == Approx(4));
+    CHECK(triangle({1, -2, 0}) == Approx(4));
+    CHECK(triangle({-3, -4, 0}) == Approx(25));
+    CHECK(triangle({7, 0, 4}) == Approx(25));
+    CHECK(triangle({4, 3, 0}) == Approx(2.4 * 2.4));  // the height over the hypotenuse
+}
+
+TEST_CASE("distance: it is that of the closest point, on slivers, segments and points too") {
+    test::Random random(3);
+    const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
+    for (int i = 0; i < 2000; ++i) {
+        const Vector3 a = point();
+        Vector3 b = point(), c = point();
+        if (i % 4 == 1) c = a + random.unit() * (b - a) + 1e-6 * point();
+        if (i % 4 == 2) c = a + 2 * random.unit() * (b - a);
+        if (i % 4 == 3) b = c = a;
+        const TriangleDistance distance(a, b, c);
+        for (int k = 0; k < 20; ++k) {
+            const Vector3 p = 3 * point();
+            const double expected = detail::closest_point_on_triangle(p, a, b, c).distance_squared;
+            REQUIRE(distance(p) == Approx(expected).epsilon(1e-7).margin(1e-12));
+        }
+    }
+}

@@ -1,0 +1,124 @@
+#include "faqem/engine/tracked.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/meshes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/simplify.hpp"
+#include "original_tree.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+// The original, looked at face by face.
+struct AllFaces {
+    const TriangleMesh& mesh;
+    double squared_distance(const Vector3& p, double at_most) const {
+        for (const Triangle& t : mesh.triangles) {
+            const TriangleDistance d(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
+                                     to_eigen(mesh.positions[t[2]]));
+            at_most = std::min(at_most, d(p));
+        }
+        return at_most;
+    }
+};
+
+struct Bench {
+    explicit Bench(const TriangleMesh& mesh)
+        : complex(test::complex_of(mesh)),
+          pairs(complex, {}),
+          original{mesh},
+          metric({0, 0, 0}, original, mesh.triangles.size()) {
+        metric.initialise(complex, pairs);
+    }
+    void collapse(Index u, Index v, const Vector3& p) {
+        std::vector<Index> killed;
+        std::vector<PairTable::Change> changes;
+        metric.collapsing(complex, pairs, u, v, p);
+        complex.collapse(u, v, p);
+        pairs.merge(complex, u, v, killed, changes);
+        metric.collapsed(complex, pairs, u, changes);
+    }
+
+    Complex complex;
+    PairTable pairs;
+    AllFaces original;
+    TrackedMetric<AllFaces> metric;
+};
+
+}  // namespace
+
+TEST_CASE("tracked: a collapse costs the mean face area times the largest squared distance, besides") {
+    // A pyramid over the unit square: apex 4 at height h joined with corner 0 leaves the flat square, from
+    // which the apex is h away. Faces there would be: (0, 1, 2) and (0, 2, 3).
+    const double h = 0.5;
+    const TriangleMesh pyramid = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, h}},
+                                            {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+    Bench bench(pyramid);
+    const double face_area = 0.5 * std::sqrt(0.25 + h * h);
+    const Candidate flat{{0, 0, 0}, 7};
+    CHECK(bench.metric.refine(bench.complex, 0, 4, flat) == Approx(7 + face_area * h * h));
+}
+
+TEST_CASE("tracked: the way back counts, from the new vertex to the original") {
+    // A flat square with its centre: the centre lifted by 1 leaves all vertices on the surface there would
+    // be, or near it; the new vertex is 1 away from the original.
+    const TriangleMesh flat =
+        test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0, 0}},
+                   {{0, 5, 4}, {5, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+    Bench bench(flat);
+    const Candidate lifted{{0.5, 0.25, 1}, 0};
+    CHECK(bench.metric.refine(bench.complex, 4, 5, lifted) == Approx(1.0 / 5));
+}
+
+TEST_CASE("tracked: small errors in one direction add up") {
+    // A strip bent into half a circle: after some collapses onto one vertex the distance from those that are
+    // gone is counted, though the faces of today know nothing of them.
+    TriangleMesh strip;
+    const int n = 8;
+    for (int i = 0; i <= n; ++i) {
+        const double a = test::pi * i / n;
+        for (const double z : {0.0, 1.0}) strip.positions.push_back({std::cos(a), std::sin(a), z});
+    }
+    for (Index i = 0; i < 2 * n; i += 2) {
+        strip.triangles.push_back({i, i + 2, i + 1});
+        strip.triangles.push_back({i + 1, i + 2, i + 3});
+    }
+    Bench bench(strip);
+    const Index end = 0;
+    double last = 0;
+    for (Index next = 2; next < 8; next += 2) {
+        const Candidate there{bench.complex.position(end), 0};
+        const double cost = bench.metric.refine(bench.complex, end, next, there);
+        CHECK(cost > last);
+        last = cost;
+        bench.collapse(end, next, there.point);
+    }
+}
+
+TEST_CASE("tracked: where nothing is left around the pair the planes alone tell") {
+    Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    CHECK(bench.metric.refine(bench.complex, 0, 1, {{0.5, 0, 0}, 3}) == 3);
+}
+
+TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the largest distance") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.03, 5);
+    const auto hausdorff = [&](Preset preset) {
+        const SimplifyResult r = simplify(mesh.view(), {.target = ratio(0.1), .preset = preset});
+        CHECK(r.mesh.triangles.size() <= mesh.triangles.size() / 10);
+        return compare(mesh.view(), r.mesh.view(), {.samples = 20'000}).hausdorff;
+    };
+    CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
+}
+
+TEST_CASE("tracked: the tree of the original gives the distance, or the limit where that is smaller") {
+    const Complex complex = test::complex_of(test::icosphere(2));
+    const detail::OriginalTree tree(complex);
+    const TriangleMesh sphere = test::icosphere(2);
+    const AllFaces faces{sphere};
+    const Vector3 p(0.3, 1.1, -0.4);
+    CHECK(tree.squared_distance(p, 100) == Approx(faces.squared_distance(p, 100)));
+    CHECK(tree.squared_distance(p, 1e-6) == 1e-6);
+}
