@@ -1,0 +1,55 @@
+"""Plots as SVG, the same bytes for the same rows."""
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend is chosen)
+
+plt.rcParams.update({"svg.hashsalt": "faqem", "svg.fonttype": "none", "font.size": 9,
+                     "axes.spines.top": False, "axes.spines.right": False})
+
+
+def save(figure, file):
+    figure.tight_layout()
+    figure.savefig(file, metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+
+
+def per_mesh_ratios(file, series, title, measures):
+    """One panel per measure: a dot per mesh, a bar at the geometric mean. series: name -> against()."""
+    names = list(series)
+    figure, panels = plt.subplots(1, len(measures), figsize=(3.4 * len(measures), 0.9 + 0.3 * len(names)),
+                                  sharey=True)
+    for panel, (key, label) in zip(panels, measures):
+        for y, name in enumerate(names):
+            ours = name.startswith("faqem-")
+            colour = "tab:blue" if ours else "tab:gray"
+            values = [v[key] for v in series[name]["per_mesh"].values() if v[key] > 0]
+            panel.scatter(values, [y] * len(values), s=7, color=colour, alpha=0.4, linewidths=0)
+            mean = series[name]["geomean"][key]
+            if mean:
+                panel.plot([mean, mean], [y - 0.35, y + 0.35], color=colour, linewidth=2.5)
+        panel.set_xscale("log")
+        panel.axvline(1, color="black", linewidth=0.6)
+        panel.set_xlabel(label)
+        panel.set_yticks(range(len(names)), names)
+    panels[0].invert_yaxis()
+    figure.suptitle(title)
+    save(figure, file)
+
+
+def lines(file, panels, title, ylabel):
+    """One panel per entry of panels: name -> (labels, {line name -> values})."""
+    figure, axes = plt.subplots(1, len(panels), figsize=(2.9 * len(panels), 2.8), sharey=True, squeeze=False)
+    for axis, (name, (labels, curves)) in zip(axes[0], panels.items()):
+        for curve, values in curves.items():
+            points = [(x, y) for x, y in enumerate(values) if y]
+            axis.plot([x for x, _ in points], [y for _, y in points], marker="o", label=curve)
+        axis.set_xticks(range(len(labels)), labels)
+        axis.set_yscale("log")
+        axis.axhline(1, color="black", linewidth=0.6)
+        axis.set_title(name)
+    axes[0][0].set_ylabel(ylabel)
+    axes[0][-1].legend(fontsize=7)
+    figure.suptitle(title)
+    save(figure, file)
