@@ -1,9 +1,10 @@
 #!/bin/sh
-# Installs what faqem needs to build and test on Debian 12. Uses sudo only when not root.
+# Installs what faqem needs to build and test on Debian 12, and the packages named on the command line.
+# Uses sudo only when not root.
 set -eu
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev libnanoflann-dev nlohmann-json3-dev \
-libopenmesh-dev libtinygltf-dev libopenimageio-dev openimageio-tools libcli11-dev catch2"
+libopenmesh-dev libtinygltf-dev libopenimageio-dev openimageio-tools libcli11-dev catch2 $*"
 # The glTF validator runs on Node. A Node from elsewhere brings its own npm, which Debian's package conflicts with.
 command -v npm >/dev/null 2>&1 || packages="$packages npm"
 

@@ -6,7 +6,10 @@ cd "$(dirname "$0")/.."
 preset=${1:-release}
 
 echo "== packages"
-cmake/install-packages.sh
+case $preset in
+    clang) cmake/install-packages.sh clang ;;
+    *) cmake/install-packages.sh ;;
+esac
 echo "== configure ($preset)"
 cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start turns them off
 echo "== build"
