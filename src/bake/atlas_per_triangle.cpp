@@ -3,63 +3,76 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace faqem::detail {
 namespace {
 
-// Size class of a triangle at some scale. Legs lie along the sides of the cell, the longer one along its
-// width.
+constexpr std::uint32_t largest_grain = 16;
+
+// Size class of a cell at some scale. Legs lie along the sides of the cell, the longer one along its width.
 struct Shape {
-    std::uint32_t width = 1, height = 1;  // of the cell
-    std::uint32_t gutter = 0;
-    bool turned = false;  // the second leg is the longer one
-    bool single = true;   // all of the triangle is one texel
+    std::uint32_t width = 1, height = 1;
+    std::uint32_t grain = 1;   // the cell's place and sides are multiples of it, a power of two
+    std::uint32_t margin = 0;  // texels of each side beyond the leg
+    bool turned = false;       // the second leg is the longer one
+    bool single = true;        // all of the triangle is one texel
+
+    // All that makes cells look the same.
+    auto key() const { return std::tuple(grain, height, width, margin, turned, single); }
+    auto size() const { return std::tuple(grain, height, width); }
 };
 
-constexpr std::uint32_t largest_gutter = 8;
-
-std::uint32_t gutter_of(double shorter_leg) {
-    return static_cast<std::uint32_t>(std::clamp(shorter_leg / 12, 0.0, double(largest_gutter)));
+// Mip level k is clean in cells on a grid of 2^k texels if the legs run from centre to centre of its texels:
+// those lie in one cell, half of the outermost ones outside of the legs.
+// A leg is at least a grain long: measured, clean levels are worth more than the texels they cost.
+std::uint32_t grain_of(double shorter_leg) {
+    std::uint32_t grain = 1;
+    while (grain < largest_grain && 2 * grain <= shorter_leg) grain *= 2;
+    return grain;
 }
 
-// Texels of a cell beyond the leg. One, because legs run from texel centre to texel centre, and the gutters.
-// Between the two hypotenuses, one shifted by (m, m) against the other, lie margins as wide as two gutters;
-// the texels that bilinear reads on the hypotenuse touch need m = 2.
-std::uint32_t margin_of(std::uint32_t gutter) { return 1 + 2 * gutter + std::max(2u, 2 * gutter); }
-
-// Four classes to the octave.
-std::uint32_t size_class(double x) {
-    const double exact = std::max(1.0, x);
-    if (exact < 8) return static_cast<std::uint32_t>(std::lround(exact));
-    const double step = std::exp2(std::floor(std::log2(exact)) - 2);
-    return static_cast<std::uint32_t>(std::lround(exact / step) * step);
+// Between the hypotenuses of strangers, one shifted by (m, m) against the other, m texels: 2 for bilinear
+// reads of the page itself, more to keep coarser levels cleaner.
+std::uint32_t margin_of(std::uint32_t grain, bool joined) {
+    return grain + (joined ? 0 : std::max(2u, grain));
 }
 
-Shape shape_of(const AtlasTriangle& triangle, double scale) {
-    const double a = triangle.legs[0] * scale, b = triangle.legs[1] * scale;
+// To four classes to the octave and whole grains.
+std::uint32_t size_class(double x, std::uint32_t grain) {
+    const double octave = std::exp2(std::floor(std::log2(std::max(1.0, x))) - 2);
+    const double step = std::max(octave, double(grain));
+    return static_cast<std::uint32_t>(std::lround(x / step) * step);
+}
+
+std::uint32_t side_of(double leg, std::uint32_t grain, std::uint32_t margin) {
+    std::uint32_t side = size_class(leg + margin, grain);
+    while (side <= margin) side += grain;
+    return side;
+}
+
+Shape shape_of(const std::array<double, 2>& legs, double scale, bool joined) {
+    const double a = legs[0] * scale, b = legs[1] * scale;
     Shape shape;
     if (!(std::max(a, b) >= 0.75)) return shape;
     shape.single = false;
     shape.turned = a < b;
-    shape.gutter = gutter_of(std::min(a, b));
-    const std::uint32_t margin = margin_of(shape.gutter);
-    shape.width = std::max(margin + 1, size_class(std::max(a, b) + margin));
-    shape.height = std::max(margin + 1, size_class(std::min(a, b) + margin));
+    shape.grain = grain_of(std::min(a, b));
+    shape.margin = margin_of(shape.grain, joined);
+    shape.width = side_of(std::max(a, b), shape.grain, shape.margin);
+    shape.height = side_of(std::min(a, b), shape.grain, shape.margin);
     return shape;
 }
 
-bool same_class(const Shape& a, const Shape& b) {
-    return a.width == b.width && a.height == b.height && a.gutter == b.gutter && a.turned == b.turned &&
-           a.single == b.single;
-}
+// One or two triangles that fill a cell.
+struct Unit {
+    Shape shape;
+    Index first = no_index, second = no_index;
+    std::uint64_t order = 0;
+    bool joined = false;
+};
 
-bool before(const Shape& a, const Shape& b) {
-    if (a.height != b.height) return a.height > b.height;
-    if (a.width != b.width) return a.width > b.width;
-    if (a.gutter != b.gutter) return a.gutter > b.gutter;
-    if (a.turned != b.turned) return a.turned < b.turned;
-    return a.single < b.single;
-}
+double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
 
 // Places the corners of a triangle in its cell: the first, or the second, which is turned by 180 degrees.
 // On the page triangles turn clockwise in (u, v down), as unmirrored glTF textures do.
@@ -69,9 +82,8 @@ AtlasPlace place_in(const AtlasCell& cell, const Shape& shape, const AtlasTriang
         for (auto& uv : place.uv) uv = {cell.x + 0.5, cell.y + 0.5};
         return place;
     }
-    const std::uint32_t margin = margin_of(shape.gutter);
-    const std::uint32_t along = shape.width - margin, up = shape.height - margin;
-    const double inset = shape.gutter + 0.5;
+    const std::uint32_t along = shape.width - shape.margin, up = shape.height - shape.margin;
+    const double inset = shape.grain / 2.0;
     std::array<std::array<double, 2>, 3> local;  // right corner, end of the first leg, end of the second
     if (shape.turned) {
         local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
@@ -89,65 +101,122 @@ AtlasPlace place_in(const AtlasCell& cell, const Shape& shape, const AtlasTriang
     return place;
 }
 
+// Place number along a Hilbert curve over a square of 2^16 by 2^16.
+std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
+    std::uint64_t result = 0;
+    for (std::uint32_t s = 1u << 15; s > 0; s /= 2) {
+        const bool right = x & s, low = y & s;
+        result = 4 * result + (low ? (right ? 2 : 1) : (right ? 3 : 0));
+        if (!low) {
+            if (right) {
+                x = ~x;
+                y = ~y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return result;
+}
+
 // One attempt at a scale and a page.
 class Packing {
 public:
     Packing(std::span<const AtlasTriangle> triangles, double scale) : triangles_(triangles), scale_(scale) {
-        shapes_.reserve(triangles.size());
-        for (const AtlasTriangle& t : triangles) shapes_.push_back(shape_of(t, scale));
-        order_.resize(triangles.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<Index>(i);
-        std::sort(order_.begin(), order_.end(), [&](Index i, Index j) {
-            if (!same_class(shapes_[i], shapes_[j])) return before(shapes_[i], shapes_[j]);
-            return triangles_[i].order != triangles_[j].order ? triangles_[i].order < triangles_[j].order
-                                                              : i < j;
+        std::vector<Unit> strangers;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const auto t = static_cast<Index>(i);
+            const AtlasTriangle& a = triangles[i];
+            if (a.partner != no_index) {
+                const AtlasTriangle& b = triangles[a.partner];
+                const std::array<double, 2> legs = {root_mean_square(a.legs[0], b.legs[0]),
+                                                    root_mean_square(a.legs[1], b.legs[1])};
+                const Shape shape = shape_of(legs, scale, true);
+                if (!shape.single) {
+                    if (t < a.partner) units_.push_back({shape, t, a.partner, a.order, true});
+                    continue;
+                }
+                units_.push_back({shape, t, no_index, a.order, false});
+                continue;
+            }
+            strangers.push_back({shape_of(a.legs, scale, false), t, no_index, a.order, false});
+        }
+        std::sort(strangers.begin(), strangers.end(), [](const Unit& a, const Unit& b) {
+            return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
+        });
+        for (std::size_t i = 0; i < strangers.size(); ++i) {
+            Unit unit = strangers[i];
+            const bool two = !unit.shape.single && i + 1 < strangers.size() &&
+                             unit.shape.key() == strangers[i + 1].shape.key();
+            if (two) unit.second = strangers[++i].first;
+            units_.push_back(unit);
+        }
+        std::sort(units_.begin(), units_.end(), [](const Unit& a, const Unit& b) {
+            if (a.shape.size() != b.shape.size()) return a.shape.size() > b.shape.size();
+            return std::tuple(a.order, a.first) < std::tuple(b.order, b.first);
         });
     }
 
-    // Calls place(cell) for all cells, shelf by shelf, the highest first; false if they do not fit.
+    // Calls place(number of the unit, x, y) for all units, shelf by shelf, the highest first; false if they
+    // do not fit. Grains come from coarse to fine, so every unit lies on its own.
     template <class Place>
     bool shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
         std::uint64_t x = 0, y = 0, shelf = 0;
-        for (std::size_t i = 0; i < order_.size();) {
-            const Shape& shape = shapes_[order_[i]];
-            const bool pair =
-                !shape.single && i + 1 < order_.size() && same_class(shape, shapes_[order_[i + 1]]);
+        for (std::size_t i = 0; i < units_.size(); ++i) {
+            const Shape& shape = units_[i].shape;
             if (shape.width > width) return false;
-            if (shelf == 0 || x + shape.width > width) {
+            if (shape.height > shelf || x + shape.width > width) {
                 y += shelf;
                 x = 0;
                 shelf = shape.height;
                 if (y + shelf > height) return false;
             }
-            place(AtlasCell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), shape.width,
-                            shape.height, order_[i], pair ? order_[i + 1] : no_index});
+            place(i, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
             x += shape.width;
-            i += pair ? 2 : 1;
         }
         return true;
     }
 
     bool fits(std::uint32_t width, std::uint32_t height) const {
-        return shelves(width, height, [](const AtlasCell&) {});
+        return shelves(width, height, [](std::size_t, std::uint32_t, std::uint32_t) {});
     }
 
     Atlas atlas(std::uint32_t width, std::uint32_t height) const {
         Atlas result{width, height, std::vector<AtlasPlace>(triangles_.size()), {}, scale_};
-        shelves(width, height, [&](const AtlasCell& cell) {
+        std::vector<Spot> spots;
+        spots.reserve(units_.size());
+        shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
+            const Shape& shape = units_[i].shape;
+            spots.push_back({hilbert(x / shape.width, y / shape.height), x, y});
+        });
+        for (std::size_t begin = 0, end; begin < units_.size(); begin = end) {
+            for (end = begin; end < units_.size() && units_[end].shape.size() == units_[begin].shape.size();)
+                ++end;
+            std::sort(spots.begin() + std::ptrdiff_t(begin), spots.begin() + std::ptrdiff_t(end));
+        }
+        for (std::size_t i = 0; i < units_.size(); ++i) {
+            const Unit& unit = units_[i];
+            const AtlasCell cell{spots[i].x, spots[i].y,  unit.shape.width, unit.shape.height,
+                                 unit.first, unit.second, unit.joined};
             result.cells.push_back(cell);
             for (Index t : {cell.first, cell.second}) {
                 if (t == no_index) continue;
-                result.places[t] = place_in(cell, shapes_[t], triangles_[t], t == cell.second);
+                result.places[t] = place_in(cell, unit.shape, triangles_[t], t == cell.second);
             }
-        });
+        }
         return result;
     }
 
 private:
+    // A place for a unit of some size, in the order of a space-filling curve.
+    struct Spot {
+        std::uint64_t curve;
+        std::uint32_t x, y;
+        auto operator<=>(const Spot&) const = default;
+    };
+
     std::span<const AtlasTriangle> triangles_;
     double scale_;
-    std::vector<Shape> shapes_;
-    std::vector<Index> order_;
+    std::vector<Unit> units_;
 };
 
 // The largest scale in [low, high] that fits, to a thousandth; low must fit.

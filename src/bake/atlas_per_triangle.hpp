@@ -12,12 +12,15 @@
 
 namespace faqem::detail {
 
-/// What the atlas must know of a triangle. Its largest angle becomes the right one.
+/// What the atlas must know of a triangle. One of its angles becomes the right one.
 struct AtlasTriangle {
-    std::uint8_t right = 0;  ///< corner with the largest angle
+    std::uint8_t right = 0;  ///< the corner opposite the partner's edge, else the one with the largest angle
     /// Wanted lengths in texels of the edges from `right` to the next corner and to the one after.
     std::array<double, 2> legs = {0, 0};
-    std::uint64_t order = 0;  ///< triangles with close numbers are close together (Morton code)
+    std::uint64_t order = 0;  ///< triangles with close numbers look alike and are close together
+    /// The triangle across the edge opposite `right`, wound alike. Mutual. The two share that edge on the
+    /// page.
+    Index partner = no_index;
 };
 
 /// A triangle's place. Corner UVs are in texels; texel (i, j)'s centre is at (i + 0.5, j + 0.5), v down.
@@ -30,10 +33,13 @@ struct AtlasPlace {
 struct AtlasCell {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
     Index first = no_index, second = no_index;  ///< triangles; second is first's turned by 180 degrees
+    /// They are partners, and the hypotenuse of one is that of the other. Else there is a margin between
+    /// them.
+    bool joined = false;
 };
 
 /// A page. Cells do not overlap, and every texel that a bilinear read inside a triangle touches is in its
-/// cell and on its side of the cell.
+/// cell and, but for partners, on its side of the cell.
 struct Atlas {
     std::uint32_t width = 0, height = 0;  ///< powers of two
     std::vector<AtlasPlace> places;       ///< by triangle
@@ -41,10 +47,11 @@ struct Atlas {
     double scale = 1;                     ///< of the wanted lengths
 };
 
-/// Packs triangles by twos into rectangles of size classes, four to the octave and width and height apart, on
-/// shelves. Takes the smallest page that holds the wanted lengths, and then the largest scale that fits it,
-/// at most sqrt 2. Gutters grow with the triangles, from none to 8 texels around each, so that the first mip
-/// levels stay clean on triangles large enough to show it; smaller triangles bleed when minified.
+/// Packs rectangles of size classes, four to the octave and width and height apart, on shelves: partners
+/// share one, the others go by twos. Takes the smallest page that holds the wanted lengths, and then the
+/// largest scale that fits it, at most sqrt 2. Cells lie on a grid of 2^k texels and triangles begin 2^(k-1)
+/// texels inside, so that mip level k reads texels of a pair's own cell only; k grows with the cell. Cells of
+/// one size follow a Hilbert curve over the page, so that beyond level k they mix with cells that look alike.
 /// \param side  largest width and height, a power of two
 /// \return nothing if there are more triangles than texels
 /// O(n log n)

@@ -51,13 +51,13 @@ public:
     void bake(const AtlasCell& cell) {
         Painter first(*this, cell.first);
         if (cell.second == no_index) {
-            bake_rows(cell, [&](double, double) -> Painter& { return first; });
+            bake_texels(cell, [&](double, double) -> Painter& { return first; });
             return;
         }
         // The two face each other with their hypotenuses and have the same legs: the weights of their right
         // corners tell which one is nearer.
         Painter second(*this, cell.second);
-        bake_rows(cell, [&](double x, double y) -> Painter& {
+        bake_texels(cell, [&](double x, double y) -> Painter& {
             return second.frame.at(x, y)[second.right] > first.frame.at(x, y)[first.right] ? second : first;
         });
     }
@@ -76,15 +76,40 @@ public:
     }
 
 private:
-    // A triangle and where its last sample was.
+    // A point on a face of the small mesh.
+    struct SmallPoint {
+        Index face = 0;
+        Vec3 weights = {};
+        std::size_t trail = 0;
+    };
+
+    // The last sample on a face: the next one may start from there if it is close by.
+    struct Trail {
+        SurfacePoint last;
+        std::uint32_t x = 0, y = 0;
+        bool started = false;
+
+        bool leads_to(std::uint32_t to_x, std::uint32_t to_y) const {
+            return started && y == to_y && to_x - x <= 1;
+        }
+    };
+
+    // A triangle, its neighbours, and where its last samples were.
     struct Painter {
         Painter(const Page& page, Index triangle)
             : face(page.request_.faces[triangle]),
               place(page.request_.atlas.places[triangle]),
               frame(place),
               right(right_corner(place)),
+              mesh(page.job_.parts[face.part].small->mesh),
               map(*page.job_.parts[face.part].map),
-              spacing(texel_length(page.job_.parts[face.part].small->mesh) / page.samples_) {}
+              spacing(texel_length() / page.samples_) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Across& across = page.request_.across[triangle][c];
+                if (across.triangle == no_index) continue;
+                folds[c] = fold(c, page.request_.faces[across.triangle].face, across.corner);
+            }
+        }
 
         // The right corner is the one whose UV is level with one other corner and plumb with the other.
         static std::size_t right_corner(const AtlasPlace& place) {
@@ -95,60 +120,103 @@ private:
             return 0;
         }
 
+        engine::Vector3 corner(Index f, std::size_t i) const {
+            return to_eigen(mesh.positions[mesh.triangles[f][i % 3]]);
+        }
+
         // Length of a texel on the small surface, the longer one of its sides.
-        double texel_length(const TriangleMesh& mesh) const {
-            const Triangle& t = mesh.triangles[face.face];
-            const auto corner = [&](std::size_t i) { return to_eigen(mesh.positions[t[i % 3]]); };
-            if (single()) return std::sqrt(engine::area_vector(corner(0), corner(1), corner(2)).norm() / 2);
-            return std::max((corner(right + 1) - corner(right)).norm() / place.legs[0],
-                            (corner(right + 2) - corner(right)).norm() / place.legs[1]);
+        double texel_length() const {
+            const auto at = [&](std::size_t i) { return corner(face.face, i); };
+            if (single()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
+            return std::max((at(right + 1) - at(right)).norm() / place.legs[0],
+                            (at(right + 2) - at(right)).norm() / place.legs[1]);
         }
 
         bool single() const { return place.legs[0] == 0; }
 
-        // The point of the triangle for place (s, t) of texel (x, y).
-        Vec3 point(std::uint32_t x, std::uint32_t y, double s, double t) const {
-            if (!single()) return frame.closest(x + s, y + t);
-            return s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t};
+        // How weights of this face become weights of the neighbour across an edge, unfolded into one plane.
+        struct Fold {
+            Index face = no_index;
+            std::size_t corner = 0;           // of the neighbour, opposite the edge
+            double heights = 0;               // this face's over the neighbour's, above the edge
+            double foot = 0, other_foot = 0;  // of the corners opposite, along the edge, 0 to 1
+        };
+
+        Fold fold(std::size_t c, Index neighbour, std::size_t other) const {
+            const engine::Vector3 start = corner(face.face, c + 1);
+            const engine::Vector3 edge = corner(face.face, c + 2) - start;
+            const engine::Vector3 a = corner(face.face, c) - start, b = corner(neighbour, other) - start;
+            const double length = edge.squaredNorm(), foot = a.dot(edge) / length,
+                         other_foot = b.dot(edge) / length;
+            const double heights = (a - foot * edge).norm() / (b - other_foot * edge).norm();
+            if (!std::isfinite(heights) || !std::isfinite(foot) || !std::isfinite(other_foot)) return {};
+            return {neighbour, other, heights, foot, other_foot};
+        }
+
+        // The point for place (s, t) of texel (x, y).
+        SmallPoint point(std::uint32_t x, std::uint32_t y, double s, double t) const {
+            if (single())
+                return {face.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0};
+            const Vec3 w = frame.at(x + s, y + t);
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && folds[c].face != no_index) {
+                    return {folds[c].face, across(folds[c], w, c), c + 1};
+                }
+            }
+            return {face.face, frame.closest(x + s, y + t), 0};
+        }
+
+        // The neighbour runs along the edge the other way. What is outside of it too is drawn in.
+        static Vec3 across(const Fold& fold, const Vec3& w, std::size_t c) {
+            const double up = std::min(1.0, -w[c] * fold.heights);
+            const double along = w[(c + 2) % 3] + w[c] * fold.foot;
+            const double end = std::clamp(along - up * fold.other_foot, 0.0, 1 - up);
+            Vec3 result;
+            result[fold.corner] = up;
+            result[(fold.corner + 1) % 3] = end;
+            result[(fold.corner + 2) % 3] = 1 - up - end;
+            return result;
         }
 
         const PageFace face;
         const AtlasPlace& place;
         const AtlasFrame frame;
         const std::size_t right;
+        const TriangleMesh& mesh;
         const SurfaceMap& map;
         const double spacing;
-        SurfacePoint last;
-        bool started = false;  // `last` is in this row
+        std::array<Fold, 3> folds;    // by corner opposite
+        std::array<Trail, 4> trails;  // the triangle's own, then those across
     };
 
+    // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
     template <class Choose>
-    void bake_rows(const AtlasCell& cell, Choose&& choose) {
+    void bake_texels(const AtlasCell& cell, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
-            Painter* previous = nullptr;
             for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-                Painter& painter = choose(x + 0.5, y + 0.5);
-                painter.started = painter.started && previous == &painter;
-                previous = &painter;
-                write(x, y, sampled(painter, x, y));
+                Texel sum;
+                for (std::uint32_t j = 0; j < samples_; ++j) {
+                    for (std::uint32_t i = 0; i < samples_; ++i) {
+                        const double s = (i + 0.5) / samples_, t = (j + 0.5) / samples_;
+                        Painter& painter = cell.joined ? choose(x + s, y + t) : choose(x + 0.5, y + 0.5);
+                        add_sample(sum, painter, x, y, painter.point(x, y, s, t));
+                    }
+                }
+                write(x, y, sum);
             }
         }
     }
 
-    Texel sampled(Painter& painter, std::uint32_t x, std::uint32_t y) const {
-        const float share = 1.0f / static_cast<float>(samples_ * samples_);
-        Texel sum;
-        for (std::uint32_t j = 0; j < samples_; ++j) {
-            for (std::uint32_t i = 0; i < samples_; ++i) {
-                const Vec3 w = painter.point(x, y, (i + 0.5) / samples_, (j + 0.5) / samples_);
-                const Index face = painter.face.face;
-                painter.last =
-                    painter.started ? painter.map.map_near(face, w, painter.last) : painter.map.map(face, w);
-                painter.started = true;
-                sum.add(surface_.sample(painter.face.part, painter.last, painter.spacing), share);
-            }
-        }
-        return sum;
+    void add_sample(Texel& sum, Painter& painter, std::uint32_t x, std::uint32_t y,
+                    const SmallPoint& at) const {
+        Trail& trail = painter.trails[at.trail];
+        trail.last = trail.leads_to(x, y) ? painter.map.map_near(at.face, at.weights, trail.last)
+                                          : painter.map.map(at.face, at.weights);
+        trail.started = true;
+        trail.x = x;
+        trail.y = y;
+        sum.add(surface_.sample(painter.face.part, trail.last, painter.spacing),
+                1.0f / static_cast<float>(samples_ * samples_));
     }
 
     void write(std::uint32_t x, std::uint32_t y, const Texel& texel) {

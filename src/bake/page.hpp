@@ -5,21 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "bake/atlas_per_triangle.hpp"
 #include "bake/job.hpp"
+#include "bake/page_atlas.hpp"
 #include "bake/source_surface.hpp"
 
 namespace faqem::detail {
 
-/// A face of a small mesh.
-struct PageFace {
-    Index part = 0, face = 0;
-};
-
 /// What is on a page.
 struct PageRequest {
     const Atlas& atlas;
-    std::span<const PageFace> faces;  ///< by triangle of the atlas
+    std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
+    std::span<const PageFace> faces;                ///< by triangle of the atlas
     Channels channels;
     AlphaMode alpha_mode = AlphaMode::opaque;
 };
@@ -30,7 +26,9 @@ struct PageImages {
 };
 
 /// Averages options.bake.samples^2 samples per texel, in linear light and premultiplied, encodes once, and
-/// fills the rest. Texels outside a triangle repeat its closest point. Cells are independent of each other,
+/// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
+/// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
+/// triangle's closest point where there is none. Cells are independent of each other,
 /// so the result does not depend on the number of threads. \param done, total  texels, for the progress
 /// \throws Cancelled
 PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,

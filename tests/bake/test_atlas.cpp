@@ -26,6 +26,17 @@ std::vector<AtlasTriangle> random_triangles(std::size_t count, double largest) {
     return result;
 }
 
+// The same, every other one with its successor as partner.
+std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
+    std::vector<AtlasTriangle> result = random_triangles(count, largest);
+    for (std::size_t i = 0; i + 3 < count; i += 4) {
+        result[i].partner = static_cast<Index>(i + 1);
+        result[i + 1].partner = static_cast<Index>(i);
+        result[i + 1].legs = {result[i].legs[0] * 1.1, result[i].legs[1] * 0.9};
+    }
+    return result;
+}
+
 // Texels that bilinear filtering reads in a triangle. Weights of rounding errors do not count.
 std::set<std::pair<int, int>> texels_read(const AtlasPlace& place) {
     std::set<std::pair<int, int>> result;
@@ -47,9 +58,9 @@ std::set<std::pair<int, int>> texels_read(const AtlasPlace& place) {
 
 }  // namespace
 
-TEST_CASE("no texel is read by two triangles, and all are on the page") {
+TEST_CASE("no texel is read by two triangles but partners, and all are on the page") {
     const double largest = GENERATE(3.0, 20.0, 90.0);
-    const auto triangles = random_triangles(300, largest);
+    const auto triangles = GENERATE_COPY(random_triangles(300, largest), random_partners(300, largest));
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
     CHECK(std::has_single_bit(atlas->width));
@@ -60,9 +71,59 @@ TEST_CASE("no texel is read by two triangles, and all are on the page") {
         for (const auto& [x, y] : texels_read(atlas->places[t])) {
             REQUIRE((x >= 0 && y >= 0 && x < int(atlas->width) && y < int(atlas->height)));
             const auto [found, fresh] = owner.insert({{x, y}, t});
-            REQUIRE((fresh || found->second == t));
+            REQUIRE((fresh || found->second == t || triangles[t].partner == found->second));
         }
     }
+}
+
+TEST_CASE("partners meet on their common edge") {
+    const double largest = GENERATE(0.9, 20.0, 90.0);
+    const auto triangles = random_partners(300, largest);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    std::size_t joined = 0;
+    for (const AtlasCell& cell : atlas->cells) {
+        if (!cell.joined) continue;
+        ++joined;
+        REQUIRE(triangles[cell.first].partner == cell.second);
+        const AtlasPlace &a = atlas->places[cell.first], &b = atlas->places[cell.second];
+        CHECK(a.legs == b.legs);
+        const std::size_t ra = triangles[cell.first].right, rb = triangles[cell.second].right;
+        CHECK(a.uv[(ra + 1) % 3] == b.uv[(rb + 2) % 3]);
+        CHECK(a.uv[(ra + 2) % 3] == b.uv[(rb + 1) % 3]);
+        CHECK(a.uv[ra] != b.uv[rb]);
+    }
+    CHECK(joined > 0);
+    if (largest > 50) CHECK(joined == 75);  // none is too small
+}
+
+TEST_CASE("mip levels read texels of their own cell only, down to a level that grows with the cell") {
+    const auto triangles = random_partners(300, 90);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    std::map<std::uint32_t, int> seen;
+    for (const AtlasCell& cell : atlas->cells) {
+        if (!cell.joined) continue;
+        double low_x = 1e9, low_y = 1e9, high_x = 0, high_y = 0;
+        for (Index t : {cell.first, cell.second}) {
+            for (const auto& uv : atlas->places[t].uv) {
+                low_x = std::min(low_x, uv[0]);
+                low_y = std::min(low_y, uv[1]);
+                high_x = std::max(high_x, uv[0]);
+                high_y = std::max(high_y, uv[1]);
+            }
+        }
+        const double inset = low_x - cell.x;
+        const auto grain = static_cast<std::uint32_t>(2 * inset);  // texels of the clean level
+        CHECK(std::has_single_bit(grain));
+        for (std::uint32_t n : {cell.x, cell.y, cell.width, cell.height}) CHECK(n % grain == 0);
+        CHECK(low_y == cell.y + inset);
+        CHECK(high_x == cell.x + cell.width - inset);
+        CHECK(high_y == cell.y + cell.height - inset);
+        CHECK((grain >= 2 || std::min(high_x - low_x, high_y - low_y) < 8));
+        ++seen[grain];
+    }
+    CHECK(seen.size() > 2);
 }
 
 TEST_CASE("cells do not overlap and every triangle is in one") {

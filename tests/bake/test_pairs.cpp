@@ -1,0 +1,98 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "bake/triangle_pairs.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+
+namespace {
+
+using Points = std::vector<std::array<double, 2>>;
+using Corners = std::vector<std::array<Index, 3>>;
+
+std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangles) {
+    std::vector<PairTriangle> result(triangles.size());
+    std::map<std::pair<Index, Index>, Across> sides;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::uint8_t c = 0; c < 3; ++c) {
+            const Index a = triangles[t][(c + 1) % 3], b = triangles[t][(c + 2) % 3];
+            result[t].edges[c] = std::hypot(points[a][0] - points[b][0], points[a][1] - points[b][1]);
+            sides[{a, b}] = {static_cast<Index>(t), c};
+        }
+    }
+    for (const auto& [edge, side] : sides) {
+        const auto other = sides.find({edge.second, edge.first});
+        if (other != sides.end()) result[side.triangle].across[side.corner] = other->second;
+    }
+    return result;
+}
+
+// n x n squares of side 10, each cut by its diagonal.
+std::vector<PairTriangle> grid(Index n) {
+    Points points;
+    Corners triangles;
+    for (Index y = 0; y <= n; ++y) {
+        for (Index x = 0; x <= n; ++x) points.push_back({10.0 * x, 10.0 * y});
+    }
+    for (Index y = 0; y < n; ++y) {
+        for (Index x = 0; x < n; ++x) {
+            const Index a = y * (n + 1) + x, b = a + 1, c = a + n + 2, d = a + n + 1;
+            triangles.push_back({a, b, c});
+            triangles.push_back({a, c, d});
+        }
+    }
+    return flat_mesh(points, triangles);
+}
+
+void check_mutual(const std::vector<PairTriangle>& triangles, const std::vector<std::uint8_t>& corner) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (corner[t] == 3) continue;
+        const Across& other = triangles[t].across[corner[t]];
+        REQUIRE(other.triangle < triangles.size());
+        REQUIRE(corner[other.triangle] == other.corner);
+        REQUIRE(triangles[other.triangle].across[other.corner].triangle == t);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("squares cut in two are put together again") {
+    const auto triangles = grid(6);
+    const auto corner = pair_triangles(triangles);
+    check_mutual(triangles, corner);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        CHECK(triangles[t].across[corner[t]].triangle == (t ^ 1));
+    }
+}
+
+TEST_CASE("a greedy choice in the middle of a strip is turned over") {
+    // Four triangles in a row; the two in the middle share the longest edge and waste least.
+    const auto triangles = flat_mesh({{0, 0}, {50, 87}, {92, 0}, {158, 87}, {200, 0}, {250, 87}},
+                                     {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}});
+    const auto corner = pair_triangles(triangles);
+    check_mutual(triangles, corner);
+    for (std::uint8_t c : corner) CHECK(c < 3);
+}
+
+TEST_CASE("needles are paired only where they fill a rectangle") {
+    // The rectangle over the long edge is 100 by 1, the ones over the short edge and over the middle of a
+    // kite are nearly all waste.
+    const auto side_by_side = flat_mesh({{0, 0}, {100, 0}, {100, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    for (std::uint8_t c : pair_triangles(side_by_side)) CHECK(c < 3);
+    const auto end_to_end = flat_mesh({{0, 0}, {100, -1}, {100, 1}, {200, 0}}, {{0, 1, 2}, {1, 3, 2}});
+    REQUIRE(end_to_end[0].across[0].triangle == 1);
+    for (std::uint8_t c : pair_triangles(end_to_end)) CHECK(c == 3);
+    const auto kite = flat_mesh({{0, 0}, {100, -1}, {100, 0}, {100, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    for (std::uint8_t c : pair_triangles(kite)) CHECK(c == 3);
+}
+
+TEST_CASE("triangles without neighbours or size stay alone") {
+    CHECK(pair_triangles({}).empty());
+    const std::vector<PairTriangle> lone(3);
+    for (std::uint8_t c : pair_triangles(lone)) CHECK(c == 3);
+    std::vector<PairTriangle> points = grid(1);
+    for (PairTriangle& t : points) t.edges = {0, 0, 0};
+    for (std::uint8_t c : pair_triangles(points)) CHECK(c == 3);
+}
