@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the history format is written byte for byte");
 static_assert(sizeof(Vec3) == 24 && sizeof(Triangle) == 12);
 
-constexpr std::array<char, 8> magic = {'F', 'A', 'Q', 'E', 'M', 'H', '0', '1'};
+constexpr std::array<char, 8> magic = {'F', 'A', 'Q', 'E', 'M', 'H', '0', '2'};
 
 [[noreturn]] void fail(const std::string& section, const std::string& what) {
     throw InputError("history", section, what);
@@ -148,6 +148,9 @@ void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used)
         const Index v = h.kept_versions[i];
         if (!(v < used.size()) || used[v]) fail(numbered("kept_versions", i), "not a living version");
     }
+    if (!h.kept_positions.empty() && h.kept_positions.size() != h.kept_versions.size()) {
+        fail("kept_positions", "needs one entry per kept version or none");
+    }
     const std::vector<Index> vertex = kept_vertex(h);
     const std::vector<Index> last = final_versions(h);
     for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
@@ -167,7 +170,8 @@ void validate(const CollapseHistory& history) {
     const CollapseHistory& h = history;
     const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
                          h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
-                         h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty();
+                         h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty() &&
+                         h.kept_positions.empty();
     if (nothing) return;
     check_faces(history);
     const std::vector<std::uint8_t> used = check_collapses(history);
@@ -177,7 +181,9 @@ void validate(const CollapseHistory& history) {
 
 TriangleMesh replay(const CollapseHistory& history) {
     TriangleMesh mesh;
-    for (const Index v : history.kept_versions) mesh.positions.push_back(history.position(v));
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        mesh.positions.push_back(history.kept_position(i));
+    }
     const std::vector<Index> vertex = kept_vertex(history);
     const std::vector<Index> last = final_versions(history);
     for (const Index f : history.kept_faces) {
@@ -198,6 +204,7 @@ void write(const CollapseHistory& h, std::ostream& out) {
     put_array(out, column(h.collapses, &Collapse::position));
     put_array(out, h.patch_begin);
     put_array(out, h.patch_faces);
+    put_array(out, h.kept_positions);
     put_array(out, column(h.deleted_faces, &DeletedFace::time));
     put_array(out, column(h.deleted_faces, &DeletedFace::face));
     put_array(out, h.kept_versions);
@@ -221,6 +228,7 @@ CollapseHistory read_history(std::istream& in) {
     fill_column(h.collapses, &Collapse::position, get_array<Vec3>(in, "collapses"), "collapses");
     h.patch_begin = get_array<std::uint64_t>(in, "patch_begin");
     h.patch_faces = get_array<Index>(in, "patch_faces");
+    h.kept_positions = get_array<Vec3>(in, "kept_positions");
     const auto times = get_array<std::uint64_t>(in, "deleted_faces");
     h.deleted_faces.resize(times.size());
     fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");

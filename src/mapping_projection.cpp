@@ -58,9 +58,8 @@ ProjectionWalk::ProjectionWalk(const CollapseHistory& history)
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
     Query query;
     query.corners = replay_.kept_corners[face];
-    const Vector3 a = to_eigen(replay_.positions[query.corners[0]]);
-    const Vector3 b = to_eigen(replay_.positions[query.corners[1]]);
-    const Vector3 c = to_eigen(replay_.positions[query.corners[2]]);
+    const std::array<Vec3, 3>& places = replay_.kept_positions[face];
+    const Vector3 a = to_eigen(places[0]), b = to_eigen(places[1]), c = to_eigen(places[2]);
     query.p0 = barycentric[0] * a + barycentric[1] * b + barycentric[2] * c;
     const Vector3 n = engine::area_vector(a, b, c);
     const double length = n.norm();

@@ -106,11 +106,17 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
     return now;
 }
 
-std::vector<Triangle> kept_corners(const CollapseHistory& history, const std::vector<Triangle>& last) {
-    std::vector<Triangle> result;
-    result.reserve(history.kept_faces.size());
-    for (Index f : history.kept_faces) result.push_back(last[f]);
-    return result;
+// The faces of the small mesh: their corners' versions, and where those are in the end.
+void keep(const CollapseHistory& history, const std::vector<Triangle>& last, Replay& result) {
+    std::vector<Vec3> in_the_end = result.positions;
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        in_the_end[history.kept_versions[i]] = history.kept_position(i);
+    }
+    for (const Index f : history.kept_faces) {
+        const Triangle& t = last[f];
+        result.kept_corners.push_back(t);
+        result.kept_positions.push_back({in_the_end[t[0]], in_the_end[t[1]], in_the_end[t[2]]});
+    }
 }
 
 }  // namespace
@@ -118,8 +124,7 @@ std::vector<Triangle> kept_corners(const CollapseHistory& history, const std::ve
 Replay replay_vertices(const CollapseHistory& history) {
     Replay result;
     result.positions = version_positions(history);
-    result.kept_corners =
-        kept_corners(history, replay_forward(history, [](std::size_t, std::uint64_t, const Triangle&) {}));
+    keep(history, replay_forward(history, [](std::size_t, std::uint64_t, const Triangle&) {}), result);
     return result;
 }
 
@@ -149,7 +154,7 @@ Replay replay_patches(const CollapseHistory& history) {
         labeller.label(corners, std::span(result.umbrella).subspan(begin, size));
         result.mean_edge.push_back(mean_edge_length(result.positions, corners));
     }
-    result.kept_corners = kept_corners(history, last);
+    keep(history, last, result);
     for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
     return result;
 }

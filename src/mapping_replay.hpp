@@ -26,11 +26,13 @@ struct Replay {
     std::vector<std::uint8_t> umbrella;  ///< per entry: component of its patch over edges with two faces
     std::vector<float> mean_edge;        ///< per collapse: mean edge length of its patch
 
-    std::vector<Triangle> kept_corners;  ///< per face of the small mesh: corner versions
+    std::vector<Triangle> kept_corners;               ///< per face of the small mesh: corner versions
+    std::vector<std::array<Vec3, 3>> kept_positions;  ///< per face of the small mesh: where they are
     std::vector<Index> kept_last;  ///< per face of the small mesh: last collapse that touched it, or no_index
 };
 
-/// What is needed by the walk over vertices: positions and kept_corners. O(size of the history)
+/// What is needed by the walk over vertices: positions, kept_corners and kept_positions. O(size of the
+/// history)
 Replay replay_vertices(const CollapseHistory& history);
 
 /// Everything. O(size of the history) time, 37 bytes per patch face.

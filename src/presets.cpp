@@ -53,6 +53,12 @@ Settings balanced() {
     return s;
 }
 
+Settings best() {
+    Settings s = balanced();
+    s.relax = true;
+    return s;
+}
+
 Settings named(Preset preset) {
     switch (preset) {
         case Preset::qem:
@@ -64,9 +70,11 @@ Settings named(Preset preset) {
         case Preset::fast:
             return fast();
         case Preset::balanced:
+            return balanced();
+        case Preset::best:
             break;
     }
-    return balanced();
+    return best();
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Settings {
     Carry carry = Carry::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;
+    bool relax = false;     ///< move the vertices closer to the original in the end
     double least_turn = 0;  ///< flip veto: smallest cosine between old and new normal
     double diagonal = 1;    ///< the model is scaled to this diagonal: the paper's terms have different units
     Weld weld = Weld::by_position;

@@ -11,7 +11,7 @@ namespace faqem {
 namespace {
 
 // Names by enumerator; the order is the enums'.
-constexpr std::array<std::string_view, 5> preset_names = {"qem", "paper", "stmw", "fast", "balanced"};
+constexpr std::array<std::string_view, 6> preset_names = {"qem", "paper", "stmw", "fast", "balanced", "best"};
 constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
@@ -62,6 +62,7 @@ std::string to_json(const Report& report) {
     json["rungs"] = counts(report.rungs, rung_names);
     json["faces_dropped"] = report.faces_dropped;
     json["components_deleted"] = report.components_deleted;
+    json["vertices_relaxed"] = report.vertices_relaxed;
     json["virtual_edges"] = report.virtual_edges;
     json["warnings"] = report.warnings;
     const PhaseSeconds& s = report.seconds;

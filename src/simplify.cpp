@@ -10,6 +10,7 @@
 #include "original_tree.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
+#include "relax.hpp"
 #include "stopwatch.hpp"
 #include "virtual_edges.hpp"
 
@@ -112,6 +113,7 @@ public:
             engine::NoRecorder nothing;
             collapse_and_collect(complex, nothing);
         }
+        take_relaxed();
         finish_report();
         result_.report.seconds.simplify = result_.report.seconds.total = all.seconds();
         return std::move(result_);
@@ -148,6 +150,32 @@ private:
         report.rungs = looped.rungs;
         report.components_deleted = looped.components_deleted;
         collect(complex, wedges, origin);
+        if (settings_.relax) relax(complex, wedges, locked);
+    }
+
+    // On vertices of the result, in its order: what no face uses has no say.
+    void relax(const Complex& complex, const engine::Wedges& wedges,
+               const std::vector<std::uint8_t>& locked) {
+        std::vector<Vector3> now;
+        std::vector<std::uint8_t> fixed;
+        for (const Index v : slots_) {
+            now.push_back(complex.position(v));
+            fixed.push_back(locked[v] || (!wedges.empty() && wedges.is_seam(complex, v)));
+        }
+        const std::vector<Vector3> original = prepared_.engine_positions();
+        const std::vector<Vector3> relaxed =
+            detail::relax({original, prepared_.triangles}, {now, result_.mesh.triangles}, fixed,
+                          settings_.least_turn, options_.threads);
+        for (std::size_t v = 0; v < now.size(); ++v) {
+            if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
+        }
+    }
+
+    void take_relaxed() {
+        for (const auto& [vertex, position] : relaxed_) result_.mesh.positions[vertex] = position;
+        if (!relaxed_.empty() && !result_.history.empty())
+            result_.history.kept_positions = result_.mesh.positions;
+        result_.report.vertices_relaxed = relaxed_.size();
     }
 
     // Faces in input order, vertices in slot order; what has no area is left out.
@@ -235,6 +263,7 @@ private:
     SimplifyResult result_;
     std::vector<Index> slots_;  // slot of each vertex of the result
     std::vector<Index> kept_versions_;
+    std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go
 };
 
 }  // namespace

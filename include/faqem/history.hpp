@@ -42,10 +42,17 @@ struct CollapseHistory {
     std::vector<DeletedFace> deleted_faces;  ///< by time
     std::vector<Index> kept_versions;        ///< version of each vertex of the small mesh, in its order
     std::vector<Index> kept_faces;           ///< input face of each face of the small mesh, in its order
+    /// Empty, or where each vertex of the small mesh went after the last collapse (preset best). The versions
+    /// stay where they were.
+    std::vector<Vec3> kept_positions;
 
     bool empty() const { return kept_faces.empty(); }
     std::span<const Index> patch(std::size_t k) const {
         return std::span(patch_faces).subspan(patch_begin[k], patch_begin[k + 1] - patch_begin[k]);
+    }
+    /// Position of a vertex of the small mesh. O(1)
+    const Vec3& kept_position(std::size_t vertex) const {
+        return kept_positions.empty() ? position(kept_versions[vertex]) : kept_positions[vertex];
     }
     /// Position of a version. O(1)
     const Vec3& position(Index version) const {

@@ -126,8 +126,11 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     for (std::size_t f = 0; f < kept.size(); ++f) {
         if (!kept[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
     }
-    for (const Index version : history.kept_versions) {
-        if (version >= history.positions.size()) move(mesh, handle[version], history.position(version));
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        const Index version = history.kept_versions[i];
+        const bool original = version < history.positions.size();
+        const Vec3& place = history.kept_position(i);
+        if (!original || place != history.position(version)) move(mesh, handle[version], place);
     }
 }
 

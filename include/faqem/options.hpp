@@ -29,6 +29,7 @@ enum class Preset {
     stmw,      ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
     fast,      ///< area-weighted planes without memory, planes that hold open edges; the weights do not apply
     balanced,  ///< as fast, and what a collapse adds to the largest distance from the original counts too
+    best,      ///< as balanced, and in the end vertices are moved closer to the original
 };
 
 /// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.

@@ -122,7 +122,7 @@ TEST_CASE("a file of another kind is refused") {
 TEST_CASE("a count that lies costs no memory") {
     // Each count in turn becomes 2^60 and 2^64 - 1: memory for that would throw bad_alloc or length_error.
     const std::string text = bytes(with_deleted_part());
-    const std::uint64_t elements[] = {24, 12, 4, 4, 4, 24, 8, 4, 8, 4, 4, 4};
+    const std::uint64_t elements[] = {24, 12, 4, 4, 4, 24, 8, 4, 24, 8, 4, 4, 4};
     std::size_t at = 8;
     for (const std::uint64_t size : elements) {
         std::uint64_t count = 0;
@@ -135,6 +135,20 @@ TEST_CASE("a count that lies costs no memory") {
         at += 8 + count * size;
     }
     CHECK(at == text.size());
+}
+
+TEST_CASE("where the kept vertices went is written and read, or refused where the number is wrong") {
+    CollapseHistory history = with_deleted_part();
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        history.kept_positions.push_back({1.0 + i, 2, 3});
+    }
+    std::istringstream in(bytes(history));
+    const CollapseHistory again = read_history(in);
+    CHECK(again.kept_positions == history.kept_positions);
+    CHECK(replay(again).positions == history.kept_positions);
+    history.kept_positions.pop_back();
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: kept_positions: needs one entry per kept version or none");
 }
 
 TEST_CASE("columns of different length are refused, empty ones too") {

@@ -10,7 +10,8 @@
 using namespace faqem;
 
 TEST_CASE("every preset is found by its name, and no other") {
-    for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced})
+    for (const Preset preset :
+         {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced, Preset::best})
         CHECK(preset_named(name(preset)) == preset);
     CHECK(name(Preset::paper) == "paper");
     CHECK_THROWS_AS(preset_named("Paper"), OptionError);

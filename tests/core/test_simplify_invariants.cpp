@@ -11,7 +11,8 @@ using namespace faqem;
 
 namespace {
 
-constexpr Preset presets[] = {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced};
+constexpr Preset presets[] = {Preset::qem,  Preset::paper,    Preset::stmw,
+                              Preset::fast, Preset::balanced, Preset::best};
 constexpr double ratios[] = {0.5, 0.1, 0.01};
 
 SimplifyResult run(const TriangleMesh& mesh, Preset preset, double share) {

@@ -119,7 +119,7 @@ bool is_consistent(const M& mesh) {
 TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshes") {
     const Soup soup = GENERATE(torus(40), holed_sheet(40));
     const auto preset = GENERATE(faqem::Preset::qem, faqem::Preset::paper, faqem::Preset::stmw,
-                                 faqem::Preset::fast, faqem::Preset::balanced);
+                                 faqem::Preset::fast, faqem::Preset::balanced, faqem::Preset::best);
     const double share = GENERATE(0.5, 0.1, 0.01);
     faqem::Options options{.target = faqem::ratio(share), .preset = preset};
     Mesh mesh = build(soup);

@@ -71,9 +71,10 @@ TEST_CASE("every choice on the command line is taken") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
     for (const char* arguments :
-         {"--ratio 0.5", "--preset qem", "--preset paper", "--preset stmw", "--preset fast", "--preset balanced", "--bake vertex", "--bake keep",
-          "--bake none", "--bake per-triangle --mapping lineage", "--mapping projection", "--link",
-          "--lock-border", "--weld 0.001", "--threads 1",
+         {"--ratio 0.5", "--preset qem", "--preset paper", "--preset stmw", "--preset fast",
+          "--preset balanced", "--preset best", "--bake vertex", "--bake keep", "--bake none",
+          "--bake per-triangle --mapping lineage", "--mapping projection", "--link", "--lock-border",
+          "--weld 0.001", "--threads 1",
           "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"}) {
         CAPTURE(arguments);
         const Outcome outcome = run(
