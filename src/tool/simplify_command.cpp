@@ -204,9 +204,9 @@ void add_target_options(CLI::App& command, Arguments& a) {
     auto* faces =
         command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
     ratio->excludes(faces);
-    command.add_option(
-        "--preset", a.preset,
-        "Metric and rules: qem, paper, stmw, fast (default " + std::string(name(Options{}.preset)) + ")");
+    command.add_option("--preset", a.preset,
+                       "Metric and rules: qem, paper, stmw, fast, balanced, best (default " +
+                           std::string(name(Options{}.preset)) + ")");
     command.add_option("--w-area", a.options.weights.area, "Weight of the boundary area term");
     command.add_option("--w-boundary", a.options.weights.boundary, "Weight of the boundary curvature term");
     command.add_option("--w-normal", a.options.weights.normal, "Weight of the normal term");
