@@ -39,7 +39,7 @@ struct Bvh::Build {
     struct Item {
         Box box;
         Vector3 centre;  ///< of the box
-        Index face;
+        std::uint32_t triangle;
     };
     struct Range {
         std::uint32_t begin, end;
@@ -104,7 +104,8 @@ struct Bvh::Build {
         const std::uint32_t middle = range.begin + (range.end - range.begin) / 2;
         std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                          [axis](const Item& a, const Item& b) {
-                             return std::pair(a.centre[axis], a.face) < std::pair(b.centre[axis], b.face);
+                             return std::pair(a.centre[axis], a.triangle) <
+                                    std::pair(b.centre[axis], b.triangle);
                          });
         return middle;
     }
@@ -116,19 +117,36 @@ struct Bvh::Build {
     }
 };
 
-Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-    Build build;
-    build.items.reserve(triangles.size());
+template <class Positions>
+std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles) {
+    std::vector<Corners> all;
+    all.reserve(triangles.size());
+    const auto place = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        const Triangle& t = triangles[f];
-        if (t[0] == no_index || t[1] == no_index || t[2] == no_index) continue;
+        const auto [a, b, c] = triangles[f];
+        if (a == no_index || b == no_index || c == no_index) continue;
+        all.push_back({place(a), place(b), place(c), static_cast<Index>(f)});
+    }
+    return all;
+}
+
+Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles)
+    : Bvh(corners(positions, triangles)) {}
+
+Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles)
+    : Bvh(corners(positions, triangles)) {}
+
+Bvh::Bvh(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+    if (triangles_.empty()) return;
+    Build build;
+    build.items.reserve(triangles_.size());
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         Build::Item item;
-        for (const Index v : t) item.box.add(engine::to_eigen(positions[v]));
+        for (const Vector3& p : {triangles_[i].a, triangles_[i].b, triangles_[i].c}) item.box.add(p);
         item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
-        item.face = static_cast<Index>(f);
+        item.triangle = i;
         build.items.push_back(item);
     }
-    if (build.items.empty()) return;
 
     nodes_.reserve(build.items.size());
     std::vector<Build::Range> todo = {{0, static_cast<std::uint32_t>(build.items.size()), no_index, 0}};
@@ -150,12 +168,10 @@ Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
         todo.push_back({range.begin, middle, no_index, range.depth + 1});
     }
 
-    triangles_.reserve(build.items.size());
-    for (const Build::Item& item : build.items) {
-        const Triangle& t = triangles[item.face];
-        triangles_.push_back({engine::to_eigen(positions[t[0]]), engine::to_eigen(positions[t[1]]),
-                              engine::to_eigen(positions[t[2]]), item.face});
-    }
+    std::vector<Corners> in_order;
+    in_order.reserve(triangles_.size());
+    for (const Build::Item& item : build.items) in_order.push_back(triangles_[item.triangle]);
+    triangles_ = std::move(in_order);
     for (const Node& node : nodes_) {  // the order inside a leaf must not depend on std::partition
         std::sort(triangles_.begin() + node.first, triangles_.begin() + node.first + node.count,
                   [](const Corners& a, const Corners& b) { return a.face < b.face; });

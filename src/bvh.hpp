@@ -24,6 +24,7 @@ public:
     ///                   area count as the segment or point that they are.
     /// Keeps copies. O(n log n) time, about 140 bytes per face.
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+    Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
 
     /// A point of the mesh.
     struct Hit {
@@ -67,6 +68,8 @@ private:
         Vector3 a, b, c;
         Index face = no_index;
     };
+    template <class Positions>
+    static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles);
     struct Pending {
         std::uint32_t node;
         double distance_squared;
@@ -76,12 +79,14 @@ private:
 
     struct Build;
 
+    explicit Bvh(std::vector<Corners> triangles);
+
     /// Visits leaves' triangles, nearest box first, while their box is within limit() of p.
     template <class Limit, class Leaf>
     void traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const;
 
-    std::vector<Node> nodes_;
     std::vector<Corners> triangles_;  ///< in leaf order
+    std::vector<Node> nodes_;
 };
 
 template <class Limit, class Leaf>

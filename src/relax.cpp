@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bvh.hpp"
 #include "fit.hpp"
 #include "parallel.hpp"
 
@@ -26,13 +25,6 @@ constexpr double least_area = 0.05;
 constexpr int halvings = 6;
 /// Times that far points are put back before all of them are.
 constexpr int most_rounds = 6;
-
-Bvh tree_of(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
-    std::vector<Vec3> arrays;
-    arrays.reserve(positions.size());
-    for (const Vector3& p : positions) arrays.push_back(engine::to_array(p));
-    return {arrays, triangles};
-}
 
 Vector3 area_vector(std::span<const Vector3> x, const Triangle& t) {
     return engine::area_vector(x[t[0]], x[t[1]], x[t[2]]);
@@ -117,13 +109,13 @@ std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::si
 
 class Relaxation {
 public:
-    Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
-               double least_turn, std::uint32_t threads)
+    Relaxation(const Patchwork& original, const Bvh& original_tree, const Patchwork& light,
+               std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads)
         : original_(original),
           light_(light),
           least_turn_(least_turn),
           threads_(threads),
-          original_tree_(tree_of(original.positions, original.triangles)),
+          original_tree_(original_tree),
           start_(light.positions.begin(), light.positions.end()),
           positions_(start_),
           fixed_(on_border(light.triangles, start_.size())) {
@@ -183,7 +175,7 @@ private:
                              unit(area_vector(positions_, light_.triangles[spots_[i].face]))};
             }
         });
-        const Bvh tree = tree_of(positions_, light_.triangles);
+        const Bvh tree(positions_, light_.triangles);
         parallel_blocks(original_points_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const Vector3& p = original_points_[i].position;
@@ -256,7 +248,7 @@ private:
     const Patchwork& light_;
     double least_turn_;
     std::uint32_t threads_;
-    Bvh original_tree_;
+    const Bvh& original_tree_;
     std::vector<Vector3> start_, positions_;
     std::vector<std::uint8_t> fixed_;
     std::vector<Spot> spots_;             // points of the light mesh
@@ -267,9 +259,9 @@ private:
 
 }  // namespace
 
-std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
+std::vector<Vector3> relax(const Patchwork& original, const Bvh& original_tree, const Patchwork& light,
                            std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads) {
-    return Relaxation(original, light, fixed, least_turn, threads)();
+    return Relaxation(original, original_tree, light, fixed, least_turn, threads)();
 }
 
 }  // namespace faqem::detail

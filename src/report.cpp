@@ -11,7 +11,8 @@ namespace faqem {
 namespace {
 
 // Names by enumerator; the order is the enums'.
-constexpr std::array<std::string_view, 6> preset_names = {"qem", "paper", "stmw", "fast", "balanced", "best"};
+constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
+                                                                           "fast", "balanced", "best"};
 constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
@@ -40,8 +41,8 @@ std::string_view name(Refusal refusal) { return refusal_names[static_cast<std::s
 std::string_view name(Rung rung) { return rung_names[static_cast<std::size_t>(rung)]; }
 
 Preset preset_named(std::string_view text) {
-    for (std::size_t i = 0; i < preset_names.size(); ++i) {
-        if (preset_names[i] == text) return static_cast<Preset>(i);
+    for (const Preset preset : all_presets) {
+        if (name(preset) == text) return preset;
     }
     std::string known;
     for (const std::string_view one : preset_names) known += (known.empty() ? "" : ", ") + std::string(one);

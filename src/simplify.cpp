@@ -1,6 +1,7 @@
 #include "faqem/simplify.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -63,10 +64,11 @@ private:
     std::vector<Index> place_;
 };
 
+// \param original  the surface as it was; may be null where nothing tracks it
 template <class Recorder>
 engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedges& wedges,
                        std::vector<std::uint8_t>& locked, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop) {
+                       Recorder& recorder, const engine::LoopOptions& loop, const detail::Bvh* original) {
     std::vector<std::uint8_t> seam;
     if (!wedges.empty()) {
         seam.resize(complex.vertex_slots());
@@ -85,8 +87,8 @@ engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedge
         case detail::Settings::Carry::tracked:
             break;
     }
-    const detail::OriginalTree original(complex);
-    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, original, loop.target_faces));
+    const detail::OriginalTree surface(*original);
+    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, surface, loop.target_faces));
 }
 
 // Everything of one run, in the order it is made.
@@ -105,6 +107,9 @@ public:
         result_.report.faces_dropped = prepared_.dropped_faces;
         result_.report.seconds.weld = all.seconds();
         Complex complex(prepared_.engine_positions(), prepared_.triangles);
+        if (settings_.relax || settings_.carry == detail::Settings::Carry::tracked) {
+            original_.emplace(prepared_.engine_positions(), prepared_.triangles);
+        }
         if (options_.history == Recording::on) {
             engine::HistoryRecorder history(complex, {mesh_.face_groups.begin(), mesh_.face_groups.end()});
             collapse_and_collect(complex, history);
@@ -142,7 +147,8 @@ private:
         if (options_.progress) {
             loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
         }
-        const engine::LoopResult looped = run(complex, pairs, wedges, locked, settings_, origin, loop);
+        const engine::LoopResult looped =
+            run(complex, pairs, wedges, locked, settings_, origin, loop, original_ ? &*original_ : nullptr);
         Report& report = result_.report;
         report.stop = looped.stop;
         report.collapses = looped.collapses;
@@ -164,7 +170,7 @@ private:
         }
         const std::vector<Vector3> original = prepared_.engine_positions();
         const std::vector<Vector3> relaxed =
-            detail::relax({original, prepared_.triangles}, {now, result_.mesh.triangles}, fixed,
+            detail::relax({original, prepared_.triangles}, *original_, {now, result_.mesh.triangles}, fixed,
                           settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
@@ -260,6 +266,7 @@ private:
     const Options& options_;
     detail::Settings settings_;
     detail::Prepared prepared_;
+    std::optional<detail::Bvh> original_;  // engine units
     SimplifyResult result_;
     std::vector<Index> slots_;  // slot of each vertex of the result
     std::vector<Index> kept_versions_;

@@ -27,6 +27,7 @@ struct MeshInfo {
 /// \throws InputError  an index is out of range
 MeshInfo info(const MeshView& mesh);
 
+/// How much compare() looks at.
 struct CompareOptions {
     std::uint64_t samples = 200'000;  ///< area-uniform and stratified, on each mesh, for the means
     std::uint64_t seed = 1;
@@ -64,6 +65,7 @@ struct Comparison {
 /// Complexity: O((samples + vertices + pieces) log faces) typically; about 300 bytes per face.
 Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options = {});
 
+/// When the search of hausdorff() may end.
 struct HausdorffOptions {
     double tolerance = 0.01;    ///< as CompareOptions::tolerance
     std::uint32_t threads = 0;  ///< 0: all; the result does not depend on it
@@ -89,6 +91,7 @@ struct DistanceBound {
 /// Complexity: O((vertices + faces + pieces) log faces) typically; about 300 bytes per face, 150 per piece.
 DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options = {});
 
+/// Answer of within().
 enum class Within { yes, no, undecided };
 
 /// Whether no point of either mesh is farther than `distance` (model units) from the other mesh. Undecided

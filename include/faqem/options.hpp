@@ -2,6 +2,7 @@
 /// \file
 /// One options struct for every door. All members have defaults; use designated initialisers.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -31,6 +32,10 @@ enum class Preset {
     balanced,  ///< as fast, and what a collapse adds to the largest distance from the original counts too
     best,      ///< as balanced, and in the end vertices are moved closer to the original
 };
+
+/// Every preset, in the order of the tables.
+inline constexpr std::array<Preset, 6> all_presets = {Preset::qem,  Preset::paper,    Preset::stmw,
+                                                      Preset::fast, Preset::balanced, Preset::best};
 
 /// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
 struct Weights {

@@ -198,15 +198,24 @@ int run(const Arguments& arguments) {
     return exit_target_missed;
 }
 
+std::string preset_names() {
+    std::string all;
+    for (const Preset preset : all_presets) {
+        if (!all.empty()) all += ", ";
+        all += name(preset);
+    }
+    return all;
+}
+
 void add_target_options(CLI::App& command, Arguments& a) {
     auto* ratio =
         command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
     auto* faces =
         command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
     ratio->excludes(faces);
-    command.add_option("--preset", a.preset,
-                       "Metric and rules: qem, paper, stmw, fast, balanced, best (default " +
-                           std::string(name(Options{}.preset)) + ")");
+    command.add_option(
+        "--preset", a.preset,
+        "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");
     command.add_option("--w-area", a.options.weights.area, "Weight of the boundary area term");
     command.add_option("--w-boundary", a.options.weights.boundary, "Weight of the boundary curvature term");
     command.add_option("--w-normal", a.options.weights.normal, "Weight of the normal term");

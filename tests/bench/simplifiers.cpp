@@ -10,9 +10,6 @@ namespace faqem::bench {
 
 namespace {
 
-/// In the order of the tables. Names this build does not have are passed over.
-constexpr std::string_view preset_names[] = {"qem", "paper", "stmw", "fast", "balanced", "best"};
-
 [[noreturn]] void refuse(std::string_view text, const char* why) {
     throw OptionError("simplifier " + std::string(text) + ": " + why);
 }
@@ -111,12 +108,8 @@ std::vector<NamedSimplifier> peers() {
 
 std::vector<NamedSimplifier> presets() {
     std::vector<NamedSimplifier> all;
-    for (const std::string_view name : preset_names) {
-        try {
-            all.push_back(faqem_named("faqem-" + std::string(name)));
-        } catch (const OptionError&) {
-            continue;
-        }
+    for (const Preset preset : all_presets) {
+        all.push_back(faqem_named("faqem-" + std::string(name(preset))));
     }
     return all;
 }

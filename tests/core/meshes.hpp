@@ -78,6 +78,33 @@ inline TriangleMesh grid(Index n) {
     return mesh;
 }
 
+/// grid(n), the square [0, side]^2 at a height.
+inline TriangleMesh square(Index n, double side, double height) {
+    TriangleMesh mesh = grid(n);
+    for (Vec3& p : mesh.positions) p = {side * p[0] / n, side * p[1] / n, height};
+    return mesh;
+}
+
+/// A sphere around the origin of rings x 2 rings quads from pole to pole, two triangles each, outside out;
+/// the poles are many vertices at one place.
+inline TriangleMesh globe(Index rings, double radius) {
+    TriangleMesh mesh;
+    const Index segments = 2 * rings;
+    for (Index i = 0; i <= rings; ++i) {
+        const double t = pi * i / rings;
+        const double ring = i % rings == 0 ? 0 : radius * std::sin(t);
+        for (Index j = 0; j < segments; ++j) {
+            const double s = 2 * pi * j / segments;
+            mesh.positions.push_back({ring * std::cos(s), ring * std::sin(s), radius * std::cos(t)});
+            if (i == rings) continue;
+            const Index a = i * segments + j, b = i * segments + (j + 1) % segments;
+            mesh.triangles.push_back({a, a + segments, b});
+            mesh.triangles.push_back({b, a + segments, b + segments});
+        }
+    }
+    return mesh;
+}
+
 /// A disc of n triangles around vertex 0; the rim is the unit circle.
 inline TriangleMesh fan(Index n) {
     TriangleMesh mesh;

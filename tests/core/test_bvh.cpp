@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "core/meshes.hpp"
+
 using faqem::Index;
 using faqem::no_index;
 using faqem::Triangle;
@@ -68,22 +70,6 @@ struct Soup {
         return closest_point_on_triangle(faqem::engine::to_eigen(p), corner(0), corner(1), corner(2));
     }
 };
-
-/// (n + 1)^2 vertices, 2 n^2 faces in the plane z = 0.
-Soup grid(Index n) {
-    Soup mesh(0, 0);
-    for (Index y = 0; y <= n; ++y) {
-        for (Index x = 0; x <= n; ++x) mesh.positions.push_back({double(x), double(y), 0});
-    }
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index v = y * (n + 1) + x;
-            mesh.triangles.push_back({v, v + 1, v + n + 2});
-            mesh.triangles.push_back({v, v + n + 2, v + n + 1});
-        }
-    }
-    return mesh;
-}
 
 }  // namespace
 
@@ -150,7 +136,7 @@ TEST_CASE("the tree finds what a search over all faces finds") {
 
 TEST_CASE("of faces at the same distance the tree takes the first") {
     const Index n = 12;
-    Soup mesh = grid(n);
+    faqem::TriangleMesh mesh = faqem::test::grid(n);
     // A second sheet over the first: every face is there twice.
     const std::vector<Triangle> sheet = mesh.triangles;
     mesh.triangles.insert(mesh.triangles.end(), sheet.begin(), sheet.end());
@@ -206,9 +192,9 @@ TEST_CASE("all faces within a distance are visited, once") {
 }
 
 TEST_CASE("trees over nothing and over dropped faces answer that there is nothing") {
-    CHECK(Bvh({}, {}).closest({0, 0, 0}).face == no_index);
+    CHECK(Bvh(std::span<const Vec3>(), {}).closest({0, 0, 0}).face == no_index);
     const std::vector<Triangle> dropped = {{no_index, no_index, no_index}};
-    CHECK(Bvh({}, dropped).empty());
+    CHECK(Bvh(std::span<const Vec3>(), dropped).empty());
 }
 
 TEST_CASE("coincident and exponentially spaced faces give a tree of bounded depth") {

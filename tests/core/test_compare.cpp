@@ -2,51 +2,15 @@
 #include <cmath>
 #include <limits>
 
+#include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 
 using namespace faqem;
+using test::globe;
+using test::square;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-/// The square [0, side]^2 at a height, as n x n pairs of triangles.
-TriangleMesh square(Index n, double side, double height) {
-    TriangleMesh mesh;
-    for (Index y = 0; y <= n; ++y) {
-        for (Index x = 0; x <= n; ++x) mesh.positions.push_back({side * x / n, side * y / n, height});
-    }
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index v = y * (n + 1) + x;
-            mesh.triangles.push_back({v, v + 1, v + n + 2});
-            mesh.triangles.push_back({v, v + n + 2, v + n + 1});
-        }
-    }
-    return mesh;
-}
-
-/// A sphere of rings x 2 rings quads (two triangles each).
-TriangleMesh sphere(Index rings, double radius) {
-    TriangleMesh mesh;
-    const Index segments = 2 * rings;
-    for (Index i = 0; i <= rings; ++i) {
-        for (Index j = 0; j < segments; ++j) {
-            const double t = pi * i / rings, s = 2 * pi * j / segments;
-            mesh.positions.push_back({radius * std::sin(t) * std::cos(s), radius * std::sin(t) * std::sin(s),
-                                      i == rings ? -radius : radius * std::cos(t)});
-        }
-    }
-    for (Index i = 0; i < rings; ++i) {
-        for (Index j = 0; j < segments; ++j) {
-            const Index a = i * segments + j, b = i * segments + (j + 1) % segments;
-            mesh.triangles.push_back({a, a + segments, b});
-            mesh.triangles.push_back({b, a + segments, b + segments});
-        }
-    }
-    return mesh;
-}
 
 bool same(const OneSided& a, const OneSided& b) {
     return a.max == b.max && a.max_bound == b.max_bound && a.mean == b.mean &&
@@ -56,7 +20,7 @@ bool same(const OneSided& a, const OneSided& b) {
 }  // namespace
 
 TEST_CASE("a mesh is at distance zero from itself") {
-    const TriangleMesh mesh = sphere(20, 3);
+    const TriangleMesh mesh = globe(20, 3);
     const Comparison c = compare(mesh.view(), mesh.view(), {.samples = 5000});
     CHECK(c.hausdorff < 1e-14);
     CHECK(c.chamfer < 1e-28);
@@ -106,7 +70,7 @@ TEST_CASE("normals are compared with their sides") {
 
     // A roof of 30 degrees over the square, seen from inside the square's middle line.
     TriangleMesh slope = a;
-    for (Vec3& p : slope.positions) p[2] = std::tan(pi / 6) * p[0];
+    for (Vec3& p : slope.positions) p[2] = std::tan(test::pi / 6) * p[0];
     CHECK(compare(a.view(), slope.view(), {.samples = 500}).mean_normal_degrees == Approx(30).epsilon(1e-6));
 }
 
@@ -123,7 +87,7 @@ TEST_CASE("where several faces are closest the smallest angle counts") {
     TriangleMesh leaning = above;
     for (Vec3& p : leaning.positions) p = {p[0], p[1], 2 - 0.1 * p[0]};
     // Leaning to the right by atan 0.1, it is nearer in angle to the right-hand faces, whatever their index.
-    const double lean = std::atan(0.1) * 180 / pi;
+    const double lean = std::atan(0.1) * 180 / test::pi;
     CHECK(compare(tent.view(), leaning.view(), {.samples = 200}).b_to_a.mean_normal_degrees ==
           Approx(60 - lean).epsilon(1e-3));
     std::swap(tent.triangles[0], tent.triangles[2]);
@@ -133,7 +97,7 @@ TEST_CASE("where several faces are closest the smallest angle counts") {
 }
 
 TEST_CASE("concentric spheres are their radii's difference apart") {
-    const TriangleMesh a = sphere(90, 1), b = sphere(90, 1.1);
+    const TriangleMesh a = globe(90, 1), b = globe(90, 1.1);
     const Comparison c = compare(a.view(), b.view(), {.samples = 20000});
     CHECK(c.hausdorff == Approx(0.1).epsilon(0.01));
     CHECK(c.a_to_b.mean == Approx(0.1).epsilon(0.01));
@@ -156,7 +120,7 @@ TEST_CASE("samples are uniform over the area") {
 }
 
 TEST_CASE("a comparison does not depend on the number of threads but on the seed") {
-    const TriangleMesh a = sphere(30, 1), b = sphere(17, 1.05);
+    const TriangleMesh a = globe(30, 1), b = globe(17, 1.05);
     const Comparison one = compare(a.view(), b.view(), {.samples = 20000, .threads = 1});
     for (const std::uint32_t threads : {2u, 3u, 8u}) {
         const Comparison many = compare(a.view(), b.view(), {.samples = 20000, .threads = threads});
@@ -169,7 +133,7 @@ TEST_CASE("a comparison does not depend on the number of threads but on the seed
 }
 
 TEST_CASE("comparing is symmetric up to sampling, and scales") {
-    TriangleMesh a = sphere(20, 1), b = sphere(9, 1.02);
+    TriangleMesh a = globe(20, 1), b = globe(9, 1.02);
     const Comparison ab = compare(a.view(), b.view(), {.samples = 20000});
     const Comparison ba = compare(b.view(), a.view(), {.samples = 20000});
     CHECK(ab.hausdorff == Approx(ba.hausdorff).epsilon(0.01));

@@ -3,51 +3,25 @@
 #include <cmath>
 #include <limits>
 
+#include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "hausdorff.hpp"
 #include "triangle.hpp"
 
 using namespace faqem;
+using test::square;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The square [0, side]^2 at a height, as n x n pairs of triangles.
-TriangleMesh square(Index n, double side, double height) {
-    TriangleMesh mesh;
-    for (Index y = 0; y <= n; ++y) {
-        for (Index x = 0; x <= n; ++x) mesh.positions.push_back({side * x / n, side * y / n, height});
-    }
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index v = y * (n + 1) + x;
-            mesh.triangles.push_back({v, v + 1, v + n + 2});
-            mesh.triangles.push_back({v, v + n + 2, v + n + 1});
-        }
-    }
-    return mesh;
-}
 
 /// An egg: a sphere of rings x 2 rings quads, stretched and bent so that no two places are alike.
 TriangleMesh egg(Index rings) {
-    TriangleMesh mesh;
-    const Index segments = 2 * rings;
-    for (Index i = 0; i <= rings; ++i) {
-        for (Index j = 0; j < segments; ++j) {
-            const double t = pi * i / rings, s = 2 * pi * j / segments;
-            const double x = std::sin(t) * std::cos(s), y = std::sin(t) * std::sin(s), z = std::cos(t);
-            mesh.positions.push_back({x + 0.2 * z * z, 1.3 * y + 0.1 * x * x, 1.7 * z - 0.3 * y});
-        }
-    }
-    for (Index i = 0; i < rings; ++i) {
-        for (Index j = 0; j < segments; ++j) {
-            const Index a = i * segments + j, b = i * segments + (j + 1) % segments;
-            mesh.triangles.push_back({a, a + segments, b});
-            mesh.triangles.push_back({b, a + segments, b + segments});
-        }
+    TriangleMesh mesh = test::globe(rings, 1);
+    for (auto& [x, y, z] : mesh.positions) {
+        const Vec3 bent = {x + 0.2 * z * z, 1.3 * y + 0.1 * x * x, 1.7 * z - 0.3 * y};
+        x = bent[0], y = bent[1], z = bent[2];
     }
     return mesh;
 }

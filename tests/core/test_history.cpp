@@ -245,7 +245,7 @@ TEST_CASE("the history of a run replays to its result and survives a file") {
     parts = test::both(parts, test::moved(test::scaled(test::tetrahedron(), 1e-3), {0, 0, 3}));
     for (Index f = 0; f < parts.triangles.size(); ++f) parts.face_groups.push_back(f % 2);
     for (const TriangleMesh& mesh : {sphere, parts, test::soup(4, 30, 100)}) {
-        for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced}) {
+        for (const Preset preset : all_presets) {
             for (const double share : {1.0, 0.5, 0.05}) {
                 INFO(int(preset) << " " << share);
                 Options options;

@@ -10,9 +10,7 @@
 using namespace faqem;
 
 TEST_CASE("every preset is found by its name, and no other") {
-    for (const Preset preset :
-         {Preset::qem, Preset::paper, Preset::stmw, Preset::fast, Preset::balanced, Preset::best})
-        CHECK(preset_named(name(preset)) == preset);
+    for (const Preset preset : all_presets) CHECK(preset_named(name(preset)) == preset);
     CHECK(name(Preset::paper) == "paper");
     CHECK_THROWS_AS(preset_named("Paper"), OptionError);
     CHECK_THROWS_WITH(preset_named(""), Catch::StartsWith("unknown preset '' (known: qem, paper, stmw"));
