@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 
 #include "faqem/engine/weld.hpp"
 #include "faqem/error.hpp"
@@ -17,6 +17,8 @@ namespace {
 using engine::Vector3;
 
 constexpr Triangle dropped = {no_index, no_index, no_index};
+
+bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 
 [[noreturn]] void fail(const std::string& element, const std::string& what) {
     throw InputError("", element, what);
@@ -121,26 +123,34 @@ void drop_collapsed(Prepared& out) {
 // A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
 // back stay.
 void drop_doubles(std::span<const Index> groups, Prepared& out) {
-    struct Key {
-        Triangle corners;
-        Index group, face;
-        bool operator<(const Key& o) const {
-            return std::tie(corners, group, face) < std::tie(o.corners, o.group, o.face);
-        }
+    struct Rest {
+        Index second, third, group, face;  // of a face whose smallest corner is known
+        auto operator<=>(const Rest&) const = default;
     };
-    std::vector<Key> keys;
-    keys.reserve(out.triangles.size());
+    std::vector<std::size_t> place(out.positions.size() + 1, 0);
+    const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+    for (const Triangle& t : out.triangles) {
+        if (!is_dropped(t)) ++place[smallest(t) + 1];
+    }
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    std::vector<Rest> faces(place.back());
     for (Index f = 0; f < out.triangles.size(); ++f) {
         Triangle t = out.triangles[f];
-        if (t == dropped) continue;
+        if (is_dropped(t)) continue;
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        keys.push_back({t, groups.empty() ? no_index : groups[f], f});
+        faces[place[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
     }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-        if (keys[i].corners != keys[i - 1].corners || keys[i].group != keys[i - 1].group) continue;
-        out.triangles[keys[i].face] = dropped;
-        ++out.dropped_faces;
+    std::size_t begin = 0;
+    for (const std::size_t end : place) {  // each place is where the next vertex begins now
+        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
+                  faces.begin() + static_cast<std::ptrdiff_t>(end));
+        for (std::size_t i = begin + 1; i < end; ++i) {
+            const Rest &a = faces[i - 1], &b = faces[i];
+            if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
+            out.triangles[b.face] = dropped;
+            ++out.dropped_faces;
+        }
+        begin = end;
     }
 }
 
@@ -150,7 +160,7 @@ void find_scale(double wanted_diagonal, Prepared& out) {
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (const Triangle& t : out.triangles) {
-        if (t == dropped) continue;
+        if (is_dropped(t)) continue;
         for (const Index v : t) {
             for (std::size_t i = 0; i < 3; ++i) {
                 low[i] = std::min(low[i], out.positions[v][i]);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "arrange.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/tracked.hpp"
@@ -32,18 +33,20 @@ std::uint64_t target_faces(const Target& target, std::size_t faces) {
 }
 
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
-                                const engine::PairTable& pairs, Border border) {
-    std::vector<std::uint8_t> locked(prepared.positions.size(), 0);
+                                const detail::Arranged& arranged, const engine::PairTable& pairs,
+                                Border border) {
+    std::vector<std::uint8_t> at_vertex(prepared.positions.size(), 0), locked;
     for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
-        if (mesh.vertex_locks[v]) locked[prepared.welded[v]] = 1;
+        if (mesh.vertex_locks[v]) at_vertex[prepared.welded[v]] = 1;
     }
+    for (const Index v : arranged.vertex) locked.push_back(at_vertex[v]);
     if (border == Border::locked) {
         for (Index v = 0; v < locked.size(); ++v) locked[v] |= pairs.boundary_degree(v) > 0;
     }
     return locked;
 }
 
-// Remembers which welded vertex a slot still sits on, so that what did not move comes out to the last bit.
+// Remembers whose place a slot still has, so that what did not move comes out to the last bit.
 template <class Recorder>
 class OriginRecorder {
 public:
@@ -56,7 +59,7 @@ public:
         place_[survivor] = p == complex.position(gone) ? place_[gone] : no_index;
     }
     void deleting(Index face) { inner_.deleting(face); }
-    /// The welded vertex whose place slot v has, or no_index.
+    /// The slot whose first place slot v has now, or no_index.
     Index place(Index v) const { return place_[v]; }
 
 private:
@@ -74,21 +77,22 @@ engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedge
         seam.resize(complex.vertex_slots());
         for (Index v = 0; v < seam.size(); ++v) seam[v] = wedges.is_seam(complex, v);
     }
-    const auto collapse = [&](auto metric) {
-        engine::Engine<decltype(metric), engine::HeapQueue, Recorder> engine(complex, pairs, wedges, locked,
-                                                                             metric, recorder);
+    const auto collapse = [&]<class Queue>(auto metric, Queue) {
+        engine::Engine<decltype(metric), Queue, Recorder> engine(complex, pairs, wedges, locked, metric,
+                                                                 recorder);
         return engine.run(loop);
     };
     switch (settings.carry) {
         case detail::Settings::Carry::memory:
-            return collapse(engine::MemoryMetric(settings.weights, seam));
+            return collapse(engine::MemoryMetric(settings.weights, seam), engine::HeapQueue());
         case detail::Settings::Carry::memoryless:
-            return collapse(engine::MemorylessMetric());
+            return collapse(engine::MemorylessMetric(), engine::BucketQueue());
         case detail::Settings::Carry::tracked:
             break;
     }
     const detail::OriginalTree surface(*original);
-    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, surface, loop.target_faces));
+    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, surface, loop.target_faces),
+                    engine::BucketQueue());
 }
 
 // Everything of one run, in the order it is made.
@@ -106,12 +110,13 @@ public:
         prepared_ = detail::prepare(mesh_, settings_);
         result_.report.faces_dropped = prepared_.dropped_faces;
         result_.report.seconds.weld = all.seconds();
-        Complex complex(prepared_.engine_positions(), prepared_.triangles);
+        arranged_ = detail::arrange(prepared_);
+        Complex complex(arranged_.positions, arranged_.triangles);
         if (settings_.relax || settings_.carry == detail::Settings::Carry::tracked) {
-            original_.emplace(prepared_.engine_positions(), prepared_.triangles);
+            original_.emplace(arranged_.positions, arranged_.triangles);
         }
         if (options_.history == Recording::on) {
-            engine::HistoryRecorder history(complex, {mesh_.face_groups.begin(), mesh_.face_groups.end()});
+            engine::HistoryRecorder history(complex);
             collapse_and_collect(complex, history);
             finish_history(history);
         } else {
@@ -130,15 +135,19 @@ private:
         std::vector<std::pair<Index, Index>> extra;
         const double least_length = 1e-8 * settings_.diagonal;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
-            extra = detail::virtual_edges(complex, mesh_.face_groups,
+            extra = detail::virtual_edges(complex, arranged_.per_face(mesh_.face_groups),
                                           options_.topology.virtual_edge_distance * settings_.diagonal,
                                           least_length);
         }
         result_.report.virtual_edges = extra.size();
         engine::PairTable pairs(complex, extra);
-        engine::Wedges wedges =
-            mesh_.attributes ? engine::Wedges(complex, *mesh_.attributes) : engine::Wedges();
-        std::vector<std::uint8_t> locked = locks(mesh_, prepared_, pairs, options_.topology.border);
+        engine::Wedges wedges;
+        if (mesh_.attributes) {
+            const auto [values, width] = *mesh_.attributes;
+            wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
+        }
+        std::vector<std::uint8_t> locked =
+            locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
         OriginRecorder<Recorder> origin(recorder, complex);
         engine::LoopOptions loop;
         loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
@@ -168,10 +177,9 @@ private:
             now.push_back(complex.position(v));
             fixed.push_back(locked[v] || (!wedges.empty() && wedges.is_seam(complex, v)));
         }
-        const std::vector<Vector3> original = prepared_.engine_positions();
         const std::vector<Vector3> relaxed =
-            detail::relax({original, prepared_.triangles}, *original_, {now, result_.mesh.triangles}, fixed,
-                          settings_.least_turn, options_.threads);
+            detail::relax({arranged_.positions, arranged_.triangles}, *original_,
+                          {now, result_.mesh.triangles}, fixed, settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
         }
@@ -184,16 +192,17 @@ private:
         result_.report.vertices_relaxed = relaxed_.size();
     }
 
-    // Faces in input order, vertices in slot order; what has no area is left out.
+    // Faces and vertices in input order; what has no area is left out.
     template <class Origin>
     void collect(const Complex& complex, const engine::Wedges& wedges, const Origin& origin) {
         std::vector<Vec3> position(complex.vertex_slots());
         for (Index v = 0; v < position.size(); ++v) {
             const Index at = origin.place(v);
-            position[v] = at != no_index ? prepared_.positions[at] : prepared_.to_model(complex.position(v));
+            position[v] = at != no_index ? prepared_.positions[arranged_.vertex[at]]
+                                         : prepared_.to_model(complex.position(v));
         }
-        TriangleMesh& out = result_.mesh;
-        std::vector<Index> vertex(complex.vertex_slots(), no_index);
+        std::vector<Index> slot_of_face(mesh_.triangles.size(), no_index);
+        std::vector<Index> slot_of_vertex(prepared_.positions.size(), no_index);
         for (Index f = 0; f < complex.face_slots(); ++f) {
             if (!complex.alive(f)) continue;
             const Triangle& t = complex.triangle(f);
@@ -201,36 +210,55 @@ private:
                 ++result_.report.faces_dropped;
                 continue;
             }
-            for (const Index v : t) vertex[v] = 0;
-            result_.face_origin.push_back(f);
+            for (const Index v : t) slot_of_vertex[arranged_.vertex[v]] = v;
+            slot_of_face[arranged_.face[f]] = f;
         }
-        for (Index v = 0; v < vertex.size(); ++v) {
-            if (vertex[v] == no_index) continue;
-            vertex[v] = static_cast<Index>(out.positions.size());
-            out.positions.push_back(position[v]);
+        TriangleMesh& out = result_.mesh;
+        std::vector<Index> vertex(complex.vertex_slots(), no_index);
+        for (Index v = 0; v < slot_of_vertex.size(); ++v) {
+            const Index slot = slot_of_vertex[v];
+            if (slot == no_index) continue;
+            vertex[slot] = static_cast<Index>(out.positions.size());
+            out.positions.push_back(position[slot]);
             result_.vertex_origin.push_back(prepared_.vertex_origin[v]);
-            slots_.push_back(v);
+            slots_.push_back(slot);
         }
-        for (const Index f : result_.face_origin) {
-            const Triangle& t = complex.triangle(f);
+        for (Index f = 0; f < slot_of_face.size(); ++f) {
+            const Index slot = slot_of_face[f];
+            if (slot == no_index) continue;
+            const Triangle& t = complex.triangle(slot);
+            result_.face_origin.push_back(f);
             out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
             if (!mesh_.face_groups.empty()) out.face_groups.push_back(mesh_.face_groups[f]);
             for (unsigned corner = 0; corner < 3 && !wedges.empty(); ++corner) {
-                const float* values = wedges.values(f, corner);
+                const float* values = wedges.values(slot, corner);
                 out.attributes.values.insert(out.attributes.values.end(), values, values + wedges.width());
             }
         }
         out.attributes.width = wedges.width();
     }
 
+    // The version of a slot, or of a collapse after them, among the vertices of the prepared mesh.
+    Index version(Index of_slots) const {
+        const std::size_t slots = arranged_.vertex.size();
+        return of_slots < slots ? arranged_.vertex[of_slots]
+                                : static_cast<Index>(of_slots - slots + prepared_.positions.size());
+    }
+
     void finish_history(engine::HistoryRecorder& recorder) {
-        for (const Index slot : slots_) kept_versions_.push_back(recorder.version(slot));
+        std::vector<Index> kept_versions;
+        for (const Index slot : slots_) kept_versions.push_back(version(recorder.version(slot)));
         CollapseHistory history = recorder.take();
         for (Collapse& collapse : history.collapses) {
-            collapse.position = prepared_.to_model(engine::to_eigen(collapse.position));
+            collapse = {version(collapse.first), version(collapse.second),
+                        prepared_.to_model(engine::to_eigen(collapse.position))};
         }
+        for (Index& face : history.patch_faces) face = arranged_.face[face];
+        for (DeletedFace& deleted : history.deleted_faces) deleted.face = arranged_.face[deleted.face];
         history.positions = std::move(prepared_.positions);
-        history.kept_versions = std::move(kept_versions_);
+        history.triangles = std::move(prepared_.triangles);
+        history.face_groups.assign(mesh_.face_groups.begin(), mesh_.face_groups.end());
+        history.kept_versions = std::move(kept_versions);
         history.kept_faces = result_.face_origin;
         // The history and the mesh say the same, to the last bit.
         for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
@@ -266,10 +294,10 @@ private:
     const Options& options_;
     detail::Settings settings_;
     detail::Prepared prepared_;
-    std::optional<detail::Bvh> original_;  // engine units
+    detail::Arranged arranged_;            // as the engine sees it, before the first collapse
+    std::optional<detail::Bvh> original_;  // of arranged_
     SimplifyResult result_;
-    std::vector<Index> slots_;  // slot of each vertex of the result
-    std::vector<Index> kept_versions_;
+    std::vector<Index> slots_;                           // slot of each vertex of the result
     std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go
 };
 

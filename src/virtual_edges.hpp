@@ -13,10 +13,14 @@ namespace faqem::detail {
 /// For each vertex the few nearest vertices of other components. The paper compares centroids of triangles,
 /// which misses close vertices of large ones; vertices are what a collapse joins. Kept are pairs whose
 /// surfaces face the same way and belong to the same group; the shortest ones, at most as many as there are
-/// vertices. \param complex      the surface \param face_groups  empty, or one per face slot \param distance
-/// largest length, engine units, > 0 \param least        shorter pairs are left out: they would be degenerate
-/// (paper: 1e-8 of the diagonal) \return distinct pairs, smaller vertex first, ordered by both Complexity:
-/// O(n log n) expected.
+/// vertices.
+/// \param complex      the surface
+/// \param face_groups  empty, or one per face slot
+/// \param distance     largest length, engine units, > 0
+/// \param least        shorter pairs are left out: they would be degenerate (paper: 1e-8 of the diagonal)
+/// \return distinct pairs, smaller vertex first, ordered by both
+///
+/// Complexity: O(n log n) expected.
 std::vector<std::pair<Index, Index>> virtual_edges(const engine::Complex& complex,
                                                    std::span<const Index> face_groups, double distance,
                                                    double least);

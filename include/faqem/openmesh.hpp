@@ -138,15 +138,18 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
 
 /// Simplifies `mesh` in place, with the engine's strict link condition: a half-edge mesh stays one.
 /// \param mesh     any TriMesh_ArrayKernelT. Locked, and feature, vertices do not move; nor do the corners of
-/// locked
-///                 or feature edges and faces. Deleted elements are left alone. Status properties are
+///                 locked or feature edges and faces. Deleted elements are left alone. Status properties are
 ///                 requested where missing. What is removed is marked deleted: call mesh.garbage_collection()
 ///                 when you like. Normals are not updated.
 /// \param options  see Options; `topology.link`, `topology.weld` and `history` are decided here, `bake` is
-/// ignored \param region   which part may change \return the report. When cancelled, the mesh is unchanged.
+///                 ignored
+/// \param region   which part may change
+/// \return the report. When cancelled, the mesh is unchanged.
 /// \throws OptionError  as simplify(const MeshView&, ...); virtual edges are on: a half-edge mesh cannot have
-/// them \throws InputError   a position is not finite Complexity: O(n log n) in the number of faces for
-/// bounded valence.
+///                      them
+/// \throws InputError   a position is not finite
+///
+/// Complexity: O(n log n) in the number of faces for bounded valence.
 template <class Traits>
 Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = {},
                 Region region = Region::all) {

@@ -49,7 +49,7 @@ struct Play {
           pairs(complex, extra),
           locked(mesh.positions.size(), 0),
           metric(std::move(m)),
-          recorder(complex, {}) {}
+          recorder(complex) {}
 
     const LoopResult& run(std::size_t target, const Rules& rules, double tiny = 0) {
         LoopOptions options;

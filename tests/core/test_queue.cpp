@@ -1,33 +1,45 @@
 #include "faqem/engine/queue.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
 
-static_assert(CollapseQueue<HeapQueue>);
+static_assert(CollapseQueue<HeapQueue> && CollapseQueue<BucketQueue>);
 
 TEST_CASE("equal costs come out by index, however they went in") {
     HeapQueue queue;
     queue.reserve(6);
-    for (const Index pair : {4u, 1u, 5u, 0u, 3u, 2u}) queue.set(pair, pair == 5 ? -1.0 : 7.0);
-    CHECK(queue.lowest() == -1);
+    for (const Index pair : {4u, 1u, 5u, 0u, 3u, 2u}) queue.set(pair, pair == 5 ? 1.0 : 7.0);
+    CHECK(queue.has_before(2));
+    CHECK_FALSE(queue.has_before(1));
     std::vector<Index> order;
     while (!queue.empty()) order.push_back(queue.pop());
     CHECK(order == std::vector<Index>{5, 0, 1, 2, 3, 4});
 }
 
-TEST_CASE("the queue knows what is in it") {
-    HeapQueue queue;
+TEMPLATE_TEST_CASE("the queue knows what is in it", "", HeapQueue, BucketQueue) {
+    TestType queue;
     queue.reserve(3);
+    CHECK(queue.empty());
+    CHECK_FALSE(queue.has_before(1));
     queue.set(1, 2.0);
+    queue.set(2, 8.0);
     CHECK(queue.contains(1));
     CHECK_FALSE(queue.contains(0));
-    queue.pop();
+    CHECK(queue.has_before(4.0));
+    CHECK_FALSE(queue.has_before(2.0));
+    queue.erase(0);
+    CHECK(queue.pop() == 1);
     CHECK_FALSE(queue.contains(1));
+    CHECK_FALSE(queue.has_before(4.0));
+    queue.erase(2);
+    CHECK(queue.empty());
 }
 
 TEST_CASE("the heap does what an ordered set does") {
@@ -49,7 +61,8 @@ TEST_CASE("the heap does what an ordered set does") {
             expected.erase({cost[pair], pair});
             queue.erase(pair);
         } else if (!expected.empty()) {
-            if (queue.lowest() != expected.begin()->first) FAIL("lowest at step " << step);
+            if (queue.has_before(expected.begin()->first)) FAIL("before the first at step " << step);
+            if (!queue.has_before(expected.begin()->first + 0.5)) FAIL("first at step " << step);
             if (queue.pop() != expected.begin()->second) FAIL("pop at step " << step);
             expected.erase(expected.begin());
         }
@@ -62,8 +75,52 @@ TEST_CASE("the heap does what an ordered set does") {
     CHECK(queue.empty());
 }
 
-TEST_CASE("reserve forgets what was in the queue") {
-    HeapQueue queue;
+TEST_CASE("buckets give out nearly equal costs in the order of arrival") {
+    BucketQueue queue;
+    queue.reserve(6);
+    for (const Index pair : {4u, 1u, 5u}) queue.set(pair, 1 + pair * 1e-4);
+    queue.set(2, 1.1);
+    queue.set(0, 0.0);
+    queue.set(3, 1e300);  // beyond what a float holds
+    queue.set(1, 1.1);    // later now
+    std::vector<Index> order;
+    while (!queue.empty()) order.push_back(queue.pop());
+    CHECK(order == std::vector<Index>{0, 4, 5, 2, 1, 3});
+}
+
+TEST_CASE("buckets never give out a cost that is a sixty-fourth above another") {
+    test::Random random(6);
+    BucketQueue queue;
+    std::vector<double> cost(300, -1);
+    queue.reserve(cost.size());
+    std::size_t size = 0;
+    for (int step = 0; step < 20'000; ++step) {
+        const Index pair = random.below(cost.size());
+        const double roll = random.unit();
+        if (roll < 0.6) {
+            size += cost[pair] < 0;
+            cost[pair] = std::pow(10.0, random.between(-12, 3));
+            queue.set(pair, cost[pair]);
+        } else if (roll < 0.7) {
+            size -= cost[pair] >= 0;
+            cost[pair] = -1;
+            queue.erase(pair);
+        } else if (size > 0) {
+            const double taken = std::exchange(cost[queue.pop()], -1);
+            --size;
+            REQUIRE(taken >= 0);
+            for (const double other : cost) {
+                if (other >= 0 && other * (1 + 1.0 / 64) < taken)
+                    FAIL("a lower one is left at step " << step);
+            }
+        }
+        REQUIRE(queue.empty() == (size == 0));
+        REQUIRE(queue.contains(pair) == (cost[pair] >= 0));
+    }
+}
+
+TEMPLATE_TEST_CASE("reserve forgets what was in the queue", "", HeapQueue, BucketQueue) {
+    TestType queue;
     queue.reserve(2);
     queue.set(1, 1);
     queue.reserve(2);

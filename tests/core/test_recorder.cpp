@@ -14,7 +14,7 @@ static_assert(std::is_empty_v<NoRecorder>, "recording nothing takes no room");
 TEST_CASE("a collapse is recorded with both versions, the point and the faces at either end") {
     const TriangleMesh mesh = test::grid(2);
     Complex complex = test::complex_of(mesh);
-    HistoryRecorder recorder(complex, {});
+    HistoryRecorder recorder(complex);
     CHECK(recorder.version(4) == 4);
     recorder.collapsing(complex, 4, 0, {1, 2, 3});
     complex.collapse(4, 0, {1, 2, 3});
@@ -23,7 +23,6 @@ TEST_CASE("a collapse is recorded with both versions, the point and the faces at
     recorder.deleting(7);
     CHECK(recorder.version(1) == 10);
     const CollapseHistory h = recorder.take();
-    CHECK(h.triangles == mesh.triangles);
     REQUIRE(h.collapses.size() == 2);
     CHECK(h.collapses[0].first == 4);
     CHECK(h.collapses[0].second == 0);

@@ -25,58 +25,57 @@ class Complex {
 public:
     /// \param positions  one per vertex
     /// \param triangles  indices into positions; a face with no_index corners is dead from the start
-    Complex(std::vector<Vector3> positions, std::vector<Triangle> triangles)
-        : positions_(std::move(positions)),
-          triangles_(std::move(triangles)),
-          first_(positions_.size(), no_index),
-          next_(3 * triangles_.size(), no_index),
-          degree_(positions_.size(), 0) {
-        for (std::size_t f = triangles_.size(); f-- > 0;) {
+    Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles) {
+        vertices_.reserve(positions.size());
+        for (const Vector3& p : positions) vertices_.push_back({p, no_index, 0});
+        faces_.resize(triangles.size());
+        for (std::size_t f = triangles.size(); f-- > 0;) {
+            faces_[f].corners = triangles[f];
             if (!alive(static_cast<Index>(f))) continue;
             ++face_count_;
-            for (std::size_t c = 3; c-- > 0;) push_corner(triangles_[f][c], static_cast<Index>(3 * f + c));
+            for (std::size_t k = 3; k-- > 0;) push_corner(triangles[f][k], static_cast<Index>(4 * f + k));
         }
     }
 
-    std::size_t vertex_slots() const { return positions_.size(); }
-    std::size_t face_slots() const { return triangles_.size(); }
+    std::size_t vertex_slots() const { return vertices_.size(); }
+    std::size_t face_slots() const { return faces_.size(); }
     /// Faces that are alive.
     std::size_t face_count() const { return face_count_; }
 
-    const Vector3& position(Index v) const { return positions_[v]; }
-    const Triangle& triangle(Index f) const { return triangles_[f]; }
-    bool alive(Index f) const { return triangles_[f][0] != no_index; }
+    const Vector3& position(Index v) const { return vertices_[v].position; }
+    const Triangle& triangle(Index f) const { return faces_[f].corners; }
+    bool alive(Index f) const { return faces_[f].corners[0] != no_index; }
     /// Number of living faces at v.
-    std::uint32_t degree(Index v) const { return degree_[v]; }
+    std::uint32_t degree(Index v) const { return vertices_[v].degree; }
 
     /// Calls visit(face, corner) for every living face at v; corner is 0, 1 or 2.
     template <class Visit>
     void for_each_face(Index v, Visit&& visit) const {
-        for (Index c = first_[v]; c != no_index; c = next_[c]) {
-            const Index f = c / 3;
-            if (alive(f)) visit(f, c % 3);
+        for (Index c = vertices_[v].first; c != no_index; c = next(c)) {
+            const Index f = c / 4;
+            if (alive(f)) visit(f, c % 4);
         }
     }
 
     /// Calls visit(face, corner) until it returns false; tells whether it never did.
     template <class Visit>
     bool all_faces(Index v, Visit&& visit) const {
-        for (Index c = first_[v]; c != no_index; c = next_[c]) {
-            const Index f = c / 3;
-            if (alive(f) && !visit(f, c % 3)) return false;
+        for (Index c = vertices_[v].first; c != no_index; c = next(c)) {
+            const Index f = c / 4;
+            if (alive(f) && !visit(f, c % 4)) return false;
         }
         return true;
     }
 
     bool has_corner(Index f, Index v) const {
-        const Triangle& t = triangles_[f];
+        const Triangle& t = triangle(f);
         return t[0] == v || t[1] == v || t[2] == v;
     }
 
     /// Twice the area of f, along its normal.
     Vector3 area_vector(Index f) const {
-        const Triangle& t = triangles_[f];
-        return engine::area_vector(positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+        const Triangle& t = triangle(f);
+        return engine::area_vector(position(t[0]), position(t[1]), position(t[2]));
     }
 
     /// Moves `survivor` to `p` and gives it the faces of `gone`; faces with both vanish.
@@ -84,52 +83,63 @@ public:
     std::size_t collapse(Index survivor, Index gone, const Vector3& p) {
         assert(survivor != gone);
         const std::size_t before = face_count_;
-        for (Index c = first_[gone]; c != no_index; c = next_[c]) {
-            const Index f = c / 3;
+        Vertex &to = vertices_[survivor], &from = vertices_[gone];
+        for (Index c = from.first; c != no_index; c = next(c)) {
+            const Index f = c / 4;
             if (alive(f) && has_corner(f, survivor)) remove_face(f);
         }
         Index kept = no_index;
-        splice(first_[survivor], kept, survivor);
-        splice(first_[gone], kept, survivor);
-        first_[survivor] = kept;
-        degree_[survivor] += degree_[gone];
-        first_[gone] = no_index;
-        degree_[gone] = 0;
-        positions_[survivor] = p;
+        splice(to.first, kept, survivor);
+        splice(from.first, kept, survivor);
+        to = {p, kept, to.degree + from.degree};
+        from.first = no_index;
+        from.degree = 0;
         return before - face_count_;
     }
 
     /// Removes a living face.
     void remove_face(Index f) {
-        for (Index v : triangles_[f]) --degree_[v];
-        triangles_[f] = {no_index, no_index, no_index};
+        for (const Index v : faces_[f].corners) --vertices_[v].degree;
+        faces_[f].corners = {no_index, no_index, no_index};
         --face_count_;
     }
 
 private:
+    // What is needed together lies together: a vertex is half a cache line.
+    struct alignas(32) Vertex {
+        Vector3 position;
+        Index first;  ///< corner 4 * face + (0, 1 or 2), head of a list
+        std::uint32_t degree;
+    };
+    struct Face {
+        Triangle corners;
+        Triangle next;  ///< corner after each, in the list of its vertex
+    };
+
+    Index next(Index corner) const { return faces_[corner / 4].next[corner % 4]; }
+
     void push_corner(Index v, Index c) {
-        next_[c] = first_[v];
-        first_[v] = c;
-        ++degree_[v];
+        faces_[c / 4].next[c % 4] = vertices_[v].first;
+        vertices_[v].first = c;
+        ++vertices_[v].degree;
     }
 
     // Moves the living corners of list `from` to the front of list `to`, now belonging to `owner`.
     void splice(Index from, Index& to, Index owner) {
         while (from != no_index) {
-            const Index following = next_[from];
-            if (alive(from / 3)) {
-                triangles_[from / 3][from % 3] = owner;
-                next_[from] = to;
+            Face& face = faces_[from / 4];
+            const Index following = face.next[from % 4];
+            if (alive(from / 4)) {
+                face.corners[from % 4] = owner;
+                face.next[from % 4] = to;
                 to = from;
             }
             from = following;
         }
     }
 
-    std::vector<Vector3> positions_;
-    std::vector<Triangle> triangles_;
-    std::vector<Index> first_, next_;  // lists of corners 3 * face + corner
-    std::vector<std::uint32_t> degree_;
+    std::vector<Vertex> vertices_;
+    std::vector<Face> faces_;
     std::size_t face_count_ = 0;
 };
 

@@ -70,7 +70,8 @@ public:
           locked_(locked),
           metric_(metric),
           recorder_(recorder),
-          legality_(complex) {}
+          legality_(complex),
+          has_vetoed_(complex.vertex_slots(), 0) {}
 
     /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
     LoopResult run(const LoopOptions& options) {
@@ -100,6 +101,7 @@ public:
 
 private:
     void seed() {
+        std::fill(has_vetoed_.begin(), has_vetoed_.end(), std::uint8_t{0});
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
             if (pairs_.alive(pair)) evaluate(pair);
         }
@@ -114,8 +116,8 @@ private:
                 result_.stop = StopReason::cancelled;
                 return true;
             }
-            const double cost = queue_.lowest();
-            try_collapse(queue_.pop(), cost);
+            const Index pair = queue_.pop();
+            if (!try_collapse(pair)) veto(pair);
         }
         return true;
     }
@@ -155,20 +157,25 @@ private:
             queue_.set(pair, found->cost);
         } else {
             queue_.erase(pair);
+            veto(pair);
         }
     }
 
-    void try_collapse(Index pair, double expected) {
+    // The pair is out of the queue until the surroundings of one of its ends change.
+    void veto(Index pair) { has_vetoed_[pairs_.first(pair)] = has_vetoed_[pairs_.second(pair)] = 1; }
+
+    // False: it may not be done. It need not be done yet, either.
+    bool try_collapse(Index pair) {
         Index u = pairs_.first(pair), v = pairs_.second(pair);
         const auto found = candidate(pair);
-        if (!found) return;
-        if (postpone(pair, found->cost, expected)) return;
-        if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces);
+        if (!found) return false;
+        if (postpone(pair, found->cost)) return true;
+        if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces), false;
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
-            return refuse(*refusal);
+            return refuse(*refusal), false;
         }
         if constexpr (RefiningMetric<Metric>) {
-            if (postpone(pair, metric_.refine(complex_, u, v, *found), expected)) return;
+            if (postpone(pair, metric_.refine(complex_, u, v, *found))) return true;
         }
         // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
         // a hub.
@@ -176,11 +183,12 @@ private:
             locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
         collapse(u, v, found->point);
+        return true;
     }
 
     // A pair that turns out dearer than it seemed, and than the next one, waits for its turn.
-    bool postpone(Index pair, double cost, double expected) {
-        if (!(cost > expected) || queue_.empty() || !(cost > queue_.lowest())) return false;
+    bool postpone(Index pair, double cost) {
+        if (!queue_.has_before(cost)) return false;
         queue_.set(pair, cost);
         return true;
     }
@@ -202,6 +210,8 @@ private:
         for (const PairTable::Change& change : changes_) {
             const Staleness staleness = metric_.staleness(change);
             if (staleness == Staleness::none) continue;
+            std::uint8_t& has_vetoed = has_vetoed_[change.neighbour.vertex];
+            if (staleness == Staleness::lazily && !std::exchange(has_vetoed, std::uint8_t{0})) continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
                 if (n.vertex == survivor) return;
                 if (staleness == Staleness::now || !queue_.contains(n.pair)) evaluate(n.pair);
@@ -300,6 +310,7 @@ private:
     Recorder& recorder_;
     Legality legality_;
     Queue queue_;
+    std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may be out of the queue
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;

@@ -34,8 +34,14 @@ public:
         for (Index f = 0; f < facets_.size(); ++f) {
             if (complex.alive(f)) facets_[f] = facet(complex, f);
         }
-        rings_.resize(complex.vertex_slots());
-        for (Index v = 0; v < rings_.size(); ++v) rings_[v] = ring(complex, pairs, v);
+        rings_.assign(complex.vertex_slots(), {});
+        normals_.assign(complex.vertex_slots(), Vector3::Zero());
+        edges_.assign(complex.vertex_slots(), {});
+        has_edges_.assign(complex.vertex_slots(), 0);
+        for (Index f = 0; f < facets_.size(); ++f) {
+            if (complex.alive(f)) add_facet(complex, f, no_index, no_index, 1);
+        }
+        for (Index v = 0; v < rings_.size(); ++v) find_edges(complex, pairs, v);
     }
 
     /// The sum of both rings less half of what they share: a shared face counts one and a half times.
@@ -47,8 +53,8 @@ public:
         const Vector3 d = complex.position(v) - origin;
         Planes shared;
         const std::uint32_t faces = sum_shared(complex, u, v, shared);
-        const Planes& at_v = rings_[v];
-        Planes sum = rings_[u];
+        const Planes at_v = ring(v);
+        Planes sum = ring(u);
         sum.add(at_v, 1);
         sum.add(shared, -0.5);
         const Vector3 moment = at_v.apply(d);
@@ -62,16 +68,24 @@ public:
         return Candidate{p == d ? complex.position(v) : Vector3(origin + p), cost};
     }
 
-    void collapsing(const Complex&, const PairTable&, Index, Index, const Vector3&) {}
+    void collapsing(const Complex& complex, const PairTable&, Index survivor, Index gone, const Vector3&) {
+        complex.for_each_face(survivor,
+                              [&](Index f, unsigned) { add_facet(complex, f, survivor, gone, -1); });
+        complex.for_each_face(gone, [&](Index f, unsigned) {
+            if (!complex.has_corner(f, survivor)) add_facet(complex, f, survivor, gone, -1);
+        });
+    }
 
     void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
                    std::span<const PairTable::Change> around) {
-        complex.for_each_face(survivor, [&](Index f, unsigned) { facets_[f] = facet(complex, f); });
-        rings_[survivor] = ring(complex, pairs, survivor);
-        for (const PairTable::Change& change : around) {
-            const Index v = change.neighbour.vertex;
-            rings_[v] = ring(complex, pairs, v);
-        }
+        rings_[survivor] = {};
+        normals_[survivor] = Vector3::Zero();
+        complex.for_each_face(survivor, [&](Index f, unsigned) {
+            facets_[f] = facet(complex, f);
+            add_facet(complex, f, no_index, no_index, 1);
+        });
+        find_edges(complex, pairs, survivor);
+        for (const PairTable::Change& change : around) find_edges(complex, pairs, change.neighbour.vertex);
     }
 
     Staleness staleness(const PairTable::Change&) const { return Staleness::lazily; }
@@ -109,39 +123,65 @@ private:
         return {n / length, 0.5 * length};
     }
 
-    Planes ring(const Complex& complex, const PairTable& pairs, Index v) const {
+    // Adds the facet to its corners' rings, or takes it away (sign -1), except at u and v.
+    void add_facet(const Complex& complex, Index f, Index u, Index v, double sign) {
+        const Facet& facet = facets_[f];
+        Planes planes;
+        planes.add(facet.normal, sign * facet.area);
+        for (const Index corner : complex.triangle(f)) {
+            if (corner == u || corner == v) continue;
+            rings_[corner].add(planes, 1);
+            normals_[corner] += sign * facet.normal;
+        }
+    }
+
+    Planes ring(Index v) const {
+        Planes q = rings_[v];
+        if (has_edges_[v]) q.add(edges_[v], 1);
+        return q;
+    }
+
+    // Sums up the planes along the open, crowded and folding edges of v.
+    void find_edges(const Complex& complex, const PairTable& pairs, Index v) {
+        has_edges_[v] = 0;
+        if (pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !may_fold(complex, v))
+            return;
         Planes q;
-        Vector3 sum = Vector3::Zero();
-        complex.for_each_face(v, [&](Index f, unsigned) {
-            const Facet& facet = facets_[f];
-            q.add(facet.normal, facet.area);
-            sum += facet.normal;
-        });
-        // Where all normals are within 60 degrees of one direction no two are 120 degrees apart.
-        const double limit = 0.5 * sum.norm();
-        const bool may_fold = weights_.fold_edge > 0 && !complex.all_faces(v, [&](Index f, unsigned) {
-            return facets_[f].normal.dot(sum) > limit;
-        });
-        if (!may_fold && pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0) return q;
         pairs.for_each_pair(v, [&](Neighbour n) {
             if (const double w = edge_weight(complex, v, n.vertex, pairs.face_count(n.pair)); w > 0) {
+                has_edges_[v] = 1;
                 complex.for_each_face(v, [&](Index f, unsigned) {
                     if (complex.has_corner(f, n.vertex)) add_edge_plane(complex, f, v, n.vertex, w, q);
                 });
             }
         });
-        return q;
+        edges_[v] = q;
+    }
+
+    // Can two normals at v be more than 120 degrees apart? Their sum would not be longer than 1, and the sum
+    // of all than one less than there are. Nor are they where all normals are within 60 degrees of one
+    // direction.
+    bool may_fold(const Complex& complex, Index v) const {
+        if (!(weights_.fold_edge > 0)) return false;
+        const Vector3& sum = normals_[v];
+        const double length = sum.norm();
+        if (length > complex.degree(v) - 1 + 1e-6) return false;
+        return !complex.all_faces(
+            v, [&](Index f, unsigned) { return facets_[f].normal.dot(sum) > 0.5 * length; });
     }
 
     std::uint32_t sum_shared(const Complex& complex, Index u, Index v, Planes& q) const {
         if (complex.degree(v) < complex.degree(u)) std::swap(u, v);
         std::uint32_t shared = 0;
+        Index first = no_index, last = no_index;
         complex.for_each_face(u, [&](Index f, unsigned) {
             if (!complex.has_corner(f, v)) return;
             ++shared;
+            first = last;
+            last = f;
             q.add(facets_[f].normal, facets_[f].area);
         });
-        const double w = edge_weight(complex, u, v, shared);
+        const double w = edge_weight(shared, first, last);
         if (!(w > 0)) return shared;
         complex.for_each_face(u, [&](Index f, unsigned) {
             if (complex.has_corner(f, v)) add_edge_plane(complex, f, u, v, w, q);
@@ -150,19 +190,23 @@ private:
     }
 
     double edge_weight(const Complex& complex, Index u, Index v, std::uint32_t faces) const {
-        if (faces == 1) return weights_.edge;
-        if (faces > 2) return weights_.nonmanifold_edge;
-        return faces == 2 && weights_.fold_edge > 0 && folds(complex, u, v) ? weights_.fold_edge : 0;
+        Index first = no_index, last = no_index;
+        if (faces == 2) {
+            complex.for_each_face(u, [&](Index f, unsigned) {
+                if (!complex.has_corner(f, v)) return;
+                first = last;
+                last = f;
+            });
+        }
+        return edge_weight(faces, first, last);
     }
 
-    bool folds(const Complex& complex, Index u, Index v) const {
-        Index first = no_index, last = no_index;
-        complex.for_each_face(u, [&](Index f, unsigned) {
-            if (!complex.has_corner(f, v)) return;
-            first = last;
-            last = f;
-        });
-        return facets_[first].normal.dot(facets_[last].normal) < -0.5;
+    // \param first, last  the faces, where there are two
+    double edge_weight(std::uint32_t faces, Index first, Index last) const {
+        if (faces == 1) return weights_.edge;
+        if (faces > 2) return weights_.nonmanifold_edge;
+        const bool folds = faces == 2 && facets_[first].normal.dot(facets_[last].normal) < -0.5;
+        return folds ? weights_.fold_edge : 0;
     }
 
     void add_edge_plane(const Complex& complex, Index f, Index a, Index b, double weight, Planes& q) const {
@@ -174,7 +218,11 @@ private:
 
     MemorylessWeights weights_;
     std::vector<Facet> facets_;  // of each face, now
-    std::vector<Planes> rings_;  // of each vertex, around itself, now
+    // Of each vertex, around itself, now: planes and sum of normals of its facets, planes along its edges.
+    std::vector<Planes> rings_;
+    std::vector<Vector3> normals_;
+    std::vector<Planes> edges_;
+    std::vector<std::uint8_t> has_edges_;
 };
 
 static_assert(CollapseMetric<MemorylessMetric>);

@@ -25,15 +25,11 @@ struct NoRecorder {
     void deleting(Index) {}
 };
 
-/// Records the collapse history, positions in engine units until finish().
+/// Records the collapse history, in slots and engine units.
 class HistoryRecorder {
 public:
-    /// \param complex      before the first collapse
-    /// \param face_groups  empty, or one per face slot
-    HistoryRecorder(const Complex& complex, std::vector<Index> face_groups) {
-        history_.face_groups = std::move(face_groups);
-        history_.triangles.reserve(complex.face_slots());
-        for (Index f = 0; f < complex.face_slots(); ++f) history_.triangles.push_back(complex.triangle(f));
+    /// \param complex  before the first collapse
+    explicit HistoryRecorder(const Complex& complex) {
         history_.patch_begin.push_back(0);
         version_.resize(complex.vertex_slots());
         std::iota(version_.begin(), version_.end(), Index{0});
@@ -55,7 +51,7 @@ public:
     /// The version that a vertex slot is now.
     Index version(Index slot) const { return version_[slot]; }
 
-    /// Gives the history away; positions and kept faces are the caller's to fill.
+    /// Gives away the collapses, their patches and the deleted faces; the rest is the caller's to fill.
     CollapseHistory take() { return std::move(history_); }
 
 private:
