@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bvh.hpp"
 #include "fit.hpp"
 #include "parallel.hpp"
 
@@ -109,13 +110,13 @@ std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::si
 
 class Relaxation {
 public:
-    Relaxation(const Patchwork& original, const Bvh& original_tree, const Patchwork& light,
-               std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads)
+    Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
+               double least_turn, std::uint32_t threads)
         : original_(original),
           light_(light),
           least_turn_(least_turn),
           threads_(threads),
-          original_tree_(original_tree),
+          original_tree_(original.positions, original.triangles),
           start_(light.positions.begin(), light.positions.end()),
           positions_(start_),
           fixed_(on_border(light.triangles, start_.size())) {
@@ -248,7 +249,7 @@ private:
     const Patchwork& light_;
     double least_turn_;
     std::uint32_t threads_;
-    const Bvh& original_tree_;
+    Bvh original_tree_;
     std::vector<Vector3> start_, positions_;
     std::vector<std::uint8_t> fixed_;
     std::vector<Spot> spots_;             // points of the light mesh
@@ -259,9 +260,9 @@ private:
 
 }  // namespace
 
-std::vector<Vector3> relax(const Patchwork& original, const Bvh& original_tree, const Patchwork& light,
+std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
                            std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads) {
-    return Relaxation(original, original_tree, light, fixed, least_turn, threads)();
+    return Relaxation(original, light, fixed, least_turn, threads)();
 }
 
 }  // namespace faqem::detail

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "bvh.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
 
@@ -22,16 +21,15 @@ struct Patchwork {
 /// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
 /// allows, and where a point would be nearly as far away as the farthest was before; if the farthest is
 /// farther in the end, nothing moves.
-/// \param original       finite
-/// \param original_tree  of its triangles
-/// \param light          finite, in the same units
-/// \param fixed          one per vertex of light: nonzero must not move. Open borders do not move either.
-/// \param least_turn     cosine between old and new normal of a face, at least
-/// \param threads        0: all; the result does not depend on it
+/// \param original    finite
+/// \param light       finite, in the same units
+/// \param fixed       one per vertex of light: nonzero must not move. Open borders do not move either.
+/// \param least_turn  cosine between old and new normal of a face, at least
+/// \param threads     0: all; the result does not depend on it
 /// \return the positions of all vertices of light
 /// Complexity: O(points log faces) a step; about twelve points per face of the light mesh on either side.
-std::vector<engine::Vector3> relax(const Patchwork& original, const Bvh& original_tree,
-                                   const Patchwork& light, std::span<const std::uint8_t> fixed,
-                                   double least_turn, std::uint32_t threads);
+std::vector<engine::Vector3> relax(const Patchwork& original, const Patchwork& light,
+                                   std::span<const std::uint8_t> fixed, double least_turn,
+                                   std::uint32_t threads);
 
 }  // namespace faqem::detail

@@ -1,7 +1,6 @@
 #include "faqem/simplify.hpp"
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,7 +8,6 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/tracked.hpp"
-#include "original_tree.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
 #include "relax.hpp"
@@ -67,11 +65,10 @@ private:
     std::vector<Index> place_;
 };
 
-// \param original  the surface as it was; may be null where nothing tracks it
 template <class Recorder>
 engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedges& wedges,
                        std::vector<std::uint8_t>& locked, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop, const detail::Bvh* original) {
+                       Recorder& recorder, const engine::LoopOptions& loop) {
     std::vector<std::uint8_t> seam;
     if (!wedges.empty()) {
         seam.resize(complex.vertex_slots());
@@ -90,9 +87,7 @@ engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedge
         case detail::Settings::Carry::tracked:
             break;
     }
-    const detail::OriginalTree surface(*original);
-    return collapse(engine::TrackedMetric<detail::OriginalTree>({}, surface, loop.target_faces),
-                    engine::BucketQueue());
+    return collapse(engine::TrackedMetric({}, loop.target_faces), engine::BucketQueue());
 }
 
 // Everything of one run, in the order it is made.
@@ -112,9 +107,6 @@ public:
         result_.report.seconds.weld = all.seconds();
         arranged_ = detail::arrange(prepared_);
         Complex complex(arranged_.positions, arranged_.triangles);
-        if (settings_.relax || settings_.carry == detail::Settings::Carry::tracked) {
-            original_.emplace(arranged_.positions, arranged_.triangles);
-        }
         if (options_.history == Recording::on) {
             engine::HistoryRecorder history(complex);
             collapse_and_collect(complex, history);
@@ -156,8 +148,7 @@ private:
         if (options_.progress) {
             loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
         }
-        const engine::LoopResult looped =
-            run(complex, pairs, wedges, locked, settings_, origin, loop, original_ ? &*original_ : nullptr);
+        const engine::LoopResult looped = run(complex, pairs, wedges, locked, settings_, origin, loop);
         Report& report = result_.report;
         report.stop = looped.stop;
         report.collapses = looped.collapses;
@@ -178,8 +169,8 @@ private:
             fixed.push_back(locked[v] || (!wedges.empty() && wedges.is_seam(complex, v)));
         }
         const std::vector<Vector3> relaxed =
-            detail::relax({arranged_.positions, arranged_.triangles}, *original_,
-                          {now, result_.mesh.triangles}, fixed, settings_.least_turn, options_.threads);
+            detail::relax({arranged_.positions, arranged_.triangles}, {now, result_.mesh.triangles}, fixed,
+                          settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
         }
@@ -294,8 +285,7 @@ private:
     const Options& options_;
     detail::Settings settings_;
     detail::Prepared prepared_;
-    detail::Arranged arranged_;            // as the engine sees it, before the first collapse
-    std::optional<detail::Bvh> original_;  // of arranged_
+    detail::Arranged arranged_;  // as the engine sees it, before the first collapse
     SimplifyResult result_;
     std::vector<Index> slots_;                           // slot of each vertex of the result
     std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go

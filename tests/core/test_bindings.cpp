@@ -20,8 +20,8 @@ std::vector<Index> bound_to(const Bindings& bindings, Index f) {
 
 TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces") {
     const Complex complex = test::complex_of(test::icosphere(1));
-    Bindings bindings;
-    bindings.initialise(complex);
+    Bindings bindings(complex);
+    bindings.begin(complex);
     std::vector<int> times(complex.vertex_slots(), 0);
     for (Index f = 0; f < complex.face_slots(); ++f) {
         for (const Index v : bound_to(bindings, f)) {
@@ -35,8 +35,8 @@ TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces"
 
 TEST_CASE("bindings: what is released is bound to nothing until it is bound anew") {
     const Complex complex = test::complex_of(test::quad());
-    Bindings bindings;
-    bindings.initialise(complex);
+    Bindings bindings(complex);
+    bindings.begin(complex);
     std::vector<Index> all = bound_to(bindings, 0);
     for (const Index v : bound_to(bindings, 1)) all.push_back(v);
     CHECK(all.size() == 4);
@@ -49,7 +49,68 @@ TEST_CASE("bindings: what is released is bound to nothing until it is bound anew
 
 TEST_CASE("bindings: a vertex without faces is bound to nothing") {
     const Complex complex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}});
-    Bindings bindings;
-    bindings.initialise(complex);
+    Bindings bindings(complex);
+    bindings.begin(complex);
     CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1, 2});
+}
+
+TEST_CASE("bindings: what went into another vertex is bound to the face nearest to where it was") {
+    // Columns of a grid go into their left neighbours, which stay in place; then all that is left is pushed
+    // up.
+    const TriangleMesh mesh = test::grid(6);
+    Complex complex = test::complex_of(mesh);
+    Bindings bindings(complex);
+    for (Index y = 0; y <= 6; ++y) {
+        for (const Index x : {1u, 3u, 5u}) {
+            const Index v = x + 7 * y;
+            bindings.merge(v - 1, v);
+            complex.collapse(v - 1, v, complex.position(v - 1));
+        }
+    }
+    bindings.begin(complex);
+    const auto distance = [&](Index f, const Vector3& p) {
+        const Triangle& t = complex.triangle(f);
+        return TriangleDistance(complex.position(t[0]), complex.position(t[1]), complex.position(t[2]))(p);
+    };
+    std::size_t found = 0;
+    for (Index f = 0; f < complex.face_slots(); ++f) {
+        if (!complex.alive(f)) {
+            CHECK(bound_to(bindings, f).empty());
+            continue;
+        }
+        for (const Index v : bound_to(bindings, f)) {
+            ++found;
+            for (Index other = 0; other < complex.face_slots(); ++other) {
+                if (complex.alive(other))
+                    CHECK(distance(f, bindings.position(v)) <= distance(other, bindings.position(v)));
+            }
+        }
+    }
+    CHECK(found == mesh.positions.size());
+}
+
+TEST_CASE("bindings: the lineage is followed over many steps") {
+    const TriangleMesh mesh = test::fan(8);
+    Complex complex = test::complex_of(mesh);
+    Bindings bindings(complex);
+    for (Index v = 2; v < 7; ++v) {
+        bindings.merge(v, v - 1);
+        complex.collapse(v, v - 1, complex.position(v));
+    }
+    bindings.begin(complex);
+    std::size_t found = 0;
+    for (Index f = 0; f < complex.face_slots(); ++f) {
+        if (complex.alive(f)) found += bound_to(bindings, f).size();
+    }
+    CHECK(found == 9);
+}
+
+TEST_CASE("bindings: distances to the original stay those to the original") {
+    const TriangleMesh mesh = test::fan(6);
+    Complex complex = test::complex_of(mesh);
+    const Bindings bindings(complex);
+    complex.collapse(0, 1, {0, 0, 5});
+    CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 100) == Approx(4));
+    CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 1) == 1);
+    CHECK(bindings.squared_distance_around(1, {2, 0, 0}, 100) == Approx(1));
 }

@@ -75,20 +75,35 @@ TEST_CASE("the heap does what an ordered set does") {
     CHECK(queue.empty());
 }
 
-TEST_CASE("buckets give out nearly equal costs in the order of arrival") {
+TEST_CASE("buckets give out nearly equal costs in the order in which they came to their level") {
     BucketQueue queue;
     queue.reserve(6);
     for (const Index pair : {4u, 1u, 5u}) queue.set(pair, 1 + pair * 1e-4);
     queue.set(2, 1.1);
     queue.set(0, 0.0);
     queue.set(3, 1e300);  // beyond what a float holds
-    queue.set(1, 1.1);    // later now
+    queue.set(1, 1.1);    // later than 4 and 5 now, but here before 2
     std::vector<Index> order;
     while (!queue.empty()) order.push_back(queue.pop());
-    CHECK(order == std::vector<Index>{0, 4, 5, 2, 1, 3});
+    CHECK(order == std::vector<Index>{0, 4, 5, 1, 2, 3});
 }
 
-TEST_CASE("buckets never give out a cost that is a sixty-fourth above another") {
+TEST_CASE("buckets stay in a block while it has pairs on the level") {
+    BucketQueue queue(2);  // blocks of four pairs
+    queue.reserve(12);
+    for (const Index pair : {9u, 1u, 5u, 10u, 2u, 6u}) queue.set(pair, 1 + 0.02 * pair);
+    queue.set(3, 2.0);
+    std::vector<Index> order;
+    for (int i = 0; i < 3; ++i) order.push_back(queue.pop());
+    // Block 2 is open. What comes in below its level there is next, elsewhere when the block is done.
+    queue.set(7, 0.1);
+    queue.set(0, 0.1);
+    queue.set(8, 0.2);
+    while (!queue.empty()) order.push_back(queue.pop());
+    CHECK(order == std::vector<Index>{5, 6, 9, 8, 10, 0, 7, 1, 2, 3});
+}
+
+TEST_CASE("in one block buckets never give out a cost that is a sixty-fourth above another") {
     test::Random random(6);
     BucketQueue queue;
     std::vector<double> cost(300, -1);

@@ -22,8 +22,7 @@ TriangleMesh relaxed(const TriangleMesh& original, const TriangleMesh& light,
     fixed.resize(light.positions.size(), 0);
     const std::vector<Vector3> from = vectors(original), to = vectors(light);
     TriangleMesh result = light;
-    const auto moved = detail::relax({from, original.triangles}, detail::Bvh(from, original.triangles),
-                                     {to, light.triangles}, fixed, 0.3, threads);
+    const auto moved = detail::relax({from, original.triangles}, {to, light.triangles}, fixed, 0.3, threads);
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);
     return result;
 }

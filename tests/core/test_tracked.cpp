@@ -5,32 +5,17 @@
 #include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
-#include "original_tree.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
 
 namespace {
 
-// The original, looked at face by face.
-struct AllFaces {
-    const TriangleMesh& mesh;
-    double squared_distance(const Vector3& p, double at_most) const {
-        for (const Triangle& t : mesh.triangles) {
-            const TriangleDistance d(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
-                                     to_eigen(mesh.positions[t[2]]));
-            at_most = std::min(at_most, d(p));
-        }
-        return at_most;
-    }
-};
-
 struct Bench {
-    explicit Bench(const TriangleMesh& mesh)
+    explicit Bench(const TriangleMesh& mesh, std::size_t target = 0)
         : complex(test::complex_of(mesh)),
           pairs(complex, {}),
-          original{mesh},
-          metric({0, 0, 0}, original, mesh.triangles.size()) {
+          metric({0, 0, 0}, target ? target : mesh.triangles.size()) {
         metric.initialise(complex, pairs);
     }
     void collapse(Index u, Index v, const Vector3& p) {
@@ -44,8 +29,7 @@ struct Bench {
 
     Complex complex;
     PairTable pairs;
-    AllFaces original;
-    TrackedMetric<AllFaces> metric;
+    TrackedMetric metric;
 };
 
 }  // namespace
@@ -113,12 +97,19 @@ TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the la
     CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
 }
 
-TEST_CASE("tracked: the tree of the original gives the distance, or the limit where that is smaller") {
-    const TriangleMesh sphere = test::icosphere(2);
-    const detail::Bvh bvh(sphere.positions, sphere.triangles);
-    const detail::OriginalTree tree(bvh);
-    const AllFaces faces{sphere};
-    const Vector3 p(0.3, 1.1, -0.4);
-    CHECK(tree.squared_distance(p, 100) == Approx(faces.squared_distance(p, 100)));
-    CHECK(tree.squared_distance(p, 1e-6) == 1e-6);
+TEST_CASE("tracked: far above the target the planes alone tell, then the lineage tells what is bound where") {
+    // A cylinder of 16 sides and 16 rings; four times the target is reached by joining a rim with the next.
+    const TriangleMesh tube = test::cylinder(16, 16, 4);
+    Bench bench(tube, 120);
+    const Candidate in_place{bench.complex.position(1), 0};
+    REQUIRE(bench.complex.face_count() > 480);
+    CHECK(bench.metric.refine(bench.complex, 1, 0, in_place) == 0);
+    for (Index v = 0; bench.complex.face_count() > 480; v += 2) {
+        bench.collapse(v + 1, v, bench.complex.position(v + 1));
+    }
+    // Vertex 0 went into 1 and is now as far from the surface as its arc is high over the chord from 15 to 1.
+    const double height = 1 - std::cos(test::pi / 8);
+    const double face_area = 2 * test::pi * 4 / 120;
+    const double cost = bench.metric.refine(bench.complex, 1, 17, in_place);
+    CHECK(cost > 0.9 * face_area * height * height);
 }
