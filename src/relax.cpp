@@ -17,9 +17,11 @@ using engine::Vector3;
 
 constexpr std::size_t block = 1024;
 constexpr int steps = 4;
-constexpr std::size_t points_per_face = 10, least_points = 20'000, most_points = 2'000'000;
+constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
 /// Points that end farther away than this share of the farthest at the start go back.
 constexpr double put_back_from = 0.9;
+/// Added to each point's distance between the normals: a fraction of a degree does not matter.
+constexpr double least_turn_counted = 0.005;
 /// A face may not shrink below this share of its area.
 constexpr double least_area = 0.05;
 /// Times that a step is halved where faces turn too far, before it is left out there.
@@ -125,31 +127,65 @@ public:
             static_cast<std::size_t>(std::count_if(light.triangles.begin(), light.triangles.end(),
                                                    [](const Triangle& t) { return t[0] != no_index; }));
         const std::size_t count = std::clamp(points_per_face * faces, least_points, most_points);
+        for (const Triangle& t : original.triangles) {
+            original_normals_.push_back(t[0] == no_index ? Vector3::Zero()
+                                                         : unit(area_vector(original.positions, t)));
+        }
         spots_ = spread(light, count);
         for (const Spot& spot : corners_and_middles(light)) spots_.push_back(spot);
         add_original_vertices(4 * count);
         for (const Spot& spot : spread(original, count)) {
             original_points_.push_back(
-                {spot.on(original.positions, original.triangles),
-                 unit(area_vector(original.positions, original.triangles[spot.face]))});
+                {spot.on(original.positions, original.triangles), original_normals_[spot.face]});
         }
     }
 
     std::vector<Vector3> operator()() {
         if (spots_.empty() || original_points_.empty()) return start_;
         measure();
-        const std::vector<double> first = farthest_;
-        const double before = *std::max_element(first.begin(), first.end());
+        const std::vector<Fit> first = fits_;
+        const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
             move(fitting_step(light_.triangles, pulls_, fixed_));
             measure();
         }
         for (int round = 0; round < most_rounds && put_back(first, before); ++round) measure();
-        const double after = *std::max_element(farthest_.begin(), farthest_.end());
-        return after <= before ? positions_ : start_;
+        return farthest(fits_) <= before ? positions_ : start_;
     }
 
 private:
+    /// How well faces of the light mesh fit.
+    struct Fit {
+        double farthest = 0;  ///< largest squared distance of their points
+        double distance = 0;  ///< sum of these squared distances
+        double turn = 0;      ///< sum of the distances between the unit normals on either side
+        void add(const Fit& other) {
+            farthest = std::max(farthest, other.farthest);
+            distance += other.distance;
+            turn += other.turn;
+        }
+        /// A gain in distance at the cost of the normals is none, unless it is the larger one.
+        bool is_worse_than(const Fit& other) const {
+            return turn > other.turn && distance * turn * turn > other.distance * other.turn * other.turn;
+        }
+    };
+
+    static double farthest(std::span<const Fit> fits) {
+        Fit all;
+        for (const Fit& fit : fits) all.add(fit);
+        return all.farthest;
+    }
+
+    /// Of the faces around each vertex together.
+    std::vector<Fit> around_vertices(std::span<const Fit> fits) const {
+        std::vector<Fit> sums(start_.size());
+        for (std::size_t f = 0; f < fits.size(); ++f) {
+            if (light_.triangles[f][0] == no_index) continue;
+            for (const Index v : light_.triangles[f]) sums[v].add(fits[f]);
+        }
+        return sums;
+    }
+
     /// With the mean normal of the faces around each; none if there are more than `most`.
     void add_original_vertices(std::size_t most) {
         std::vector<Vector3> normal(original_.positions.size(), Vector3::Zero());
@@ -165,15 +201,17 @@ private:
         }
     }
 
-    /// Finds the pulls of all points where the vertices are now, and each face's largest squared distance.
+    /// Finds the pulls of all points where the vertices are now, and how well the faces fit.
     void measure() {
         pulls_.resize(spots_.size() + original_points_.size());
+        std::vector<double> turn(spots_.size());
         parallel_blocks(spots_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const Vector3 p = spots_[i].on(positions_, light_.triangles);
                 const Bvh::Hit hit = original_tree_.closest(engine::to_array(p));
                 pulls_[i] = {spots_[i], engine::to_eigen(hit.point) - p,
                              unit(area_vector(positions_, light_.triangles[spots_[i].face]))};
+                turn[i] = least_turn_counted + (pulls_[i].normal - original_normals_[hit.face]).norm();
             }
         });
         const Bvh tree(positions_, light_.triangles);
@@ -185,11 +223,12 @@ private:
                     {hit.face, hit.barycentric}, p - engine::to_eigen(hit.point), original_points_[i].normal};
             }
         });
-        farthest_.assign(light_.triangles.size(), 0);
+        fits_.assign(light_.triangles.size(), {});
         for (const Pull& pull : pulls_) {
-            double& distance = farthest_[pull.spot.face];
-            distance = std::max(distance, pull.gap.squaredNorm());
+            const double distance = pull.gap.squaredNorm();
+            fits_[pull.spot.face].add({distance, distance, 0});
         }
+        for (std::size_t i = 0; i < turn.size(); ++i) fits_[spots_[i].face].turn += turn[i];
     }
 
     /// Takes the steps, shorter where a face would turn too far from where it was at the start.
@@ -217,13 +256,19 @@ private:
         return new_norm >= least_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
     }
 
-    /// Undoes the moves at faces with far points that were nearer before. False: there were none.
-    bool put_back(std::span<const double> first, double before) {
+    /// Undoes the moves at faces with far points that were nearer before, and of vertices around which the
+    /// faces fit worse than before. False: there were none.
+    bool put_back(std::span<const Fit> first, double before) {
         const double limit = put_back_from * put_back_from * before;
         bool any = false;
-        for (std::size_t f = 0; f < farthest_.size(); ++f) {
-            if (!(farthest_[f] > limit && farthest_[f] > first[f])) continue;
-            any |= put_back(light_.triangles[f]);
+        for (std::size_t f = 0; f < fits_.size(); ++f) {
+            const Fit& fit = fits_[f];
+            if (fit.farthest > limit && fit.farthest > first[f].farthest)
+                any |= put_back(light_.triangles[f]);
+        }
+        const std::vector<Fit> before_around = around_vertices(first), around = around_vertices(fits_);
+        for (Index v = 0; v < around.size(); ++v) {
+            if (around[v].is_worse_than(before_around[v])) any |= put_back(v);
         }
         // A face with some of its corners back may have turned: then all of them go back.
         const std::vector<Vector3> nowhere(positions_.size(), Vector3::Zero());
@@ -238,11 +283,14 @@ private:
 
     bool put_back(const Triangle& t) {
         bool any = false;
-        for (const Index v : t) {
-            any |= positions_[v] != start_[v];
-            positions_[v] = start_[v];
-        }
+        for (const Index v : t) any |= put_back(v);
         return any;
+    }
+
+    bool put_back(Index v) {
+        if (positions_[v] == start_[v]) return false;
+        positions_[v] = start_[v];
+        return true;
     }
 
     const Patchwork& original_;
@@ -255,7 +303,8 @@ private:
     std::vector<Spot> spots_;             // points of the light mesh
     std::vector<Point> original_points_;  // of the original
     std::vector<Pull> pulls_;             // of spots_, then of original_points_
-    std::vector<double> farthest_;        // squared, per face of the light mesh
+    std::vector<Fit> fits_;               // of the faces of the light mesh
+    std::vector<Vector3> original_normals_;
 };
 
 }  // namespace

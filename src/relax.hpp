@@ -19,8 +19,8 @@ struct Patchwork {
 
 /// Fits the light mesh to the original: Gauss-Newton steps on points spread over both, each with its closest
 /// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
-/// allows, and where a point would be nearly as far away as the farthest was before; if the farthest is
-/// farther in the end, nothing moves.
+/// allows, where a point would be nearly as far away as the farthest was before, and where the normals lose
+/// more than the distances gain; if the farthest is farther in the end, nothing moves.
 /// \param original    finite
 /// \param light       finite, in the same units
 /// \param fixed       one per vertex of light: nonzero must not move. Open borders do not move either.

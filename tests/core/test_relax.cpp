@@ -67,6 +67,20 @@ TEST_CASE("relax: fixed vertices and open borders do not move") {
     CHECK(moved > 0);
 }
 
+TEST_CASE("relax: flat sides do not tilt for a gain in distance that is smaller than the loss in normals") {
+    // A cube with rounded edges against a cube: its corners lie outside, and to pull them in tilts the sides.
+    TriangleMesh rounded = test::icosphere(4);
+    for (Vec3& p : rounded.positions) {
+        const double most = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        for (double& x : p) x = std::clamp(1.1 * x / most, -1.0, 1.0);
+    }
+    const TriangleMesh cube = test::moved(test::scaled(test::cube(), 2), {-1, -1, -1});
+    const Comparison before = distance(rounded, cube), after = distance(rounded, relaxed(rounded, cube));
+    const double distances = after.chamfer / before.chamfer;
+    const double normals = after.mean_normal_degrees / before.mean_normal_degrees;
+    CHECK(distances * normals * normals <= 1.001);
+}
+
 TEST_CASE("relax: the result does not depend on the number of threads") {
     const TriangleMesh sphere = test::shaken(test::icosphere(3), 0.03, 1), light = test::icosphere(1);
     CHECK(relaxed(sphere, light, {}, 1).positions == relaxed(sphere, light, {}, 3).positions);
