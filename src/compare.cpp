@@ -41,18 +41,6 @@ double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension
     return static_cast<double>(mix(mix(mix(seed) + dimension) + sample) >> 11) * 0x1p-53;
 }
 
-/// Largest cosine between `normal` and the normals of the faces as near to p as `hit`: at an edge or corner
-/// of the other mesh several faces are, and which of them comes first is chance.
-double best_cosine(const Surface& to, const Bvh& tree, const Vec3& p, const Bvh::Hit& hit,
-                   const Vector3& normal, double tolerance) {
-    double best = normal.dot(to.normals[hit.face]);
-    const double reach = std::sqrt(hit.distance_squared) + tolerance;
-    tree.visit_within(p, reach * reach, [&](Index face, const detail::ClosestPoint&) {
-        best = std::max(best, normal.dot(to.normals[face]));
-    });
-    return std::min(best, 1.0);
-}
-
 struct Sums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
 };
@@ -101,7 +89,8 @@ OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, cons
             for (std::size_t i = begin; i < end; ++i) {
                 const Sample s = sample(from, i, options.samples, seed);
                 const Bvh::Hit hit = query(s.point);
-                const double cosine = best_cosine(to, tree, s.point, hit, from.normals[s.face], tie);
+                const double cosine =
+                    detail::best_cosine(tree, to.normals, s.point, hit, from.normals[s.face], tie);
                 sum.max_squared = std::max(sum.max_squared, hit.distance_squared);
                 sum.distance += std::sqrt(hit.distance_squared);
                 sum.squared += hit.distance_squared;

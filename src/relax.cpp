@@ -8,6 +8,7 @@
 #include "bvh.hpp"
 #include "fit.hpp"
 #include "parallel.hpp"
+#include "surface.hpp"
 
 namespace faqem::detail {
 
@@ -22,6 +23,8 @@ constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2
 constexpr double put_back_from = 0.9;
 /// Added to each point's distance between the normals: a fraction of a degree does not matter.
 constexpr double least_turn_counted = 0.005;
+/// Original faces whose distances differ by less are tied. The diagonal is 1.
+constexpr double tie_tolerance = 1e-9;
 /// A face may not shrink below this share of its area.
 constexpr double least_area = 0.05;
 /// Times that a step is halved where faces turn too far, before it is left out there.
@@ -211,7 +214,9 @@ private:
                 const Bvh::Hit hit = original_tree_.closest(engine::to_array(p));
                 pulls_[i] = {spots_[i], engine::to_eigen(hit.point) - p,
                              unit(area_vector(positions_, light_.triangles[spots_[i].face]))};
-                turn[i] = least_turn_counted + (pulls_[i].normal - original_normals_[hit.face]).norm();
+                const double cosine = best_cosine(original_tree_, original_normals_, engine::to_array(p), hit,
+                                                  pulls_[i].normal, tie_tolerance);
+                turn[i] = least_turn_counted + std::sqrt(2 - 2 * cosine);
             }
         });
         const Bvh tree(positions_, light_.triangles);

@@ -81,4 +81,14 @@ Surface make_surface(const MeshView& mesh, const char* name) {
     return s;
 }
 
+double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p, const Bvh::Hit& hit,
+                   const Vector3& normal, double tolerance) {
+    double best = normal.dot(normals[hit.face]);
+    const double reach = std::sqrt(hit.distance_squared) + tolerance;
+    tree.visit_within(p, reach * reach, [&](Index face, const ClosestPoint&) {
+        best = std::max(best, normal.dot(normals[face]));
+    });
+    return std::min(best, 1.0);
+}
+
 }  // namespace faqem::detail

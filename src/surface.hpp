@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bvh.hpp"
@@ -34,6 +35,15 @@ struct Surface {
 /// \throws InputError  no face has area, or an index is out of range
 /// O(n log n)
 Surface make_surface(const MeshView& mesh, const char* name);
+
+/// Largest cosine between a normal and those of the faces as near to p as the nearest one: at an edge or a
+/// corner there are several, and which of them comes first is chance.
+/// \param normals    unit, of the tree's triangles
+/// \param hit        tree.closest(p)
+/// \param normal     unit
+/// \param tolerance  faces that are farther by at most this are as near
+double best_cosine(const Bvh& tree, std::span<const engine::Vector3> normals, const Vec3& p,
+                   const Bvh::Hit& hit, const engine::Vector3& normal, double tolerance);
 
 /// Closest points for queries that come in spatial order: the answer to one bounds the next. Refers to its
 /// arguments; the tree is that of the surface.
