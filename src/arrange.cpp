@@ -4,30 +4,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "morton.hpp"
+
 namespace faqem::detail {
 
 namespace {
 
 using engine::Vector3;
-
-constexpr int bits = 21;
-
-/// Every third bit of the result is one of x, from the lowest on.
-std::uint64_t spread(std::uint64_t x) {
-    x = (x | x << 32) & 0x001f00000000ffff;
-    x = (x | x << 16) & 0x001f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    return (x | x << 2) & 0x1249249249249249;
-}
-
-/// Where a point is on the curve through a cube with a corner at `low`.
-std::uint64_t morton(const Vector3& p, const Vector3& low, double per_side) {
-    constexpr double last = (1 << bits) - 1;
-    const Vector3 cell = ((p - low) * (per_side * last)).cwiseMax(0.0).cwiseMin(last);
-    return spread(static_cast<std::uint64_t>(cell.x())) << 2 |
-           spread(static_cast<std::uint64_t>(cell.y())) << 1 | spread(static_cast<std::uint64_t>(cell.z()));
-}
 
 /// The used vertices in the order of the curve.
 std::vector<Index> along_the_curve(const std::vector<Vector3>& positions,
@@ -45,7 +28,7 @@ std::vector<Index> along_the_curve(const std::vector<Vector3>& positions,
     const double per_side = side > 0 ? 1 / side : 0;
     std::vector<std::pair<std::uint64_t, Index>> keys;
     for (Index v = 0; v < used.size(); ++v) {
-        if (used[v]) keys.emplace_back(morton(positions[v], box.min(), per_side), v);
+        if (used[v]) keys.emplace_back(morton<21>((positions[v] - box.min()) * per_side), v);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<Index> order;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "faqem/engine/vector.hpp"
+#include "morton.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -54,16 +55,6 @@ void clamp_densities(const BakeJob& job, std::span<const PageFace> faces, std::v
     }
 }
 
-// 16 bits per axis.
-std::uint64_t morton(const Vector3& unit) {
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto x = static_cast<std::uint64_t>(std::clamp(unit[axis], 0.0, 1.0) * 65535);
-        for (int bit = 0; bit < 16; ++bit) code |= ((x >> bit) & 1) << (3 * bit + axis);
-    }
-    return code;
-}
-
 // Along a Morton curve over the box of its part, part by part.
 std::vector<std::uint64_t> spatial_orders(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<std::uint64_t> result(faces.size());
@@ -78,7 +69,7 @@ std::vector<std::uint64_t> spatial_orders(const BakeJob& job, std::span<const Pa
         for (end = begin; end < faces.size() && faces[end].part == faces[begin].part; ++end) {
             const auto p = corners_of(part.small->mesh, faces[end].face);
             const Vector3 middle = (p[0] + p[1] + p[2]) / 3;
-            result[end] = (std::uint64_t{part.index & 0xffff} << 48) | morton((middle - low) / size);
+            result[end] = (std::uint64_t{part.index & 0xffff} << 48) | morton<16>((middle - low) / size);
         }
     }
     return result;

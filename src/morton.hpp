@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// A curve through space along which neighbours are near each other.
+
+#include <cstdint>
+
+#include "faqem/engine/vector.hpp"
+
+namespace faqem::detail {
+
+/// Every third bit of the result is one of x, from the lowest on. \param x  below 2^21
+constexpr std::uint64_t spread_bits(std::uint64_t x) {
+    x = (x | x << 32) & 0x001f00000000ffff;
+    x = (x | x << 16) & 0x001f0000ff0000ff;
+    x = (x | x << 8) & 0x100f00f00f00f00f;
+    x = (x | x << 4) & 0x10c30c30c30c30c3;
+    return (x | x << 2) & 0x1249249249249249;
+}
+
+/// Where a point is on the Morton curve through the unit cube; points outside are drawn to its sides.
+/// \tparam bits  per axis, at most 21: the result is below 2^(3 bits)
+template <int bits>
+std::uint64_t morton(const engine::Vector3& unit) {
+    static_assert(0 < bits && bits <= 21);
+    constexpr double last = (1 << bits) - 1;
+    const engine::Vector3 cell = (unit * last).cwiseMax(0.0).cwiseMin(last);
+    return spread_bits(static_cast<std::uint64_t>(cell.x())) << 2 |
+           spread_bits(static_cast<std::uint64_t>(cell.y())) << 1 |
+           spread_bits(static_cast<std::uint64_t>(cell.z()));
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,27 @@
+#include "morton.hpp"
+
+#include <catch2/catch.hpp>
+
+using faqem::detail::morton;
+using faqem::detail::spread_bits;
+using faqem::engine::Vector3;
+
+TEST_CASE("morton: bits are spread three apart") {
+    CHECK(spread_bits(0b1011) == 0b001'000'001'001);
+    CHECK(spread_bits((1u << 21) - 1) == 0x1249249249249249);
+}
+
+TEST_CASE("morton: the eight octants come one after the other, x first") {
+    std::uint64_t octant = 0;
+    for (const double x : {0.2, 0.8}) {
+        for (const double y : {0.2, 0.8}) {
+            for (const double z : {0.2, 0.8}) CHECK(morton<1>(Vector3(x, y, z) * 1.5) == octant++);
+        }
+    }
+}
+
+TEST_CASE("morton: what lies outside the cube is drawn to its sides") {
+    CHECK(morton<16>({-1, -1e300, -0.0}) == 0);
+    CHECK(morton<16>({2, 1e300, 1}) == (std::uint64_t{1} << 48) - 1);
+    CHECK(morton<21>({1, 1, 1}) == (std::uint64_t{1} << 63) - 1);
+}
