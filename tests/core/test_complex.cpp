@@ -65,6 +65,32 @@ TEST_CASE("all_faces stops at the first no") {
     CHECK(complex.all_faces(0, [](Index, unsigned) { return true; }));
 }
 
+TEST_CASE("the faces around a pair are visited once each, with the corner that is in it") {
+    const Complex complex = test::complex_of(test::quad());
+    using Visit = std::pair<Index, Index>;
+    const auto around = [&](Index u, Index v) {
+        std::set<Visit> seen;
+        std::size_t visits = 0;
+        complex.for_each_face_around(u, v, [&](Index f, unsigned corner) {
+            ++visits;
+            seen.emplace(f, complex.triangle(f)[corner]);
+        });
+        CHECK(visits == seen.size());
+        return seen;
+    };
+    for (const Index u : {0u, 1u, 2u, 3u}) {
+        for (const Index v : {0u, 1u, 2u, 3u}) {
+            if (u == v) continue;
+            std::set<Visit> expected;
+            for (Index f = 0; f < complex.face_slots(); ++f) {
+                const bool at_u = complex.has_corner(f, u);
+                if (at_u || complex.has_corner(f, v)) expected.emplace(f, at_u ? u : v);
+            }
+            CHECK(around(u, v) == expected);
+        }
+    }
+}
+
 TEST_CASE("a collapse moves the survivor, hands faces over and removes those between the two") {
     TriangleMesh mesh = test::quad();
     Complex complex = test::complex_of(mesh);

@@ -67,6 +67,16 @@ public:
         return true;
     }
 
+    /// Calls visit(face, corner) for every living face at u, then for every one at v that is not at u; corner
+    /// is that of u or v.
+    template <class Visit>
+    void for_each_face_around(Index u, Index v, Visit&& visit) const {
+        for_each_face(u, visit);
+        for_each_face(v, [&](Index f, unsigned corner) {
+            if (!has_corner(f, u)) visit(f, corner);
+        });
+    }
+
     bool has_corner(Index f, Index v) const {
         const Triangle& t = triangle(f);
         return t[0] == v || t[1] == v || t[2] == v;

@@ -69,11 +69,8 @@ public:
     }
 
     void collapsing(const Complex& complex, const PairTable&, Index survivor, Index gone, const Vector3&) {
-        complex.for_each_face(survivor,
-                              [&](Index f, unsigned) { add_facet(complex, f, survivor, gone, -1); });
-        complex.for_each_face(gone, [&](Index f, unsigned) {
-            if (!complex.has_corner(f, survivor)) add_facet(complex, f, survivor, gone, -1);
-        });
+        complex.for_each_face_around(survivor, gone,
+                                     [&](Index f, unsigned) { add_facet(complex, f, survivor, gone, -1); });
     }
 
     void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,

@@ -38,10 +38,8 @@ public:
     void collapsing(const Complex& complex, Index survivor, Index gone, const Vector3& p) {
         const auto fresh = static_cast<Index>(version_.size() + history_.collapses.size());
         history_.collapses.push_back({version_[survivor], version_[gone], to_array(p)});
-        complex.for_each_face(survivor, [&](Index f, unsigned) { history_.patch_faces.push_back(f); });
-        complex.for_each_face(gone, [&](Index f, unsigned) {
-            if (!complex.has_corner(f, survivor)) history_.patch_faces.push_back(f);
-        });
+        complex.for_each_face_around(survivor, gone,
+                                     [&](Index f, unsigned) { history_.patch_faces.push_back(f); });
         history_.patch_begin.push_back(history_.patch_faces.size());
         version_[survivor] = fresh;
     }

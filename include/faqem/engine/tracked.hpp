@@ -25,7 +25,7 @@ namespace faqem::engine {
 class TrackedMetric {
 public:
     /// Tracking begins at this many times the target. At all sizes it costs four times as much, and gains
-    /// nothing (docs/quality.md).
+    /// next to nothing (docs/quality.md).
     static constexpr std::size_t begins_at = 4;
 
     /// \param target_faces  the result's, > 0
@@ -63,7 +63,7 @@ public:
         planes_.collapsing(complex, pairs, survivor, gone, p);
         if (!is_tracking_) return bindings_->merge(survivor, gone);
         bound_.clear();
-        for_each_face_around(complex, survivor, gone, [&](Index f, unsigned) {
+        complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
             bindings_->release(f);
         });
@@ -93,20 +93,11 @@ private:
         bindings_->begin(complex);
     }
 
-    // All faces of u, and those of v that are not u's.
-    template <class Visit>
-    static void for_each_face_around(const Complex& complex, Index u, Index v, Visit&& visit) {
-        complex.for_each_face(u, visit);
-        complex.for_each_face(v, [&](Index f, unsigned corner) {
-            if (!complex.has_corner(f, u)) visit(f, corner);
-        });
-    }
-
     // Collects the faces there would be, and what is bound to those there are.
     void look_ahead(const Complex& complex, Index u, Index v, const Vector3& p) {
         after_.clear();
         bound_.clear();
-        for_each_face_around(complex, u, v, [&](Index f, unsigned corner) {
+        complex.for_each_face_around(u, v, [&](Index f, unsigned corner) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
             if (complex.has_corner(f, u) && complex.has_corner(f, v)) return;
             const Triangle& t = complex.triangle(f);
