@@ -43,8 +43,8 @@ struct Weights {
     std::optional<double> boundary = {};  ///< curvature-scaled boundary planes (paper eq. 6-9); paper: 500
     std::optional<double> normal = {};    ///< tangent plane at the vertex (paper eq. 10); paper: 0.01
     std::optional<double> uv = {};        ///< factor on quadrics at UV seams, where UVs are kept; paper: 5000
-    std::optional<double> plane_area =
-        {};  ///< inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1
+    /// Inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1.
+    std::optional<double> plane_area = {};
 };
 
 /// The link condition keeps the topology of a manifold surface (Dey et al. 1999).

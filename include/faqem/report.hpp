@@ -59,8 +59,8 @@ struct Report {
     std::uint64_t collapses = 0;
     std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal: how often a pair was turned down
     std::array<std::uint64_t, rung_kinds> rungs = {};        ///< by Rung: how often taken
-    std::uint64_t faces_dropped =
-        0;  ///< faces without area, before or after, or with two equal corners, and doubles
+    /// Faces without area, before or after, or with two equal corners, and doubles.
+    std::uint64_t faces_dropped = 0;
     std::uint64_t components_deleted = 0;
     std::uint64_t vertices_relaxed = 0;  ///< moved in the end to come closer to the original (preset best)
     std::uint64_t virtual_edges = 0;

@@ -55,8 +55,7 @@ TEST_CASE("bindings: a vertex without faces is bound to nothing") {
 }
 
 TEST_CASE("bindings: what went into another vertex is bound to the face nearest to where it was") {
-    // Columns of a grid go into their left neighbours, which stay in place; then all that is left is pushed
-    // up.
+    // Every second column of a grid goes into its left neighbour, which stays in place.
     const TriangleMesh mesh = test::grid(6);
     Complex complex = test::complex_of(mesh);
     Bindings bindings(complex);

@@ -32,10 +32,16 @@ void everywhere(const TriangleMesh& mesh, Check check) {
     }
 }
 
-// Soups from sparse to fourfold overcrowded, parts with borders, closed surfaces.
-std::vector<TriangleMesh> all_sorts() {
+// From sparse to fourfold overcrowded.
+std::vector<TriangleMesh> soups() {
     std::vector<TriangleMesh> meshes;
     for (std::uint32_t seed = 0; seed < 12; ++seed) meshes.push_back(test::soup(seed, 60, 40 + 30 * seed));
+    return meshes;
+}
+
+// Open, closed, and parts that meet.
+std::vector<TriangleMesh> surfaces() {
+    std::vector<TriangleMesh> meshes;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
         meshes.push_back(test::shaken(test::grid(9), 0.3, seed));
         meshes.push_back(test::shaken(test::cylinder(11, 8, 3), 0.1, seed));
@@ -46,6 +52,12 @@ std::vector<TriangleMesh> all_sorts() {
         mix = test::both(mix, test::inside_out(test::moved(test::grid(5), {0, 2, 0})));
         meshes.push_back(test::both(mix, test::moved(test::soup(seed, 20, 60), {3, 3, 3})));
     }
+    return meshes;
+}
+
+std::vector<TriangleMesh> all_sorts() {
+    std::vector<TriangleMesh> meshes = soups();
+    for (TriangleMesh& mesh : surfaces()) meshes.push_back(std::move(mesh));
     return meshes;
 }
 
@@ -96,36 +108,34 @@ bool climbed(const Report& report) {
     return false;
 }
 
-}  // namespace
-
-TEST_CASE("results are finite, use every vertex, have faces with area and origins in range") {
-    for (const TriangleMesh& input : all_sorts()) {
-        everywhere(input, [](const TriangleMesh& mesh, const SimplifyResult& result) {
-            CHECK(finite(result.mesh));
-            CHECK(indices_valid_and_used(result.mesh));
-            CHECK(has_area(result.mesh));
-            REQUIRE(result.face_origin.size() == result.mesh.triangles.size());
-            REQUIRE(result.vertex_origin.size() == result.mesh.positions.size());
-            CHECK(ascending(result.face_origin));
-            CHECK(ascending(result.vertex_origin));
-            CHECK((result.face_origin.empty() || result.face_origin.back() < mesh.triangles.size()));
-            CHECK((result.vertex_origin.empty() || result.vertex_origin.back() < mesh.positions.size()));
-        });
-    }
+// Finite, every vertex used, faces with area, origins in range; the target met or the reason given.
+void is_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
+    CHECK(finite(result.mesh));
+    CHECK(indices_valid_and_used(result.mesh));
+    CHECK(has_area(result.mesh));
+    REQUIRE(result.face_origin.size() == result.mesh.triangles.size());
+    REQUIRE(result.vertex_origin.size() == result.mesh.positions.size());
+    CHECK(ascending(result.face_origin));
+    CHECK(ascending(result.vertex_origin));
+    CHECK((result.face_origin.empty() || result.face_origin.back() < mesh.triangles.size()));
+    CHECK((result.vertex_origin.empty() || result.vertex_origin.back() < mesh.positions.size()));
+    const Report& report = result.report;
+    CHECK(report.faces_in == mesh.triangles.size());
+    CHECK(report.faces_out == result.mesh.triangles.size());
+    CHECK(report.vertices_out == result.mesh.positions.size());
+    CHECK((report.faces_out <= report.target_faces) == (report.stop == StopReason::reached_target));
+    CHECK(report.faces_out > 0);
+    if (report.stop == StopReason::no_legal_collapse) CHECK(taken(report, Rung::flip_any) == 1);
 }
 
-TEST_CASE("the target is met or the report says why not, something is always left") {
-    for (const TriangleMesh& input : all_sorts()) {
-        everywhere(input, [](const TriangleMesh& mesh, const SimplifyResult& result) {
-            const Report& report = result.report;
-            CHECK(report.faces_in == mesh.triangles.size());
-            CHECK(report.faces_out == result.mesh.triangles.size());
-            CHECK(report.vertices_out == result.mesh.positions.size());
-            CHECK((report.faces_out <= report.target_faces) == (report.stop == StopReason::reached_target));
-            CHECK(report.faces_out > 0);
-            if (report.stop == StopReason::no_legal_collapse) CHECK(taken(report, Rung::flip_any) == 1);
-        });
-    }
+}  // namespace
+
+TEST_CASE("results of soups are sound, and meet the target or say why not") {
+    for (const TriangleMesh& mesh : soups()) everywhere(mesh, is_sound);
+}
+
+TEST_CASE("results of surfaces are sound, and meet the target or say why not") {
+    for (const TriangleMesh& mesh : surfaces()) everywhere(mesh, is_sound);
 }
 
 TEST_CASE("no collapse turns a face by more than a right angle before the ladder allows it") {
@@ -206,7 +216,7 @@ TEST_CASE("a model scaled by a power of two gives the result scaled by it, bit b
         for (const Preset preset : all_presets) {
             for (const double share : ratios) {
                 const SimplifyResult plain = run(mesh, preset, share);
-                for (const double by : {0x1p-40, 0.5, 2.0, 0x1p10, 0x1p100, 0x1p-100}) {
+                for (const double by : {0x1p-40, 2.0, 0x1p100, 0x1p-100}) {
                     INFO(name(preset) << " to " << share << " times " << by);
                     const SimplifyResult scaled = run(test::scaled(mesh, by), preset, share);
                     CHECK(scaled.mesh.triangles == plain.mesh.triangles);
