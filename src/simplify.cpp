@@ -1,10 +1,13 @@
 #include "faqem/simplify.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "arrange.hpp"
+#include "cost_curve.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/tracked.hpp"
@@ -23,11 +26,11 @@ using engine::Complex;
 using engine::Vector3;
 
 // floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
-std::uint64_t target_faces(const Target& target, std::size_t faces) {
+std::size_t target_faces(const Target& target, std::size_t faces) {
     const double wanted = target.kind == Target::Kind::faces
                               ? target.value
                               : target.value * static_cast<double>(faces) * (1 + 1e-15);
-    return static_cast<std::uint64_t>(std::max(4.0, std::floor(std::min(wanted, 1e18))));
+    return static_cast<std::size_t>(std::max(4.0, std::floor(std::min(wanted, 1e18))));
 }
 
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
@@ -51,10 +54,10 @@ public:
     OriginRecorder(Recorder& inner, const Complex& complex) : inner_(inner), place_(complex.vertex_slots()) {
         for (Index v = 0; v < place_.size(); ++v) place_[v] = v;
     }
-    void collapsing(const Complex& complex, Index survivor, Index gone, const Vector3& p) {
-        inner_.collapsing(complex, survivor, gone, p);
-        if (p == complex.position(survivor)) return;
-        place_[survivor] = p == complex.position(gone) ? place_[gone] : no_index;
+    void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
+        inner_.collapsing(complex, survivor, gone, to);
+        if (to.point == complex.position(survivor)) return;
+        place_[survivor] = to.point == complex.position(gone) ? place_[gone] : no_index;
     }
     void deleting(Index face) { inner_.deleting(face); }
     /// The slot whose first place slot v has now, or no_index.
@@ -63,6 +66,22 @@ public:
 private:
     Recorder& inner_;
     std::vector<Index> place_;
+};
+
+// Records what every collapse cost.
+class CostRecorder {
+public:
+    void collapsing(const Complex& complex, Index, Index, const engine::Candidate& to) {
+        cost_ = std::max(cost_, to.cost);
+        steps_.push_back({complex.face_count(), cost_});
+    }
+    // What takes whole components is the last resort.
+    void deleting(Index) { cost_ = std::numeric_limits<double>::infinity(); }
+    std::vector<detail::CostCurve::Step> take() { return std::move(steps_); }
+
+private:
+    std::vector<detail::CostCurve::Step> steps_;
+    double cost_ = 0;
 };
 
 template <class Recorder>
@@ -96,12 +115,11 @@ public:
     Run(const MeshView& mesh, const Options& options)
         : mesh_(mesh), options_(options), settings_(detail::settings(options)) {}
 
-    SimplifyResult operator()() {
+    SimplifyResult simplify() {
         const Stopwatch all;
         result_.report.preset = options_.preset;
         result_.report.faces_in = mesh_.triangles.size();
         result_.report.vertices_in = mesh_.positions.size();
-        result_.report.target_faces = target_faces(options_.target, mesh_.triangles.size());
         prepared_ = detail::prepare(mesh_, settings_);
         result_.report.faces_dropped = prepared_.dropped_faces;
         result_.report.seconds.weld = all.seconds();
@@ -121,9 +139,22 @@ public:
         return std::move(result_);
     }
 
+    detail::CostCurve curve() {
+        prepared_ = detail::prepare(mesh_, settings_);
+        arranged_ = detail::arrange(prepared_);
+        Complex complex(arranged_.positions, arranged_.triangles);
+        CostRecorder recorder;
+        engine::Wedges wedges;
+        std::vector<std::uint8_t> locked;
+        const engine::LoopResult looped = collapse(complex, wedges, locked, recorder);
+        return {recorder.take(), complex.face_count(), settings_.diagonal / prepared_.scale,
+                looped.stop != StopReason::cancelled};
+    }
+
 private:
     template <class Recorder>
-    void collapse_and_collect(Complex& complex, Recorder& recorder) {
+    engine::LoopResult collapse(Complex& complex, engine::Wedges& wedges, std::vector<std::uint8_t>& locked,
+                                Recorder& recorder) {
         std::vector<std::pair<Index, Index>> extra;
         const double least_length = 1e-8 * settings_.diagonal;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
@@ -133,23 +164,29 @@ private:
         }
         result_.report.virtual_edges = extra.size();
         engine::PairTable pairs(complex, extra);
-        engine::Wedges wedges;
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
             wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
         }
-        std::vector<std::uint8_t> locked =
-            locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
-        OriginRecorder<Recorder> origin(recorder, complex);
+        locked = locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
         engine::LoopOptions loop;
-        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
+        loop.target_faces = target_faces(options_.target, mesh_.triangles.size());
         loop.rules = {settings_.link, settings_.least_turn, least_length};
         loop.tiny_component = 0.02 * settings_.diagonal;
         if (options_.progress) {
             loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
         }
-        const engine::LoopResult looped = run(complex, pairs, wedges, locked, settings_, origin, loop);
+        return run(complex, pairs, wedges, locked, settings_, recorder, loop);
+    }
+
+    template <class Recorder>
+    void collapse_and_collect(Complex& complex, Recorder& recorder) {
+        OriginRecorder<Recorder> origin(recorder, complex);
+        engine::Wedges wedges;
+        std::vector<std::uint8_t> locked;
+        const engine::LoopResult looped = collapse(complex, wedges, locked, origin);
         Report& report = result_.report;
+        report.target_faces = target_faces(options_.target, mesh_.triangles.size());
         report.stop = looped.stop;
         report.collapses = looped.collapses;
         report.refusals = looped.refusals;
@@ -295,7 +332,16 @@ private:
 
 SimplifyResult simplify(const MeshView& mesh, const Options& options) {
     validate(options);
-    return Run(mesh, options)();
+    return Run(mesh, options).simplify();
+}
+
+detail::CostCurve detail::cost_curve(const MeshView& mesh, const Options& options) {
+    Options cheap = options;
+    cheap.preset = Preset::fast;
+    cheap.weights = {};
+    cheap.target = faces(1);
+    validate(cheap);
+    return Run(mesh, cheap).curve();
 }
 
 }  // namespace faqem

@@ -22,9 +22,12 @@ struct LightAsset {
     std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
 };
 
-/// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset
-/// and is shared out in proportion to the parts' faces. Where it has room for them, a part gets no fewer than
-/// 4 faces (or all it has) for each of its connected components, at the others' cost; else no fewer than 4.
+/// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset.
+/// With Budget::scene it is shared out by error: the parts are simplified as far as they go, and the collapses
+/// that cost least in the scene, whichever part they are in, say how many faces each keeps. With Budget::mesh
+/// it is shared out in proportion to the parts' faces; where it has room for them, a part gets no fewer than
+/// 4 faces (or all it has) for each of its connected components, at the others' cost. No part gets fewer than
+/// 4, or all it has.
 /// \throws as simplify(const MeshView&, ...)
 SmallParts simplify_parts(const Asset& source, const Options& options);
 

@@ -78,6 +78,12 @@ struct Topology {
     double virtual_edge_distance = 0.01;
 };
 
+/// How the target of a scene is spread over its meshes; used by the asset door only.
+enum class Budget {
+    scene,  ///< by error: where faces show more, more are kept
+    mesh,   ///< in proportion to each mesh's faces
+};
+
 /// Whether the collapse history is kept. Off costs nothing.
 enum class Recording { off, on };
 
@@ -110,6 +116,7 @@ struct BakeOptions {
 /// Everything that can be asked of simplify().
 struct Options {
     Target target = {};
+    Budget budget = Budget::scene;
     Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};

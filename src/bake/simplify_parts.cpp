@@ -1,92 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 
+#include "bake/budget.hpp"
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
+#include "cost_curve.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/engine/weld.hpp"
 
 namespace faqem {
 namespace {
-
-std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
-
-// The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
-std::uint64_t faces_of_components(const Part& part) {
-    const std::vector<Index> welded = engine::weld_exact(part.positions);
-    std::vector<Index> parent(welded.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const Triangle& t : part.triangles) {
-        for (const Index v : {t[1], t[2]}) {
-            const Index r = root(welded[t[0]]), s = root(welded[v]);
-            parent[std::max(r, s)] = std::min(r, s);
-        }
-    }
-    std::vector<std::uint8_t> counted(welded.size(), 0);
-    std::uint64_t sum = 0;
-    for (const Triangle& t : part.triangles) {
-        std::uint8_t& count = counted[root(welded[t[0]])];
-        if (count == 4) continue;
-        ++count;
-        ++sum;
-    }
-    return sum;
-}
-
-// What no part's share may fall below. Components go before the target where the target has no room for them.
-std::vector<std::uint64_t> least_shares(const Asset& asset, std::uint64_t goal) {
-    std::vector<std::uint64_t> least;
-    std::uint64_t sum = 0;
-    for (const Part& part : asset.parts) sum += least.emplace_back(faces_of_components(part));
-    for (std::size_t p = 0; p < least.size() && sum > goal; ++p)
-        least[p] = std::min<std::uint64_t>(4, faces_of(asset, p));
-    return least;
-}
-
-// Shares of a face count in proportion to the parts' faces, by largest remainder; parts whose share would be
-// below their least are given that, and the others pay for it.
-std::vector<std::uint64_t> share_out(const Asset& asset, std::uint64_t goal) {
-    const std::size_t parts = asset.parts.size();
-    std::vector<std::uint64_t> share = least_shares(asset, goal);
-    double rest = 0, left = static_cast<double>(goal);
-    std::vector<std::size_t> order;
-    for (std::size_t p = 0; p < parts; ++p) {
-        rest += static_cast<double>(faces_of(asset, p));
-        if (faces_of(asset, p) > 0) order.push_back(p);
-    }
-    const auto least_ratio = [&](std::size_t p) {
-        return static_cast<double>(share[p]) / static_cast<double>(faces_of(asset, p));
-    };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return least_ratio(a) > least_ratio(b); });
-    auto first = order.begin();
-    for (; first != order.end() && least_ratio(*first) * rest > left; ++first) {
-        rest -= static_cast<double>(faces_of(asset, *first));
-        left -= static_cast<double>(share[*first]);
-    }
-    order.erase(order.begin(), first);
-    std::sort(order.begin(), order.end());
-    const double ratio = order.empty() ? 0 : left / rest;
-    std::vector<double> remainder(parts, 0);
-    for (const std::size_t p : order) {
-        const double exact = ratio * static_cast<double>(faces_of(asset, p));
-        share[p] = std::max(share[p], static_cast<std::uint64_t>(exact));
-        remainder[p] = exact - static_cast<double>(share[p]);
-        left -= static_cast<double>(share[p]);
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
-    for (std::size_t i = 0; i < order.size() && left >= 1; ++i, --left) ++share[order[i]];
-    for (const std::size_t p : order) share[p] = std::min<std::uint64_t>(share[p], faces_of(asset, p));
-    return share;
-}
 
 // floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
 std::uint64_t faces_wanted(const Target& target, double faces) {
@@ -142,44 +66,94 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.seconds.simplify += part.seconds.simplify;
 }
 
+// A part as the engine takes it.
+struct PartInput {
+    std::vector<Index> groups;
+    CornerAttributes attributes;
+    MeshView view;
+
+    PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake)
+        : groups(engine_groups(part, material_groups)) {
+        if (bake == Bake::keep) attributes = corner_attributes(part);
+        view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {}};
+    }
+    PartInput(const PartInput&) = delete;
+};
+
+// One call of simplify_parts().
+class PartsRun {
+public:
+    PartsRun(const Asset& source, const Options& options)
+        : source_(source), options_(options), small_{std::vector<SimplifyResult>(source.parts.size()), {}} {
+        const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
+        if (merged) groups_ = detail::group_materials(source, options.bake.kind);
+        for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
+    }
+
+    SmallParts operator()() {
+        const detail::Stopwatch watch;
+        small_.report.preset = options_.preset;
+        const std::vector<std::uint64_t> share = shares();
+        for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
+            own.history = Recording::on;
+            own.target = faces(share[p]);
+            small_.parts[p] = simplify(view, own);
+            add(small_.report, small_.parts[p].report, detail::part_title(source_, p));
+        });
+        small_.report.seconds.total = watch.seconds();
+        return std::move(small_);
+    }
+
+private:
+    std::vector<std::uint64_t> shares() {
+        const std::uint64_t goal = faces_wanted(options_.target, faces_);
+        const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
+                                          [](const Part& part) { return !part.triangles.empty(); });
+        if (options_.budget == Budget::mesh || filled < 2) return detail::share_by_faces(source_, goal);
+        const detail::Stopwatch watch;
+        passes_ = 2;
+        std::vector<detail::CostCurve> curves(source_.parts.size());
+        for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
+            curves[p] = detail::cost_curve(view, own);
+            if (!curves[p].is_complete) small_.report.stop = StopReason::cancelled;
+        });
+        small_.report.seconds.simplify = watch.seconds();
+        return detail::share_by_cost(curves, detail::cost_weights(curves.size(), instances(source_)), goal);
+    }
+
+    // Calls work(part, view, options) for every part with faces, until cancelled.
+    template <class Work>
+    void for_each_part(Work&& work) {
+        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
+            const Part& part = source_.parts[p];
+            if (part.triangles.empty() || small_.report.stop == StopReason::cancelled) continue;
+            const double size = static_cast<double>(part.triangles.size());
+            Options own = options_;
+            if (options_.progress) {
+                own.progress = [this, size](Phase phase, double fraction) {
+                    const double done = (done_ + fraction * size) / (passes_ * faces_);
+                    return options_.progress(phase, std::min(1.0, done));
+                };
+            }
+            work(p, PartInput(part, groups_, options_.bake.kind).view, own);
+            done_ += size;
+        }
+    }
+
+    const Asset& source_;
+    const Options& options_;
+    std::optional<detail::MaterialGroups> groups_;
+    SmallParts small_;
+    double faces_ = 0;   // of all parts
+    double done_ = 0;    // faces that were worked on
+    double passes_ = 1;  // how often each is
+};
+
 }  // namespace
 
 SmallParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
-    const detail::Stopwatch watch;
-    const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
-    std::optional<detail::MaterialGroups> groups;
-    if (merged) groups = detail::group_materials(source, options.bake.kind);
-    double total = 0, done = 0;
-    for (const Part& part : source.parts) total += static_cast<double>(part.triangles.size());
-    const std::vector<std::uint64_t> share = share_out(source, faces_wanted(options.target, total));
-
-    SmallParts result;
-    result.report.preset = options.preset;
-    result.parts.resize(source.parts.size());
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const Part& part = source.parts[p];
-        if (part.triangles.empty() || result.report.stop == StopReason::cancelled) continue;
-        const double size = static_cast<double>(part.triangles.size());
-        Options own = options;
-        own.history = Recording::on;
-        own.target = faces(share[p]);
-        if (options.progress) {
-            own.progress = [&](Phase phase, double fraction) {
-                return options.progress(phase, std::min(1.0, (done + fraction * size) / total));
-            };
-        }
-        const std::vector<Index> face_groups = engine_groups(part, groups);
-        CornerAttributes attributes;
-        if (options.bake.kind == Bake::keep) attributes = corner_attributes(part);
-        MeshView view{
-            part.positions, part.triangles, face_groups, attributes.width ? &attributes : nullptr, {}};
-        result.parts[p] = simplify(view, own);
-        add(result.report, result.parts[p].report, detail::part_title(source, p));
-        done += size;
-    }
-    result.report.seconds.total = watch.seconds();
-    return result;
+    return PartsRun(source, options)();
 }
 
 }  // namespace faqem

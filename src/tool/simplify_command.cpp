@@ -32,6 +32,9 @@ constexpr std::array<std::pair<std::string_view, Bake>, 4> bakes = {{{"per-trian
 constexpr std::array<std::pair<std::string_view, Mapping>, 2> mappings = {
     {{"projection", Mapping::projection}, {"lineage", Mapping::lineage}}};
 
+constexpr std::array<std::pair<std::string_view, Budget>, 2> budgets = {
+    {{"scene", Budget::scene}, {"mesh", Budget::mesh}}};
+
 template <class Value, std::size_t n>
 Value named(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
             const char* option) {
@@ -55,7 +58,7 @@ double number(const std::string& text, const char* option) {
 /// The command line as it was given.
 struct Arguments {
     std::string in, out, report, history;
-    std::string preset, bake, mapping;
+    std::string preset, budget, bake, mapping;
     std::string virtual_edges;  ///< empty: off
     double ratio = 0.1;
     std::uint64_t faces = 0;
@@ -70,6 +73,7 @@ Options make_options(const Arguments& arguments) {
     Options options = arguments.options;
     options.target = arguments.faces > 0 ? faces(arguments.faces) : ratio(arguments.ratio);
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
+    if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
     if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
     if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
     if (arguments.link) options.topology.link = LinkCondition::on;
@@ -213,6 +217,9 @@ void add_target_options(CLI::App& command, Arguments& a) {
     auto* faces =
         command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
     ratio->excludes(faces);
+    command.add_option("--budget", a.budget,
+                       "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
+                       "proportion to their faces)");
     command.add_option(
         "--preset", a.preset,
         "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");

@@ -27,12 +27,46 @@ Part grid(Index n) {
 
 }  // namespace
 
+TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
+    Asset asset;
+    asset.parts = {grid(20), grid(20), Part{}};
+    for (Vec3& p : asset.parts[1].positions) p[2] = 0;
+    Options options;
+    options.target = GENERATE(ratio(0.25), faces(400));
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.target_faces == 400);
+    CHECK(small.report.faces_out <= 400);
+    CHECK(small.report.stop == StopReason::reached_target);
+    CHECK(small.parts[0].mesh.triangles.size() > 385);
+    CHECK(small.parts[1].mesh.triangles.size() <= 12);
+    CHECK(small.parts[2].mesh.triangles.empty());
+}
+
+TEST_CASE("one sheet cut in two gets about what it got whole") {
+    // Cut across the rows: two thirds of the faces are in the first part.
+    Asset whole, cut;
+    whole.parts = {grid(30)};
+    cut.parts = {grid(30), grid(30)};
+    cut.parts[0].triangles.resize(1200);
+    cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
+    Options options;
+    options.target = ratio(0.3);
+    options.topology.border = Border::locked;
+    const SimplifyResult one = simplify_parts(whole, options).parts[0];
+    const SmallParts two = simplify_parts(cut, options);
+    const auto low =
+        std::count_if(one.face_origin.begin(), one.face_origin.end(), [](Index f) { return f < 1200; });
+    CHECK(two.report.faces_out <= 540);
+    CHECK(std::abs(double(two.parts[0].mesh.triangles.size()) - double(low)) < 0.1 * 540);
+}
+
 TEST_CASE("a face count is shared out by size, and tiny parts keep their faces") {
     Asset asset;
     asset.parts = {grid(20), grid(10), square(), Part{}};
     asset.parts[2].face_material.clear();
     Options options;
     options.target = faces(500);
+    options.budget = Budget::mesh;
     const SmallParts small = simplify_parts(asset, options);
     REQUIRE(small.parts.size() == 4);
     // The square keeps its 2 faces; 498 for 800 and 200 faces are 398.4 and 99.6.
@@ -50,11 +84,12 @@ TEST_CASE("a face count is shared out by size, and tiny parts keep their faces")
     }
 }
 
-TEST_CASE("a ratio holds for every part") {
+TEST_CASE("a ratio holds for every part where the budget is per mesh") {
     Asset asset;
     asset.parts = {grid(20), grid(10)};
     Options options;
     options.target = ratio(0.25);
+    options.budget = Budget::mesh;
     const SmallParts small = simplify_parts(asset, options);
     CHECK(small.parts[0].mesh.triangles.size() <= 200);
     CHECK(small.parts[1].mesh.triangles.size() <= 50);
@@ -72,6 +107,7 @@ TEST_CASE("a part of many small components keeps them all") {
         labels.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
     }
     Options options;
+    options.budget = Budget::mesh;
     options.target = GENERATE(ratio(0.1), faces(82));
     const SmallParts small = simplify_parts(asset, options);
     CHECK(small.parts[1].mesh.triangles.size() == 24);
@@ -98,6 +134,7 @@ TEST_CASE("seams between vertices at one place do not make components") {
     }
     asset.parts[1] = soup;
     Options options;
+    options.budget = Budget::mesh;
     options.target = ratio(0.25);
     CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
@@ -106,10 +143,28 @@ TEST_CASE("cancelling the first stage leaves the second nothing to do") {
     Asset asset;
     asset.parts = {grid(20), grid(20)};
     Options options;
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
     options.progress = [](Phase, double) { return Continue::cancel; };
     const LightAsset light = simplify(asset, options);
     CHECK(light.report.stop == StopReason::cancelled);
     CHECK(light.asset.parts.empty());
+}
+
+TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
+    Asset asset;
+    asset.parts = {grid(60), grid(40)};
+    Options options;
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    std::vector<double> seen = {0};
+    options.progress = [&](Phase, double fraction) {
+        seen.push_back(fraction);
+        return Continue::yes;
+    };
+    simplify_parts(asset, options);
+    CHECK(seen.size() > 3);
+    CHECK(std::is_sorted(seen.begin(), seen.end()));
+    CHECK(seen.back() <= 1);
+    CHECK(seen.back() > 0.75);
 }
 
 TEST_CASE("the result of the whole way shows the source's colours") {

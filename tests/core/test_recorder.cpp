@@ -16,9 +16,9 @@ TEST_CASE("a collapse is recorded with both versions, the point and the faces at
     Complex complex = test::complex_of(mesh);
     HistoryRecorder recorder(complex);
     CHECK(recorder.version(4) == 4);
-    recorder.collapsing(complex, 4, 0, {1, 2, 3});
+    recorder.collapsing(complex, 4, 0, {{1, 2, 3}, 0});
     complex.collapse(4, 0, {1, 2, 3});
-    recorder.collapsing(complex, 1, 4, {4, 5, 6});
+    recorder.collapsing(complex, 1, 4, {{4, 5, 6}, 0});
     complex.collapse(1, 4, {4, 5, 6});
     recorder.deleting(7);
     CHECK(recorder.version(1) == 10);

@@ -182,7 +182,7 @@ private:
         const bool swap =
             locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
-        collapse(u, v, found->point);
+        collapse(u, v, *found);
         return true;
     }
 
@@ -193,8 +193,9 @@ private:
         return true;
     }
 
-    void collapse(Index survivor, Index gone, const Vector3& p) {
-        recorder_.collapsing(complex_, survivor, gone, p);
+    void collapse(Index survivor, Index gone, const Candidate& to) {
+        const Vector3& p = to.point;
+        recorder_.collapsing(complex_, survivor, gone, to);
         metric_.collapsing(complex_, pairs_, survivor, gone, p);
         wedges_.collapsing(complex_, survivor, gone, p);
         complex_.collapse(survivor, gone, p);

@@ -8,20 +8,23 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/placement.hpp"
 #include "faqem/history.hpp"
 
 namespace faqem::engine {
 
 template <class R>
 concept CollapseRecorder = requires(R recorder, const Complex& complex, Index survivor, Index gone,
-                                    const Vector3& p, Index face) {
-    {recorder.collapsing(complex, survivor, gone, p)};
+                                    const Candidate& to, Index face) {
+    // Both are about to become `survivor` at to.point; the complex is still as before.
+    {recorder.collapsing(complex, survivor, gone, to)};
+    // The face goes with its component.
     {recorder.deleting(face)};
 };
 
 /// Records nothing, at no cost.
 struct NoRecorder {
-    void collapsing(const Complex&, Index, Index, const Vector3&) {}
+    void collapsing(const Complex&, Index, Index, const Candidate&) {}
     void deleting(Index) {}
 };
 
@@ -35,9 +38,9 @@ public:
         std::iota(version_.begin(), version_.end(), Index{0});
     }
 
-    void collapsing(const Complex& complex, Index survivor, Index gone, const Vector3& p) {
+    void collapsing(const Complex& complex, Index survivor, Index gone, const Candidate& to) {
         const auto fresh = static_cast<Index>(version_.size() + history_.collapses.size());
-        history_.collapses.push_back({version_[survivor], version_[gone], to_array(p)});
+        history_.collapses.push_back({version_[survivor], version_[gone], to_array(to.point)});
         complex.for_each_face_around(survivor, gone,
                                      [&](Index f, unsigned) { history_.patch_faces.push_back(f); });
         history_.patch_begin.push_back(history_.patch_faces.size());
