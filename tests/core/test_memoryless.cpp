@@ -85,9 +85,15 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
     CHECK(cost(10, 0.2) == cost(10, 0));
 }
 
-TEST_CASE("memoryless: the last faces of a part cost more than anything else") {
-    const Complex triangle({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-    CHECK(evaluated(triangle, 0, 1).cost > 1e5);
+TEST_CASE("memoryless: the last faces of a part cost their longest edge to the fourth, a hundred times") {
+    // The longest edge is 5; the edge plane of the open edges costs something besides.
+    const std::vector<Vector3> p = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    const Complex triangle(p, {{0, 1, 2}});
+    const Complex doubled(p, {{0, 1, 2}, {0, 2, 1}});
+    CHECK(evaluated(triangle, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
+    CHECK(evaluated(doubled, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
+    // With faces beyond the pair's the part is not gone.
+    CHECK(evaluated(test::complex_of(test::quad()), 0, 1).cost < 100);
 }
 
 TEST_CASE("memoryless: after collapses the costs are those of the surface as it is") {

@@ -3,6 +3,7 @@
 /// A metric without memory: what a collapse costs is measured on the surface as it is now, so that the errors
 /// of earlier collapses are not counted again and again (Lindstrom and Turk 1998).
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -61,8 +62,8 @@ public:
         const Quadric q = {sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz, -moment, d.dot(moment)};
         const Vector3 p = place(q, Vector3::Zero(), d, freedom);
         double cost = std::max(q(p), 0.0);
-        // The last faces of a part go last: a small part may be all there is for a long way around.
-        if (faces > 0 && complex.degree(u) == faces && complex.degree(v) == faces) cost += part_cost;
+        if (faces > 0 && complex.degree(u) == faces && complex.degree(v) == faces)
+            cost += cost_of_part(complex, u);
         if (!std::isfinite(cost)) return std::nullopt;
         if (freedom == Freedom::at_second) return Candidate{complex.position(v), cost};
         return Candidate{p == d ? complex.position(v) : Vector3(origin + p), cost};
@@ -88,8 +89,9 @@ public:
     Staleness staleness(const PairTable::Change&) const { return Staleness::lazily; }
 
 private:
-    /// Far above any cost on a model of diagonal 1.
-    static constexpr double part_cost = 1e6;
+    /// A part that goes is missed at its own size at least, and may be all there is for a long way around: it
+    /// goes where collapses elsewhere cost this many times its longest edge squared, squared.
+    static constexpr double part_weight = 100;
 
     struct Facet {
         Vector3 normal = Vector3::Zero();  ///< unit; zero without area
@@ -184,6 +186,19 @@ private:
             if (complex.has_corner(f, v)) add_edge_plane(complex, f, u, v, w, q);
         });
         return shared;
+    }
+
+    // \pre u's faces are all that is left of their part
+    static double cost_of_part(const Complex& complex, Index u) {
+        double longest = 0;
+        complex.for_each_face(u, [&](Index f, unsigned) {
+            const Triangle& t = complex.triangle(f);
+            for (unsigned k = 0; k < 3; ++k) {
+                const Vector3 edge = complex.position(t[(k + 1) % 3]) - complex.position(t[k]);
+                longest = std::max(longest, edge.squaredNorm());
+            }
+        });
+        return part_weight * longest * longest;
     }
 
     double edge_weight(const Complex& complex, Index u, Index v, std::uint32_t faces) const {
