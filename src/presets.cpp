@@ -42,7 +42,7 @@ Settings stmw() {
 Settings fast() {
     Settings s;
     s.carry = Settings::Carry::memoryless;
-    s.link = LinkCondition::on;
+    s.link = LinkCondition::by_size;
     s.least_turn = 0.3;
     return s;
 }
@@ -91,6 +91,8 @@ Settings settings(const Options& options) {
     s.weights.area = w.area.value_or(s.weights.area);
     s.weights.seam = w.uv.value_or(s.weights.seam);
     if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
+    // Costs that sum up a history are in no unit that a size could be compared with.
+    if (s.link == LinkCondition::by_size && s.carry == Settings::Carry::memory) s.link = LinkCondition::on;
     s.weld = options.topology.weld;
     s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
     // 1/A stays finite on faces that are thinner than any real one.

@@ -51,6 +51,9 @@ struct Weights {
 enum class LinkCondition {
     as_preset,
     off,
+    /// Kept where the surface is manifold, until collapses elsewhere cost more than what it protects could: a
+    /// handle that is smaller than the error goes. Presets without memory only; elsewhere as `on`.
+    by_size,
     on,      ///< kept where the surface is manifold, until nothing else is left to reach the target
     strict,  ///< kept always; pairs at non-manifold vertices are not collapsed
 };

@@ -32,7 +32,8 @@ enum class Refusal {
 };
 inline constexpr std::size_t refusal_kinds = 7;
 
-/// Steps taken when no collapse was legal above the target, in this order.
+/// Steps taken when no collapse was legal above the target, in this order. With LinkCondition::by_size the
+/// link condition is lifted pair by pair, and each collapse against it counts.
 enum class Rung {
     reseed,           ///< all pairs evaluated anew
     tiny_components,  ///< whole tiny components deleted

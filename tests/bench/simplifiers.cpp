@@ -23,9 +23,10 @@ double number(std::string_view text, std::string_view spec) {
 
 LinkCondition link_named(std::string_view value, std::string_view spec) {
     if (value == "off") return LinkCondition::off;
+    if (value == "by-size") return LinkCondition::by_size;
     if (value == "on") return LinkCondition::on;
     if (value == "strict") return LinkCondition::strict;
-    refuse(spec, "link is off, on or strict");
+    refuse(spec, "link is off, by-size, on or strict");
 }
 
 void set(Options& options, std::string_view key, std::string_view value, std::string_view spec) {

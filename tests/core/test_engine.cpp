@@ -245,6 +245,38 @@ TEST_CASE("the ladder lifts the link condition before it allows flips") {
     CHECK(refused(result, Refusal::link) == 2);
 }
 
+TEST_CASE(
+    "by size, the link condition holds a pair until collapses cost more than its length to the fourth") {
+    // Two tetrahedra on one triangle 0 1 2: joining two of its corners would leave double faces. Beside them
+    // squares that offer collapses at costs 1, 2, 3 ...; the pair 0 1 has cost 0.
+    const auto order_of_neck = [](double length, LinkCondition link) {
+        TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 1}, {0.5, 0.4, -1}},
+                                       {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
+        mesh = test::scaled(mesh, length);
+        Script script;
+        script.offers[{0, 1}] = {0.5 * length, 0, 0};
+        for (Index i = 0; i < 4; ++i) {
+            const Index first = 5 + 4 * i;
+            mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
+            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+        }
+        Play<Script> play(mesh, script);
+        play.run(8, {link, -1, 0});
+        const CollapseHistory history = play.recorder.take();
+        std::size_t at = 0;
+        while (at < history.collapses.size() &&
+               std::max(history.collapses[at].first, history.collapses[at].second) > 4)
+            ++at;
+        CHECK(taken(play.result, Rung::without_link) == 1);
+        return at;
+    };
+    // 0.5^4 < 1 < 1.1^4 < 2 < 1.3^4 < 3
+    CHECK(order_of_neck(0.5, LinkCondition::by_size) == 0);
+    CHECK(order_of_neck(1.1, LinkCondition::by_size) == 1);
+    CHECK(order_of_neck(1.3, LinkCondition::by_size) == 2);
+    CHECK(order_of_neck(0.5, LinkCondition::on) == 4);
+}
+
 TEST_CASE("a strict link condition is kept on every rung") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
     Script script;

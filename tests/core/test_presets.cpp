@@ -51,7 +51,7 @@ TEST_CASE("fast has no memory, balanced tracks the distance besides") {
     CHECK(of(Preset::fast).carry == detail::Settings::Carry::memoryless);
     const detail::Settings s = of(Preset::balanced);
     CHECK(s.carry == detail::Settings::Carry::tracked);
-    CHECK(s.link == LinkCondition::on);
+    CHECK(s.link == LinkCondition::by_size);
     CHECK(s.least_turn == 0.3);
     CHECK(s.diagonal == 1);
     CHECK(detail::settings({}).carry == detail::Settings::Carry::tracked);
@@ -92,6 +92,17 @@ TEST_CASE("every weight and rule can be set on its own") {
     }
     t.link = LinkCondition::off;
     CHECK(of(Preset::qem, {}, t).link == LinkCondition::off);
+}
+
+TEST_CASE("the link condition by size is that of the presets without memory, elsewhere it is on") {
+    for (const Preset preset : all_presets) {
+        Options o;
+        o.preset = preset;
+        o.topology.link = LinkCondition::by_size;
+        const detail::Settings s = detail::settings(o);
+        const bool has_memory = s.carry == detail::Settings::Carry::memory;
+        CHECK(s.link == (has_memory ? LinkCondition::on : LinkCondition::by_size));
+    }
 }
 
 TEST_CASE("plane_area 0 means unweighted planes, as in the paper's ablation") {

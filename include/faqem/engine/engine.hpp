@@ -6,7 +6,8 @@
 ///     while more faces than the target:
 ///         pop the cheapest pair           (queue empty: climb the starvation ladder)
 ///         place the new vertex
-///         veto?  count the reason, forget the pair until its surroundings change
+///         veto?  count the reason, forget the pair until its surroundings change; or, where its size is
+///                the reason to keep it, until collapses cost more than that
 ///         record, collapse, merge pairs
 ///         evaluate the pairs around the new vertex anew
 
@@ -71,7 +72,8 @@ public:
           metric_(metric),
           recorder_(recorder),
           legality_(complex),
-          has_vetoed_(complex.vertex_slots(), 0) {}
+          has_vetoed_(complex.vertex_slots(), 0),
+          is_lifted_(pairs.size(), 0) {}
 
     /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
     LoopResult run(const LoopOptions& options) {
@@ -153,6 +155,7 @@ private:
     }
 
     void evaluate(Index pair) {
+        is_lifted_[pair] = 0;
         if (const auto found = candidate(pair)) {
             queue_.set(pair, found->cost);
         } else {
@@ -161,7 +164,7 @@ private:
         }
     }
 
-    // The pair is out of the queue until the surroundings of one of its ends change.
+    // The pair is out of the queue, or far behind in it, until the surroundings of one of its ends change.
     void veto(Index pair) { has_vetoed_[pairs_.first(pair)] = has_vetoed_[pairs_.second(pair)] = 1; }
 
     // False: it may not be done. It need not be done yet, either.
@@ -171,8 +174,11 @@ private:
         if (!found) return false;
         if (postpone(pair, found->cost)) return true;
         if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces), false;
-        if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules_)) {
-            return refuse(*refusal), false;
+        if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules(pair))) {
+            refuse(*refusal);
+            const bool may_lift = *refusal == Refusal::link && rules_.link == LinkCondition::by_size;
+            if (may_lift) lift(pair, found->cost);
+            return may_lift;
         }
         if constexpr (RefiningMetric<Metric>) {
             if (postpone(pair, metric_.refine(complex_, u, v, *found))) return true;
@@ -182,8 +188,25 @@ private:
         const bool swap =
             locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
+        if (is_lifted_[pair]) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
         collapse(u, v, *found);
         return true;
+    }
+
+    Rules rules(Index pair) const {
+        Rules rules = rules_;
+        if (is_lifted_[pair]) rules.link = LinkCondition::off;
+        return rules;
+    }
+
+    // What the link condition protects at a pair is about as large as the pair: against it the surface moves
+    // by its length, over an area of its length squared. Where all other collapses cost more, it is lifted.
+    void lift(Index pair, double cost) {
+        const double area =
+            (complex_.position(pairs_.first(pair)) - complex_.position(pairs_.second(pair))).squaredNorm();
+        is_lifted_[pair] = 1;
+        queue_.set(pair, std::max(cost, area * area));
+        veto(pair);
     }
 
     // A pair that turns out dearer than it seemed, and than the next one, waits for its turn.
@@ -215,7 +238,8 @@ private:
             if (staleness == Staleness::lazily && !std::exchange(has_vetoed, std::uint8_t{0})) continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
                 if (n.vertex == survivor) return;
-                if (staleness == Staleness::now || !queue_.contains(n.pair)) evaluate(n.pair);
+                const bool was_refused = is_lifted_[n.pair] || !queue_.contains(n.pair);
+                if (staleness == Staleness::now || was_refused) evaluate(n.pair);
             });
         }
     }
@@ -237,7 +261,7 @@ private:
             case Rung::tiny_components:
                 return delete_components(options, options.tiny_component);
             case Rung::without_link:
-                if (rules_.link != LinkCondition::on) return false;
+                if (rules_.link != LinkCondition::on && rules_.link != LinkCondition::by_size) return false;
                 rules_.link = LinkCondition::off;
                 return true;
             case Rung::flip_zero:
@@ -311,7 +335,8 @@ private:
     Recorder& recorder_;
     Legality legality_;
     Queue queue_;
-    std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may be out of the queue
+    std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may have been refused
+    std::vector<std::uint8_t> is_lifted_;   // of a pair: the link condition no longer holds it
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;

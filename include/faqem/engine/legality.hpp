@@ -15,7 +15,7 @@ namespace faqem::engine {
 
 /// The rules a collapse must keep. The starvation ladder relaxes them.
 struct Rules {
-    LinkCondition link = LinkCondition::off;  ///< not as_preset
+    LinkCondition link = LinkCondition::off;  ///< not as_preset; by_size is `on` until the engine lifts it
     /// A face may not turn so far that the cosine between its old and new normal is below this; -1: no test.
     double least_turn = 0;
     /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
