@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "bvh.hpp"
@@ -25,9 +24,6 @@ constexpr double degrees_per_radian = 57.295779513082320877;
 
 /// Neighbouring faces whose distances differ by less than this share of the diagonal are tied.
 constexpr double tie_tolerance = 1e-9;
-
-/// A gap between value and bound below this share of the diagonal is none: identical meshes have to end.
-constexpr double gap_floor = 1e-9;
 
 /// A number in [0, 1) that depends on its arguments only (the finaliser is that of SplitMix64, Steele et al.
 /// 2014).
@@ -76,7 +72,7 @@ std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& w
 detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
     if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
     return {.tolerance = tolerance,
-            .floor = gap_floor * diagonal,
+            .floor = detail::gap_floor * diagonal,
             .max_pieces = HausdorffOptions{}.max_pieces,
             .threads = threads};
 }
@@ -140,23 +136,8 @@ DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOpt
     limits.stop_below = options.stop_below;
     limits.max_pieces = options.max_pieces;
     const Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
-    const auto largest = [&](const std::vector<detail::Nearest>& nearest, double value) {
-        for (const detail::Nearest& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
-        return value;
-    };
-    constexpr double unknown = std::numeric_limits<double>::infinity();
-    const auto there = detail::nearest_of_vertices(sa, sb, tb, options.threads, options.stop_above);
-    double value = largest(there, 0);
-    if (value > options.stop_above) return {value, unknown, 0};
-    const auto back = detail::nearest_of_vertices(sb, sa, ta, options.threads, options.stop_above);
-    value = largest(back, value);
-    if (value > options.stop_above) return {value, unknown, 0};
-
-    // What one direction finds, the other need not beat.
-    const detail::Farthest first = detail::farthest(sa, sb, tb, there, value, limits);
-    if (first.value > options.stop_above) return {first.value, unknown, first.pieces};
-    const detail::Farthest second = detail::farthest(sb, sa, ta, back, first.value, limits);
-    return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
+    const detail::Farthest most = detail::farthest_both_ways(sa, ta, sb, tb, limits);
+    return {most.value, most.bound, most.pieces};
 }
 
 Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads) {

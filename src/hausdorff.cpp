@@ -307,4 +307,25 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
     return result;
 }
 
+Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
+                            const SearchLimits& limits) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const auto largest = [](const std::vector<Nearest>& nearest, double value) {
+        for (const Nearest& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
+        return value;
+    };
+    const auto there = nearest_of_vertices(a, b, tree_b, limits.threads, limits.stop_above);
+    double value = largest(there, 0);
+    if (value > limits.stop_above) return {value, unknown, 0};
+    const auto back = nearest_of_vertices(b, a, tree_a, limits.threads, limits.stop_above);
+    value = largest(back, value);
+    if (value > limits.stop_above) return {value, unknown, 0};
+
+    // What one direction finds, the other need not beat.
+    const Farthest first = farthest(a, b, tree_b, there, value, limits);
+    if (first.value > limits.stop_above) return {first.value, unknown, first.pieces};
+    const Farthest second = farthest(b, a, tree_a, back, first.value, limits);
+    return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
+}
+
 }  // namespace faqem::detail

@@ -22,6 +22,9 @@ std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to,
                                          std::uint32_t threads,
                                          double stop_above = std::numeric_limits<double>::infinity());
 
+/// A gap between value and bound below this share of the diagonal is none: identical meshes have to end.
+inline constexpr double gap_floor = 1e-9;
+
 /// What a search is to reach, and what ends it. Distances in model units.
 struct SearchLimits {
     double tolerance = 0.01;  ///< relative gap; infinity: bounds of whole faces only
@@ -49,5 +52,11 @@ struct Farthest {
 /// O((faces + pieces) log faces) typically; 150 bytes per piece that is still open.
 Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
                   const std::vector<Nearest>& at_vertices, double known, const SearchLimits& limits);
+
+/// The larger of both directions. Where the value exceeds stop_above the bound may be infinite, and the other
+/// direction unknown.
+/// \param tree_a  that of `a`, as tree_b is that of `b`
+Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
+                            const SearchLimits& limits);
 
 }  // namespace faqem::detail

@@ -51,7 +51,7 @@ void weld(Surface& s) {
 
 }  // namespace
 
-Surface make_surface(const MeshView& mesh, const char* name) {
+Surface surface_of(const MeshView& mesh) {
     Surface s;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
@@ -71,13 +71,19 @@ Surface make_surface(const MeshView& mesh, const char* name) {
         s.normals.push_back(n / twice_area);
         s.area_up_to.push_back(area);
     }
-    if (s.triangles.empty()) throw InputError({}, name, "has no face with area");
     weld(s);
+    if (s.positions.empty()) return s;
     s.low = s.high = engine::to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {
         s.low = s.low.cwiseMin(engine::to_eigen(p));
         s.high = s.high.cwiseMax(engine::to_eigen(p));
     }
+    return s;
+}
+
+Surface make_surface(const MeshView& mesh, const char* name) {
+    Surface s = surface_of(mesh);
+    if (s.triangles.empty()) throw InputError({}, name, "has no face with area");
     return s;
 }
 

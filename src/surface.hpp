@@ -30,10 +30,14 @@ struct Surface {
     }
 };
 
-/// Leaves out faces that are lower than 1e-12 of their longest edge, and those that are not finite.
+/// Leaves out faces that are lower than 1e-12 of their longest edge, and those that are not finite. Nothing
+/// may be left. \throws InputError  an index is out of range
+/// O(n log n)
+Surface surface_of(const MeshView& mesh);
+
+/// The same, where something must be left.
 /// \param name  of the mesh, for errors
 /// \throws InputError  no face has area, or an index is out of range
-/// O(n log n)
 Surface make_surface(const MeshView& mesh, const char* name);
 
 /// Largest cosine between a normal and those of the faces as near to p as the nearest one: at an edge or a
