@@ -24,10 +24,14 @@ void require_weight(const std::optional<double>& weight, const char* name) {
 
 void validate(const Options& options) {
     const Target& target = options.target;
-    if (target.kind == Target::Kind::ratio) {
-        require(target.value > 0 && target.value <= 1, "target ratio must be in (0, 1]");
-    } else {
+    if (target.kind == Target::Kind::faces) {
         require(target.value >= 1 && std::isfinite(target.value), "target face count must be >= 1");
+    } else {
+        require(target.value > 0 && target.value <= 1, "target ratio must be in (0, 1]");
+    }
+    if (options.max_error) {
+        require(options.max_error->value > 0 && std::isfinite(options.max_error->value),
+                "max_error must be finite and > 0");
     }
     require_weight(options.weights.area, "area");
     require_weight(options.weights.boundary, "boundary");

@@ -13,7 +13,8 @@ namespace {
 // Names by enumerator; the order is the enums'.
 constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
                                                                            "fast", "balanced", "best"};
-constexpr std::array<std::string_view, 3> stop_names = {"reached_target", "no_legal_collapse", "cancelled"};
+constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
+                                                        "reached_max_error", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
@@ -58,6 +59,14 @@ std::string to_json(const Report& report) {
     json["vertices_out"] = report.vertices_out;
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
+    if (report.max_error) {
+        const MeasuredError& e = *report.max_error;
+        json["max_error"] = {{"allowed", e.allowed},
+                             {"value", e.value},
+                             {"bound", e.bound},
+                             {"runs", e.runs},
+                             {"within", e.within()}};
+    }
     json["collapses"] = report.collapses;
     json["refusals"] = counts(report.refusals, refusal_names);
     json["rungs"] = counts(report.rungs, rung_names);

@@ -16,6 +16,7 @@
 #include "relax.hpp"
 #include "stopwatch.hpp"
 #include "virtual_edges.hpp"
+#include "within_error.hpp"
 
 namespace faqem {
 
@@ -332,6 +333,7 @@ private:
 
 SimplifyResult simplify(const MeshView& mesh, const Options& options) {
     validate(options);
+    if (options.max_error) return detail::simplify_within(mesh, options);
     return Run(mesh, options).simplify();
 }
 

@@ -144,7 +144,8 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
 /// \param options  see Options; `topology.link`, `topology.weld` and `history` are decided here, `bake` is
 ///                 ignored
 /// \param region   which part may change
-/// \return the report. When cancelled, the mesh is unchanged.
+/// \return the report. When cancelled, the mesh is unchanged. `max_error` is measured in double, before the
+///         mesh rounds the positions to its scalar.
 /// \throws OptionError  as simplify(const MeshView&, ...); virtual edges are on: a half-edge mesh cannot have
 ///                      them
 /// \throws InputError   a position is not finite

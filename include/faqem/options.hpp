@@ -12,8 +12,12 @@ namespace faqem {
 
 /// How many faces are wanted. See ratio() and faces().
 struct Target {
-    enum class Kind { ratio, faces };
-    Kind kind = Kind::ratio;
+    enum class Kind {
+        unset,  ///< as few as Options::max_error allows; without that, `value` as a ratio
+        ratio,
+        faces,
+    };
+    Kind kind = Kind::unset;
     double value = 0.1;
 };
 
@@ -22,6 +26,23 @@ constexpr Target ratio(double r) { return {Target::Kind::ratio, r}; }
 
 /// A number of faces, >= 1. The result has at most max(4, n) faces.
 constexpr Target faces(std::uint64_t n) { return {Target::Kind::faces, static_cast<double>(n)}; }
+
+/// How far result and original may be from each other: no point of either is farther from the other, as
+/// hausdorff() measures it. See model_units() and of_diagonal().
+struct MaxError {
+    enum class Unit {
+        model,
+        diagonal,  ///< of the original's bounding box; of an asset, the whole scene's
+    };
+    double value = 0;
+    Unit unit = Unit::model;
+};
+
+/// A distance in model units, finite and > 0.
+constexpr MaxError model_units(double distance) { return {distance, MaxError::Unit::model}; }
+
+/// A distance as a share of the bounding box's diagonal, finite and > 0: 0.001 is a thousandth of it.
+constexpr MaxError of_diagonal(double share) { return {share, MaxError::Unit::diagonal}; }
 
 /// A named choice of metric, weights and rules.
 enum class Preset {
@@ -120,6 +141,9 @@ struct BakeOptions {
 struct Options {
     Target target = {};
     Budget budget = Budget::scene;
+    /// Without a target: the result is the smallest mesh found within this distance. With one: the target is
+    /// run, and Report::max_error tells whether it is within. What counts is the proven bound, not the value.
+    std::optional<MaxError> max_error = {};
     Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@ namespace faqem {
 enum class StopReason {
     reached_target,     ///< the face count is at or below the target
     no_legal_collapse,  ///< every rung of the ladder was tried and nothing may be collapsed any more
+    reached_max_error,  ///< the smallest mesh that was found within Options::max_error
     cancelled,          ///< the progress callback said so
 };
 
@@ -50,6 +52,17 @@ struct PhaseSeconds {
     double load = 0, weld = 0, simplify = 0, map = 0, bake = 0, save = 0, total = 0;
 };
 
+/// What the result's distance from the original was measured to be, for Options::max_error. In model units;
+/// of an asset in those of the scene. Positions are as in the result, before a file or a mesh rounds them.
+struct MeasuredError {
+    double allowed = 0;      ///< max_error
+    double value = 0;        ///< of a point that was found
+    double bound = 0;        ///< no point is farther; infinity where nothing is left of a part
+    std::uint64_t runs = 0;  ///< made from the original, with several targets
+
+    bool within() const { return bound <= allowed; }
+};
+
 /// The result's passport. Counts are sums where several meshes were simplified.
 struct Report {
     Preset preset = Preset::balanced;
@@ -65,6 +78,7 @@ struct Report {
     std::uint64_t components_deleted = 0;
     std::uint64_t vertices_relaxed = 0;  ///< moved in the end to come closer to the original (preset best)
     std::uint64_t virtual_edges = 0;
+    std::optional<MeasuredError> max_error = {};  ///< unless Options::max_error is unset, or it was cancelled
     std::vector<std::string> warnings;
     PhaseSeconds seconds;
 };

@@ -47,6 +47,23 @@ TEST_CASE("a ratio is above 0 and at most 1, a number of faces is at least one")
     CHECK(complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
 }
 
+TEST_CASE("an error is finite and positive in either unit") {
+    for (const double bad : {0.0, -1e-9, not_a_number, infinity}) {
+        CHECK(complaint([&](Options& o) { o.max_error = model_units(bad); }) ==
+              "max_error must be finite and > 0");
+        CHECK(complaint([&](Options& o) { o.max_error = of_diagonal(bad); }) ==
+              "max_error must be finite and > 0");
+    }
+    CHECK(complaint([](Options& o) { o.max_error = model_units(1e-300); }) == "accepted");
+    CHECK(complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
+}
+
+TEST_CASE("without a target a tenth of the faces is meant") {
+    CHECK(Options{}.target.kind == Target::Kind::unset);
+    CHECK(Options{}.target.value == 0.1);
+    CHECK(complaint([](Options& o) { o.target.value = 0; }) == "target ratio must be in (0, 1]");
+}
+
 TEST_CASE("weights are finite and not negative, and the wrong one is named") {
     const std::pair<std::optional<double> Weights::*, std::string> members[] = {
         {&Weights::area, "area"}, {&Weights::boundary, "boundary"},     {&Weights::normal, "normal"},

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <clocale>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -66,6 +67,23 @@ TEST_CASE("the report as JSON holds every count") {
     CHECK(json["warnings"][0] == "a \"quoted\" line\n");
     CHECK(json["seconds"]["weld"] == 0.25);
     CHECK(json["peak_rss_bytes"] > 0);
+    CHECK(!json.contains("max_error"));
+}
+
+TEST_CASE("the report as JSON holds the error where there is one") {
+    Report report;
+    report.stop = StopReason::reached_max_error;
+    report.max_error = {.allowed = 0.5, .value = 0.25, .bound = 0.375, .runs = 7};
+    auto json = nlohmann::json::parse(to_json(report));
+    CHECK(json["stop_reason"] == "reached_max_error");
+    CHECK(json["max_error"] ==
+          nlohmann::json{{"allowed", 0.5}, {"value", 0.25}, {"bound", 0.375}, {"runs", 7}, {"within", true}});
+    report.max_error->bound = std::numeric_limits<double>::infinity();
+    json = nlohmann::json::parse(to_json(report));
+    CHECK(json["max_error"]["bound"].is_null());
+    CHECK(json["max_error"]["within"] == false);
+    report.max_error->bound = std::numeric_limits<double>::quiet_NaN();
+    CHECK(!report.max_error->within());
 }
 
 TEST_CASE("a warning that is not UTF-8 does not spoil the report") {

@@ -134,6 +134,21 @@ TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshe
     CHECK(is_consistent(mesh));
 }
 
+TEST_CASE("the OpenMesh door keeps an error as the array door does") {
+    const Soup soup = torus(32);
+    faqem::Options options{.max_error = faqem::of_diagonal(0.01)};
+    Mesh mesh = build(soup);
+    const faqem::Report report = faqem::simplify(mesh, options);
+    REQUIRE(report.max_error);
+    CHECK(report.max_error->within());
+    CHECK(report.stop == faqem::StopReason::reached_max_error);
+    CHECK(report.faces_out < soup.triangles.size() / 2);
+    options.topology.link = faqem::LinkCondition::strict;
+    options.topology.weld = faqem::Weld::none;
+    CHECK(face_set(mesh) == face_set(faqem::simplify({soup.positions, soup.triangles}, options).mesh));
+    CHECK(is_consistent(mesh));
+}
+
 TEST_CASE("a closed OpenMesh torus stays a closed torus") {
     Mesh mesh = build(torus(48));
     const faqem::Report report =

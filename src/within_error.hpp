@@ -1,0 +1,129 @@
+#pragma once
+/// \file
+/// Options::max_error: the smallest mesh found within a distance of the original, by runs and measurements.
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "bvh.hpp"
+#include "face_count_search.hpp"
+#include "faqem/simplify.hpp"
+#include "stopwatch.hpp"
+#include "surface.hpp"
+
+namespace faqem::detail {
+
+/// value <= true distance <= bound, up to rounding.
+struct Distance {
+    double value = 0, bound = 0;
+    std::uint64_t unsettled = 0;  ///< how often the work allowed did not tell whether it is within
+
+    bool within(double allowed) const { return bound <= allowed; }
+};
+
+/// How closely to measure.
+enum class Look {
+    in_full,      ///< to 1%, and until it is known whether it is within
+    for_verdict,  ///< until that is known, which is far less work
+};
+
+/// An original to measure several results against.
+class Original {
+public:
+    /// \param mesh  read here only
+    /// \throws InputError  an index is out of range
+    explicit Original(const MeshView& mesh);
+
+    /// Its faces with area.
+    const Surface& surface() const { return surface_; }
+
+    /// The two-sided distance of a result. Where the original has no area it is 0, where only the result has
+    /// none it is infinite.
+    Distance distance(const MeshView& result, double allowed, Look look, std::uint32_t threads) const;
+
+private:
+    Surface surface_;
+    Bvh tree_;
+};
+
+/// The distance of a result of simplify(). A mesh that was only welded exactly is the same surface: 0.
+Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
+                  const Options& options);
+
+/// simplify() on arrays with max_error. \pre options are valid
+SimplifyResult simplify_within(const MeshView& mesh, const Options& options);
+
+/// What a report says of a search in words.
+void finish_search(Report& report, std::uint64_t unsettled);
+
+/// Runs and measures: once where a target is given, else as FaceCountSearch says. A door brings the runs.
+/// \param options  of the caller, with max_error
+/// \param faces    of the input
+/// \param allowed  the error, in the units of `measure`
+/// \param run      Options -> Result, which has a report
+/// \param measure  (Result, Look) -> Distance
+template <class Result, class Run, class Measure>
+Result run_within(const Options& options, std::uint64_t faces, double allowed, Run&& run, Measure&& measure) {
+    const Stopwatch watch;
+    const bool searching = options.target.kind == Target::Kind::unset;
+    MeasuredError error{.allowed = allowed};
+    // If nothing is within, the input is run in the end.
+    const double planned = searching ? static_cast<double>(FaceCountSearch::most_runs + 1) : 1;
+    const auto progress = [&](Phase phase, double fraction) {
+        return options.progress(phase, (static_cast<double>(error.runs) + fraction) / planned);
+    };
+    Options own = options;
+    own.max_error.reset();
+    if (options.progress) {
+        // Measuring takes about as long as the run.
+        own.progress = [&](Phase phase, double fraction) { return progress(phase, fraction / 2); };
+    }
+    Distance distance;
+    std::uint64_t unsettled = 0;
+    const auto attempt = [&](const Target& target, Look look) {
+        own.target = target;
+        Result result = run(std::as_const(own));
+        if (result.report.stop == StopReason::cancelled) return result;
+        distance = measure(std::as_const(result), look);
+        unsettled += distance.unsettled;
+        if (options.progress && progress(Phase::simplify, 1) == Continue::cancel) {
+            result.report.stop = StopReason::cancelled;
+        }
+        ++error.runs;
+        return result;
+    };
+
+    std::optional<Result> best;
+    if (searching) {
+        FaceCountSearch search(faces, allowed);
+        while (const auto target = search.next()) {
+            Result result = attempt(faqem::faces(*target), Look::for_verdict);
+            if (result.report.stop == StopReason::cancelled) return result;
+            const std::uint64_t count = result.report.faces_out;
+            const bool within = distance.within(allowed);
+            search.tell(count, distance.value, within);
+            if (within && count < (best ? best->report.faces_out : faces)) best = std::move(result);
+        }
+    }
+    if (best) {
+        distance = measure(std::as_const(*best), Look::in_full);
+    } else {
+        best = attempt(searching ? faqem::faces(std::max<std::uint64_t>(faces, 1)) : options.target,
+                       Look::in_full);
+        if (best->report.stop == StopReason::cancelled) return std::move(*best);
+    }
+    if (options.progress && searching && options.progress(Phase::simplify, 1) == Continue::cancel) {
+        best->report.stop = StopReason::cancelled;
+        return std::move(*best);
+    }
+    error.value = distance.value;
+    error.bound = distance.bound;
+    best->report.max_error = error;
+    if (searching) finish_search(best->report, unsettled);
+    best->report.seconds.simplify = best->report.seconds.total = watch.seconds();
+    return std::move(*best);
+}
+
+}  // namespace faqem::detail
