@@ -6,6 +6,7 @@
 #include "bake/budget.hpp"
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
+#include "bake/parts_within_error.hpp"
 #include "cost_curve.hpp"
 #include "faqem/bake.hpp"
 
@@ -153,6 +154,7 @@ private:
 
 SmallParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
+    if (options.max_error) return detail::simplify_parts_within(source, options);
     return PartsRun(source, options)();
 }
 
