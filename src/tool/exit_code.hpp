@@ -12,6 +12,7 @@ enum ExitCode : int {
     exit_bad_input = 3,
     exit_unsupported = 4,
     exit_target_missed = 5,
+    exit_error_exceeded = 6,
     exit_cannot_write = 7,
     exit_cancelled = 8,
 };

@@ -44,7 +44,7 @@ int parse_and_run(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
-        "5 target missed (with --strict-target), 7 cannot write, 8 cancelled.");
+        "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled.");
     Action action;
     add_simplify_command(app, action);
     add_info_command(app, action);

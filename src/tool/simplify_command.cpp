@@ -55,12 +55,19 @@ double number(const std::string& text, const char* option) {
     return value;
 }
 
+/// `0.01` in model units, or `0.1%` of the diagonal.
+MaxError max_error(const std::string& text) {
+    if (!text.ends_with('%')) return model_units(number(text, "--max-error"));
+    return of_diagonal(number(text.substr(0, text.size() - 1), "--max-error") / 100);
+}
+
 /// The command line as it was given.
 struct Arguments {
     std::string in, out, report, history;
     std::string preset, budget, bake, mapping;
     std::string virtual_edges;  ///< empty: off
-    double ratio = 0.1;
+    std::optional<std::string> max_error;
+    std::optional<double> ratio;
     std::uint64_t faces = 0;
     bool link = false, lock_border = false;
     bool strict_target = false, force = false, quiet = false;
@@ -71,7 +78,9 @@ struct Arguments {
 
 Options make_options(const Arguments& arguments) {
     Options options = arguments.options;
-    options.target = arguments.faces > 0 ? faces(arguments.faces) : ratio(arguments.ratio);
+    if (arguments.faces > 0) options.target = faces(arguments.faces);
+    if (arguments.ratio) options.target = ratio(*arguments.ratio);
+    if (arguments.max_error) options.max_error = max_error(*arguments.max_error);
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
     if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
     if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
@@ -131,6 +140,11 @@ void print_summary(const Arguments& arguments, const Report& report) {
     out << arguments.in << " -> " << arguments.out << "\n"
         << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
         << name(report.stop) << ", preset " << name(report.preset) << "\n";
+    if (report.max_error) {
+        const MeasuredError& error = *report.max_error;
+        out << "distance: " << error.value << " found, at most " << error.bound << " (allowed "
+            << error.allowed << "), " << error.runs << (error.runs == 1 ? " run\n" : " runs\n");
+    }
     print_counts(out, report);
     out << report.warnings.size() << (report.warnings.size() == 1 ? " warning\n" : " warnings\n");
     for (const std::string& warning : report.warnings) out << "  " << warning << "\n";
@@ -166,6 +180,25 @@ void save_result(const Arguments& arguments, LightAsset& light) {
     light.report.seconds.save = watch.seconds();
 }
 
+/// Why the model is not to be written, or exit_ok.
+ExitCode why_refused(const Arguments& arguments, const Report& report) {
+    if (arguments.strict_target && report.faces_out > report.target_faces) return exit_target_missed;
+    if (report.max_error && !report.max_error->within()) return exit_error_exceeded;
+    return exit_ok;
+}
+
+void explain(ExitCode refusal, const Arguments& arguments, const Report& report) {
+    if (refusal == exit_target_missed) {
+        std::cerr << "faqem: target missed: " << report.faces_out << " faces, " << report.target_faces
+                  << " wanted; ";
+    } else {
+        std::cerr << "faqem: max error exceeded: " << report.faces_out << " faces are up to "
+                  << report.max_error->bound << " from the original, " << report.max_error->allowed
+                  << " allowed; ";
+    }
+    std::cerr << arguments.out << " was not written\n";
+}
+
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     check_outputs(arguments);
@@ -187,19 +220,16 @@ int run(const Arguments& arguments) {
                                      source.warnings.end());
         if (interrupted() || light.report.stop == StopReason::cancelled) return cancelled();
     }
-    const bool missed = light.report.faces_out > light.report.target_faces;
-    const bool refused = missed && arguments.strict_target;
-    if (!refused) save_result(arguments, light);
+    const ExitCode refusal = why_refused(arguments, light.report);
+    if (refusal == exit_ok) save_result(arguments, light);
     light.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
         const Unattended unattended;
         write_output(arguments.report, to_json(light.report), arguments.overwrite());
     }
     if (!arguments.quiet) print_summary(arguments, light.report);
-    if (!refused) return exit_ok;
-    std::cerr << "faqem: target missed: " << light.report.faces_out << " faces, " << light.report.target_faces
-              << " wanted; " << arguments.out << " was not written\n";
-    return exit_target_missed;
+    if (refusal != exit_ok) explain(refusal, arguments, light.report);
+    return refusal;
 }
 
 std::string preset_names() {
@@ -217,6 +247,9 @@ void add_target_options(CLI::App& command, Arguments& a) {
     auto* faces =
         command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
     ratio->excludes(faces);
+    command.add_option("--max-error", a.max_error,
+                       "Largest distance from the original, in model units or with % of the diagonal: the "
+                       "smallest mesh found within it; with --ratio or --faces: a condition");
     command.add_option("--budget", a.budget,
                        "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
                        "proportion to their faces)");
