@@ -61,6 +61,7 @@ void add(Report& sum, const Report& part, const std::string& title) {
     for (std::size_t i = 0; i < rung_kinds; ++i) sum.rungs[i] += part.rungs[i];
     sum.faces_dropped += part.faces_dropped;
     sum.components_deleted += part.components_deleted;
+    sum.vertices_relaxed += part.vertices_relaxed;
     sum.virtual_edges += part.virtual_edges;
     for (const std::string& warning : part.warnings) sum.warnings.push_back(title + ": " + warning);
     sum.seconds.weld += part.seconds.weld;

@@ -139,6 +139,20 @@ TEST_CASE("seams between vertices at one place do not make components") {
     CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
 
+TEST_CASE("the counts of the report are sums over the parts") {
+    Asset asset;
+    asset.parts = {grid(20), grid(10)};
+    Options options;
+    options.preset = Preset::best;
+    const SmallParts small = simplify_parts(asset, options);
+    const Report &sum = small.report, &a = small.parts[0].report, &b = small.parts[1].report;
+    CHECK(sum.faces_in == a.faces_in + b.faces_in);
+    CHECK(sum.vertices_out == a.vertices_out + b.vertices_out);
+    CHECK(sum.collapses == a.collapses + b.collapses);
+    CHECK(sum.vertices_relaxed == a.vertices_relaxed + b.vertices_relaxed);
+    CHECK(sum.vertices_relaxed > 0);
+}
+
 TEST_CASE("cancelling the first stage leaves the second nothing to do") {
     Asset asset;
     asset.parts = {grid(20), grid(20)};
