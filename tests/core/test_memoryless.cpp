@@ -85,6 +85,27 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
     CHECK(cost(10, 0.2) == cost(10, 0));
 }
 
+TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where sheets pass through it") {
+    // Around the edge (0, 1), from above: a sheet 2 - 3, and a fin to 4 that may go on to 5.
+    const std::vector<Vector3> p = {{0, 0, 0},    {1, 0, 0},   {0.5, 1, 0},
+                                    {0.5, -1, 0}, {0.5, 0, 1}, {0.5, 0, -1}};
+    const auto held = [&](const std::vector<Triangle>& triangles) {
+        const Complex complex(p, triangles);
+        const PairTable pairs(complex, {});
+        const auto cost = [&](double weight) {
+            MemorylessMetric metric({0, weight, 0});
+            metric.initialise(complex, pairs);
+            return metric.evaluate(complex, pairs, 0, 2, Freedom::at_second)->cost;
+        };
+        return cost(5) - cost(0);
+    };
+    // The planes along the edge are y = 0 twice and z = 0: vertex 2 is 1 away from the first two.
+    CHECK(held({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}) == Approx(2 * 5));
+    CHECK(held({{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}) == Approx(2 * 5));
+    CHECK(held({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}}) == Approx(0).margin(1e-12));
+    CHECK(held({{0, 1, 2}, {1, 0, 2}, {1, 0, 3}, {0, 1, 3}}) == Approx(0).margin(1e-12));
+}
+
 TEST_CASE("memoryless: the last faces of a part cost their longest edge to the fourth, a hundred times") {
     // The longest edge is 5; the edge plane of the open edges costs something besides.
     const std::vector<Vector3> p = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};

@@ -15,8 +15,10 @@ namespace faqem::engine {
 
 /// Weights of the memoryless metric. Both terms are areas times squared distances.
 struct MemorylessWeights {
-    double edge = 1;              ///< planes along open edges, times their squared length
-    double nonmanifold_edge = 5;  ///< the same along edges with three faces or more
+    double edge = 1;  ///< planes along open edges, times their squared length
+    /// The same along edges with three faces or more, less where these go on straight through the edge: the
+    /// sheets of a doubled surface need no holding.
+    double nonmanifold_edge = 5;
     /// The same along edges where the surface folds back (normals more than 120 degrees apart): the rim of a
     /// thin blade has hardly any area, and without this the blade shrinks from its tip.
     double fold_edge = 0.2;
@@ -180,7 +182,7 @@ private:
             last = f;
             q.add(facets_[f].normal, facets_[f].area);
         });
-        const double w = edge_weight(shared, first, last);
+        const double w = edge_weight(complex, u, v, shared, first, last);
         if (!(w > 0)) return shared;
         complex.for_each_face(u, [&](Index f, unsigned) {
             if (complex.has_corner(f, v)) add_edge_plane(complex, f, u, v, w, q);
@@ -210,15 +212,35 @@ private:
                 last = f;
             });
         }
-        return edge_weight(faces, first, last);
+        return edge_weight(complex, u, v, faces, first, last);
     }
 
     // \param first, last  the faces, where there are two
-    double edge_weight(std::uint32_t faces, Index first, Index last) const {
+    double edge_weight(const Complex& complex, Index u, Index v, std::uint32_t faces, Index first,
+                       Index last) const {
         if (faces == 1) return weights_.edge;
-        if (faces > 2) return weights_.nonmanifold_edge;
+        if (faces > 2) return weights_.nonmanifold_edge * std::min(1.0, imbalance(complex, u, v));
         const bool folds = faces == 2 && facets_[first].normal.dot(facets_[last].normal) < -0.5;
         return folds ? weights_.fold_edge : 0;
+    }
+
+    // Squared length of the sum of unit vectors from the edge (u, v) into its faces: 0 where each face has
+    // one that continues it.
+    double imbalance(const Complex& complex, Index u, Index v) const {
+        const Vector3& a = complex.position(u);
+        const Vector3 e = complex.position(v) - a;
+        Vector3 sum = Vector3::Zero();
+        complex.for_each_face(u, [&](Index f, unsigned corner) {
+            const Triangle& t = complex.triangle(f);
+            const Index next = t[(corner + 1) % 3], other = t[(corner + 2) % 3];
+            if (next != v && other != v) return;
+            const Vector3 into = e.cross(facets_[f].normal);
+            const double length = into.norm();
+            if (!(length > 0)) return;
+            const Vector3& apex = complex.position(next == v ? other : next);
+            sum += (into.dot(apex - a) < 0 ? -1 : 1) / length * into;
+        });
+        return sum.squaredNorm();
     }
 
     void add_edge_plane(const Complex& complex, Index f, Index a, Index b, double weight, Planes& q) const {
