@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "target.hpp"
+
 namespace faqem::detail {
-
-namespace {
-
-// What simplify() takes any lower target for.
-constexpr std::uint64_t smallest_target = 4;
-
-}  // namespace
 
 std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves, std::span<const double> weights,
                                          std::uint64_t goal) {

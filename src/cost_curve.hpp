@@ -25,7 +25,8 @@ struct CostCurve {
 };
 
 /// Collapses a copy of the mesh as far as its locks and seams let it, with preset fast. Weights, target and
-/// history of the options do not count. \throws as simplify() O(n log n)
+/// history of the options do not count. Defined in simplify.cpp: it is the first half of a run.
+/// \throws as simplify() O(n log n)
 CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
 /// How many faces each mesh keeps so that all have `goal` at most, the dearest being kept.

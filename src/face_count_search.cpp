@@ -20,7 +20,7 @@ constexpr double margin = 0.05, measured_margin = 0.1;
 }  // namespace
 
 FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
-    : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{min_faces - 1} {}
+    : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{smallest_target - 1} {}
 
 bool FaceCountSearch::bracketing() const {
     return step_ == 0 && runs_ < bracket_runs && good_.faces > bad_.faces * narrow_enough &&

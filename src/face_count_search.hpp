@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "target.hpp"
+
 namespace faqem::detail {
 
 /// A search over targets where neither the error nor the face count follows the target exactly: the error is
@@ -44,13 +46,11 @@ private:
 
     double allowed_;
     End good_, bad_;
-    double reachable_ = min_faces;                                 ///< fewer faces do not come out
+    double reachable_ = static_cast<double>(smallest_target);      ///< fewer faces do not come out
     double last_width_ = std::numeric_limits<double>::infinity();  ///< of the bracket, in logarithms
     std::uint64_t target_ = 0;
     std::uint64_t runs_ = 0;  ///< to narrow the bracket
     std::size_t step_ = 0;    ///< into `below`
-
-    static constexpr double min_faces = 4;
 };
 
 }  // namespace faqem::detail

@@ -15,6 +15,7 @@
 #include "presets.hpp"
 #include "relax.hpp"
 #include "stopwatch.hpp"
+#include "target.hpp"
 #include "virtual_edges.hpp"
 #include "within_error.hpp"
 
@@ -25,14 +26,6 @@ namespace {
 using detail::Stopwatch;
 using engine::Complex;
 using engine::Vector3;
-
-// floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
-std::size_t target_faces(const Target& target, std::size_t faces) {
-    const double wanted = target.kind == Target::Kind::faces
-                              ? target.value
-                              : target.value * static_cast<double>(faces) * (1 + 1e-15);
-    return static_cast<std::size_t>(std::max(4.0, std::floor(std::min(wanted, 1e18))));
-}
 
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
                                 const detail::Arranged& arranged, const engine::PairTable& pairs,
@@ -171,7 +164,10 @@ private:
         }
         locked = locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
         engine::LoopOptions loop;
-        loop.target_faces = target_faces(options_.target, mesh_.triangles.size());
+        result_.report.target_faces =
+            std::max(detail::smallest_target,
+                     detail::faces_wanted(options_.target, static_cast<double>(mesh_.triangles.size())));
+        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
         loop.rules = {settings_.link, settings_.least_turn, least_length};
         loop.tiny_component = 0.02 * settings_.diagonal;
         if (options_.progress) {
@@ -187,7 +183,6 @@ private:
         std::vector<std::uint8_t> locked;
         const engine::LoopResult looped = collapse(complex, wedges, locked, origin);
         Report& report = result_.report;
-        report.target_faces = target_faces(options_.target, mesh_.triangles.size());
         report.stop = looped.stop;
         report.collapses = looped.collapses;
         report.refusals = looped.refusals;
@@ -341,7 +336,7 @@ detail::CostCurve detail::cost_curve(const MeshView& mesh, const Options& option
     Options cheap = options;
     cheap.preset = Preset::fast;
     cheap.weights = {};
-    cheap.target = faces(1);
+    cheap.target = faces(detail::smallest_target);
     validate(cheap);
     return Run(mesh, cheap).curve();
 }

@@ -23,14 +23,13 @@ struct LightAsset {
 };
 
 /// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset.
-/// With Budget::scene it is shared out by error: the parts are simplified as far as they go, and the collapses
-/// that cost least in the scene, whichever part they are in, say how many faces each keeps. With Budget::mesh
-/// it is shared out in proportion to the parts' faces; where it has room for them, a part gets no fewer than
-/// 4 faces (or all it has) for each of its connected components, at the others' cost. No part gets fewer than
-/// 4, or all it has.
-/// For Options::max_error every part is measured against its original, in the units of the scene: a part that
-/// the scene shows several times counts at its largest scale, one that it does not show as it is.
-/// \throws as simplify(const MeshView&, ...)
+/// With Budget::scene it is shared out by error: the parts are simplified as far as they go, and the
+/// collapses that cost least in the scene, whichever part they are in, say how many faces each keeps. With
+/// Budget::mesh it is shared out in proportion to the parts' faces; where it has room for them, a part gets
+/// no fewer than 4 faces (or all it has) for each of its connected components, at the others' cost. No part
+/// gets fewer than 4, or all it has. For Options::max_error every part is measured against its original, in
+/// the units of the scene: a part that the scene shows several times counts at its largest scale, one that it
+/// does not show as it is. \throws as simplify(const MeshView&, ...)
 SmallParts simplify_parts(const Asset& source, const Options& options);
 
 /// Stage two: gives the small parts normals, UVs, materials and images.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "faqem/engine/weld.hpp"
+#include "target.hpp"
 
 namespace faqem::detail {
 
@@ -44,7 +45,7 @@ std::vector<std::uint64_t> least_shares(const Asset& asset, std::uint64_t goal) 
     std::uint64_t sum = 0;
     for (const Part& part : asset.parts) sum += least.emplace_back(faces_of_components(part));
     for (std::size_t p = 0; p < least.size() && sum > goal; ++p)
-        least[p] = std::min<std::uint64_t>(4, faces_of(asset, p));
+        least[p] = std::min<std::uint64_t>(smallest_target, faces_of(asset, p));
     return least;
 }
 

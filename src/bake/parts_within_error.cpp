@@ -33,7 +33,7 @@ Scene measure_scene(const Asset& source) {
     Scene scene;
     scene.originals.reserve(source.parts.size());
     for (const Part& part : source.parts) {
-        scene.originals.emplace_back(MeshView{part.positions, part.triangles, {}, nullptr, {}});
+        scene.originals.emplace_back(MeshView{part.positions, part.triangles});
     }
     scene.scales.resize(source.parts.size());
     std::vector<bool> shown(source.parts.size(), false);

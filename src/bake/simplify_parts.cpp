@@ -9,16 +9,10 @@
 #include "bake/parts_within_error.hpp"
 #include "cost_curve.hpp"
 #include "faqem/bake.hpp"
+#include "target.hpp"
 
 namespace faqem {
 namespace {
-
-// floor() of a share may not lose a face to rounding: 0.1 * 30 is 3.
-std::uint64_t faces_wanted(const Target& target, double faces) {
-    const double wanted =
-        target.kind == Target::Kind::faces ? target.value : target.value * faces * (1 + 1e-15);
-    return static_cast<std::uint64_t>(std::floor(std::min(wanted, faces)));
-}
 
 // UVs and colours of a part on its corners.
 CornerAttributes corner_attributes(const Part& part) {
@@ -108,7 +102,8 @@ public:
 
 private:
     std::vector<std::uint64_t> shares() {
-        const std::uint64_t goal = faces_wanted(options_.target, faces_);
+        const std::uint64_t goal =
+            std::min(detail::faces_wanted(options_.target, faces_), static_cast<std::uint64_t>(faces_));
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
         if (options_.budget == Budget::mesh || filled < 2) return detail::share_by_faces(source_, goal);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/meshes.hpp"
 #include "faqem/bake.hpp"
 #include "hand_history.hpp"
 
@@ -48,6 +49,15 @@ inline Part square() {
     part.triangles = {{0, 1, 2}, {0, 2, 3}};
     part.uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
     part.face_material = {0, 0};
+    return part;
+}
+
+// A sheet of 2 n^2 faces: the point (x, y) of the square [0, n]^2 is at place(x, y).
+inline Part sheet(Index n, const std::function<Vec3(double x, double y)>& place) {
+    const TriangleMesh flat = grid(n);
+    Part part;
+    part.triangles = flat.triangles;
+    for (const Vec3& p : flat.positions) part.positions.push_back(place(p[0], p[1]));
     return part;
 }
 

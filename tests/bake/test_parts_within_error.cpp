@@ -13,21 +13,10 @@ namespace {
 
 // A wavy sheet of 2 n^2 faces with waves of a height, beside others.
 Part waves(Index n, double height, double beside) {
-    Part part;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) {
-            const double x = double(i) / n, y = double(j) / n;
-            part.positions.push_back({x + beside, y, height * std::sin(9 * x) * std::cos(7 * y)});
-        }
-    }
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-            const Index a = (n + 1) * j + i, b = a + 1, c = a + n + 2, d = a + n + 1;
-            part.triangles.push_back({a, b, c});
-            part.triangles.push_back({a, c, d});
-        }
-    }
-    return part;
+    return sheet(n, [&](double i, double j) {
+        const double x = i / n, y = j / n;
+        return Vec3{x + beside, y, height * std::sin(9 * x) * std::cos(7 * y)};
+    });
 }
 
 MeshView view(const Part& part) { return {part.positions, part.triangles, {}, nullptr, {}}; }

@@ -8,28 +8,16 @@ using namespace faqem::test;
 
 namespace {
 
-// A bumpy n x n grid: 2 n^2 faces.
-Part grid(Index n) {
-    Part part;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i)
-            part.positions.push_back({double(i), double(j), std::sin(i * 0.9) * std::cos(j * 0.7)});
-    }
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-            const Index a = (n + 1) * j + i, b = a + 1, c = a + n + 2, d = a + n + 1;
-            part.triangles.push_back({a, b, c});
-            part.triangles.push_back({a, c, d});
-        }
-    }
-    return part;
+// 2 n^2 faces.
+Part bumpy(Index n) {
+    return sheet(n, [](double x, double y) { return Vec3{x, y, std::sin(x * 0.9) * std::cos(y * 0.7)}; });
 }
 
 }  // namespace
 
 TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
     Asset asset;
-    asset.parts = {grid(20), grid(20), Part{}};
+    asset.parts = {bumpy(20), bumpy(20), Part{}};
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
     Options options;
     options.target = GENERATE(ratio(0.25), faces(400));
@@ -45,8 +33,8 @@ TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
 TEST_CASE("one sheet cut in two gets about what it got whole") {
     // Cut across the rows: two thirds of the faces are in the first part.
     Asset whole, cut;
-    whole.parts = {grid(30)};
-    cut.parts = {grid(30), grid(30)};
+    whole.parts = {bumpy(30)};
+    cut.parts = {bumpy(30), bumpy(30)};
     cut.parts[0].triangles.resize(1200);
     cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
     Options options;
@@ -62,7 +50,7 @@ TEST_CASE("one sheet cut in two gets about what it got whole") {
 
 TEST_CASE("a face count is shared out by size, and tiny parts keep their faces") {
     Asset asset;
-    asset.parts = {grid(20), grid(10), square(), Part{}};
+    asset.parts = {bumpy(20), bumpy(10), square(), Part{}};
     asset.parts[2].face_material.clear();
     Options options;
     options.target = faces(500);
@@ -86,7 +74,7 @@ TEST_CASE("a face count is shared out by size, and tiny parts keep their faces")
 
 TEST_CASE("a ratio holds for every part where the budget is per mesh") {
     Asset asset;
-    asset.parts = {grid(20), grid(10)};
+    asset.parts = {bumpy(20), bumpy(10)};
     Options options;
     options.target = ratio(0.25);
     options.budget = Budget::mesh;
@@ -99,7 +87,7 @@ TEST_CASE("a ratio holds for every part where the budget is per mesh") {
 TEST_CASE("a part of many small components keeps them all") {
     // Twelve labels in one part, beside a sheet of 800 faces that can pay for them.
     Asset asset;
-    asset.parts = {grid(20), Part{}};
+    asset.parts = {bumpy(20), Part{}};
     Part& labels = asset.parts[1];
     for (Index i = 0; i < 12; ++i) {
         for (Vec3 p : square().positions) labels.positions.push_back({p[0], p[1] + 2 * i, p[2]});
@@ -125,7 +113,7 @@ TEST_CASE("a part of many small components keeps them all") {
 TEST_CASE("seams between vertices at one place do not make components") {
     // The grid as a soup of single triangles: its share is its part of the whole, not all its faces.
     Asset asset;
-    asset.parts = {grid(20), grid(10)};
+    asset.parts = {bumpy(20), bumpy(10)};
     Part soup;
     for (const Triangle& t : asset.parts[1].triangles) {
         const Index n = static_cast<Index>(soup.positions.size());
@@ -141,7 +129,7 @@ TEST_CASE("seams between vertices at one place do not make components") {
 
 TEST_CASE("the counts of the report are sums over the parts") {
     Asset asset;
-    asset.parts = {grid(20), grid(10)};
+    asset.parts = {bumpy(20), bumpy(10)};
     Options options;
     options.preset = Preset::best;
     const SmallParts small = simplify_parts(asset, options);
@@ -155,7 +143,7 @@ TEST_CASE("the counts of the report are sums over the parts") {
 
 TEST_CASE("cancelling the first stage leaves the second nothing to do") {
     Asset asset;
-    asset.parts = {grid(20), grid(20)};
+    asset.parts = {bumpy(20), bumpy(20)};
     Options options;
     options.budget = GENERATE(Budget::scene, Budget::mesh);
     options.progress = [](Phase, double) { return Continue::cancel; };
@@ -166,7 +154,7 @@ TEST_CASE("cancelling the first stage leaves the second nothing to do") {
 
 TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
     Asset asset;
-    asset.parts = {grid(60), grid(40)};
+    asset.parts = {bumpy(60), bumpy(40)};
     Options options;
     options.budget = GENERATE(Budget::scene, Budget::mesh);
     std::vector<double> seen = {0};
@@ -184,7 +172,7 @@ TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
 TEST_CASE("the result of the whole way shows the source's colours") {
     // A bumpy sheet whose texture is a ramp over its plan: colour tells place.
     Asset asset = textured_square(ramp(128));
-    asset.parts = {grid(24)};
+    asset.parts = {bumpy(24)};
     Part& part = asset.parts[0];
     part.uvs.resize(1);
     for (const Vec3& p : part.positions) {

@@ -17,7 +17,7 @@ Options of_kind(Bake kind) {
 }
 
 // The cube [0, 1]^3 with 8 vertices and no normals.
-Asset cube() {
+Asset cube_asset() {
     Asset asset;
     asset.parts.resize(1);
     Part& part = asset.parts[0];
@@ -55,7 +55,7 @@ Asset pipe(int n) {
 }  // namespace
 
 TEST_CASE("a cube's normals are split at its edges and nowhere else") {
-    const Asset asset = cube();
+    const Asset asset = cube_asset();
     const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
     const Part& part = light.asset.parts[0];
     CHECK(part.positions.size() == 24);
@@ -186,7 +186,7 @@ TEST_CASE("none takes textures away and says so") {
 }
 
 TEST_CASE("skins and morph targets come along, without cracks") {
-    Asset asset = cube();
+    Asset asset = cube_asset();
     Part& part = asset.parts[0];
     part.morph_targets.resize(1);
     for (std::size_t v = 0; v < 8; ++v) {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/brute_force.hpp"
 #include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "hausdorff.hpp"
-#include "triangle.hpp"
 
 using namespace faqem;
 using test::square;
@@ -24,31 +24,6 @@ TriangleMesh egg(Index rings) {
         x = bent[0], y = bent[1], z = bent[2];
     }
     return mesh;
-}
-
-/// Largest distance of a dense grid on the faces of one mesh to the other mesh, by all faces.
-double brute_force(const TriangleMesh& from, const TriangleMesh& to, int steps) {
-    const auto corner = [](const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
-        return engine::to_eigen(mesh.positions[t[k]]);
-    };
-    double largest = 0;
-    for (const Triangle& t : from.triangles) {
-        for (int i = 0; i <= steps; ++i) {
-            for (int j = 0; i + j <= steps; ++j) {
-                const engine::Vector3 p =
-                    (i * corner(from, t, 0) + j * corner(from, t, 1) + (steps - i - j) * corner(from, t, 2)) /
-                    steps;
-                double nearest = infinity;
-                for (const Triangle& u : to.triangles) {
-                    nearest = std::min(nearest, detail::closest_point_on_triangle(
-                                                    p, corner(to, u, 0), corner(to, u, 1), corner(to, u, 2))
-                                                    .distance_squared);
-                }
-                largest = std::max(largest, nearest);
-            }
-        }
-    }
-    return std::sqrt(largest);
 }
 
 bool same(const DistanceBound& a, const DistanceBound& b) {
@@ -116,7 +91,8 @@ TEST_CASE("offset squares have a bound as tight as asked for") {
 
 TEST_CASE("value and bound enclose what dense samples show") {
     const TriangleMesh fine = egg(13), coarse = egg(7);
-    const double there = brute_force(fine, coarse, 6), back = brute_force(coarse, fine, 12);
+    const double there = test::sampled_distance(fine, coarse, 6),
+                 back = test::sampled_distance(coarse, fine, 12);
     const Comparison c = compare(fine.view(), coarse.view(), {.samples = 100});
     CHECK(c.a_to_b.max_bound >= there);
     CHECK(c.b_to_a.max_bound >= back);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/brute_force.hpp"
 #include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
-#include "triangle.hpp"
 
 using namespace faqem;
 
@@ -32,31 +32,6 @@ double top(const TriangleMesh& mesh) {
     double z = 0;
     for (const Vec3& p : mesh.positions) z = std::max(z, p[2]);
     return z;
-}
-
-/// Largest distance of a grid of points on each face of `from` to all faces of `to`.
-double sampled(const TriangleMesh& from, const TriangleMesh& to, int steps) {
-    const auto corner = [](const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
-        return engine::to_eigen(mesh.positions[t[k]]);
-    };
-    double largest = 0;
-    for (const Triangle& t : from.triangles) {
-        for (int i = 0; i <= steps; ++i) {
-            for (int j = 0; i + j <= steps; ++j) {
-                const engine::Vector3 p =
-                    (i * corner(from, t, 0) + j * corner(from, t, 1) + (steps - i - j) * corner(from, t, 2)) /
-                    steps;
-                double nearest = std::numeric_limits<double>::infinity();
-                for (const Triangle& u : to.triangles) {
-                    nearest = std::min(nearest, detail::closest_point_on_triangle(
-                                                    p, corner(to, u, 0), corner(to, u, 1), corner(to, u, 2))
-                                                    .distance_squared);
-                }
-                largest = std::max(largest, nearest);
-            }
-        }
-    }
-    return std::sqrt(largest);
 }
 
 bool same(const TriangleMesh& a, const TriangleMesh& b) {
@@ -104,7 +79,8 @@ TEST_CASE("no point of the result of any preset is farther than the error allows
         const MeasuredError& error = *result.report.max_error;
         CHECK(error.allowed == 0.04);
         CHECK(error.within());
-        CHECK(std::max(sampled(mesh, result.mesh, 4), sampled(result.mesh, mesh, 12)) <= error.bound + 1e-12);
+        CHECK(std::max(test::sampled_distance(mesh, result.mesh, 4),
+                       test::sampled_distance(result.mesh, mesh, 12)) <= error.bound + 1e-12);
         // A sphere with n faces is off by about 2 / n at best: 1280 faces come down to some hundreds.
         CHECK(error.value >= 0.02);
         CHECK(result.mesh.triangles.size() <= 400);

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Distances without a search structure, to compare with.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "faqem/engine/vector.hpp"
+#include "faqem/mesh.hpp"
+#include "triangle.hpp"
+
+namespace faqem::test {
+
+/// Largest distance of a grid of points on each face of `from`, corners included, to all faces of `to`.
+/// \param steps  of the grid along an edge, > 0
+inline double sampled_distance(const TriangleMesh& from, const TriangleMesh& to, int steps) {
+    const auto corner = [](const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
+        return engine::to_eigen(mesh.positions[t[k]]);
+    };
+    double largest = 0;
+    for (const Triangle& t : from.triangles) {
+        for (int i = 0; i <= steps; ++i) {
+            for (int j = 0; i + j <= steps; ++j) {
+                const engine::Vector3 p =
+                    (i * corner(from, t, 0) + j * corner(from, t, 1) + (steps - i - j) * corner(from, t, 2)) /
+                    steps;
+                double nearest = std::numeric_limits<double>::infinity();
+                for (const Triangle& u : to.triangles) {
+                    nearest = std::min(nearest, detail::closest_point_on_triangle(
+                                                    p, corner(to, u, 0), corner(to, u, 1), corner(to, u, 2))
+                                                    .distance_squared);
+                }
+                largest = std::max(largest, nearest);
+            }
+        }
+    }
+    return std::sqrt(largest);
+}
+
+}  // namespace faqem::test
