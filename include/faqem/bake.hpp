@@ -29,7 +29,9 @@ struct LightAsset {
 /// no fewer than 4 faces (or all it has) for each of its connected components, at the others' cost. No part
 /// gets fewer than 4, or all it has. For Options::max_error every part is measured against its original, in
 /// the units of the scene: a part that the scene shows several times counts at its largest scale, one that it
-/// does not show as it is. \throws as simplify(const MeshView&, ...)
+/// does not show as it is.
+///
+/// \throws as simplify(const MeshView&, ...)
 SmallParts simplify_parts(const Asset& source, const Options& options);
 
 /// Stage two: gives the small parts normals, UVs, materials and images.
