@@ -178,4 +178,23 @@ Bvh::Bvh(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
     }
 }
 
+void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
+    for (Corners& t : triangles_) {
+        const auto [a, b, c] = triangles[t.face];
+        t.a = positions[a], t.b = positions[b], t.c = positions[c];
+    }
+    for (std::size_t i = nodes_.size(); i-- > 0;) {  // children come after their parents
+        Node& node = nodes_[i];
+        Box box;
+        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+            for (const Vector3& p : {triangles_[k].a, triangles_[k].b, triangles_[k].c}) box.add(p);
+        }
+        if (node.count == 0) {
+            for (const Node& child : {nodes_[i + 1], nodes_[node.first]}) box.add(Box{child.low, child.high});
+        }
+        node.low = box.low;
+        node.high = box.high;
+    }
+}
+
 }  // namespace faqem::detail

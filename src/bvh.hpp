@@ -15,8 +15,8 @@
 
 namespace faqem::detail {
 
-/// Binary tree of axis-aligned boxes over triangles, in double. Immutable once built: queries may come from
-/// several threads at once. Depends on nothing but the mesh: same input, same tree.
+/// Binary tree of axis-aligned boxes over triangles, in double. Queries may come from several threads at
+/// once. Depends on nothing but the mesh: same input, same tree.
 class Bvh {
 public:
     /// \param positions  finite
@@ -25,6 +25,11 @@ public:
     /// Keeps copies. O(n log n) time, about 140 bytes per face.
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
+
+    /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
+    /// \param triangles  those of the constructor
+    /// O(n)
+    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
 
     /// A point of the mesh.
     struct Hit {
@@ -41,6 +46,19 @@ public:
     Hit closest(const Vec3& p, double max_distance_squared = std::numeric_limits<double>::infinity()) const {
         return closest_if(
             p, [](Index) { return true; }, max_distance_squared);
+    }
+
+    /// As closest() without limit, for one who knows a face near p; the nearer, the faster.
+    /// \param face     of the tree
+    /// \param a,b,c    its corners
+    Hit closest_from(const Vec3& p, Index face, const engine::Vector3& a, const engine::Vector3& b,
+                     const engine::Vector3& c) const {
+        const ClosestPoint near = closest_point_on_triangle(engine::to_eigen(p), a, b, c);
+        const Hit hit = closest(p, near.distance_squared);
+        if (hit.face != no_index) return hit;
+        // Rounding: the box may seem a last digit farther than what is in it.
+        return {face, engine::to_array(near.barycentric), engine::to_array(near.point),
+                near.distance_squared};
     }
 
     /// As closest(), over the faces f with filter(f) only. The filter is asked for faces that would be the

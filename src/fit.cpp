@@ -14,8 +14,6 @@ using Matrix3 = Eigen::Matrix3d;
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double along_normal = 0.9;
-/// Pulls weigh as their distance to this power: the far ones more, so that the largest distance falls too.
-constexpr double weight_power = 0.5;
 /// Distances below this share of the mean weigh as if they were that: what fits holds the vertex too.
 constexpr double least_distance = 0.1;
 /// Share of its own weight by which a vertex is held.
@@ -33,13 +31,14 @@ struct FaceSystem {
     }
 };
 
-std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls) {
+std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power) {
     std::vector<FaceSystem> all(faces);
     double mean = 0;
     for (const Pull& pull : pulls) mean += pull.gap.norm();
     mean /= static_cast<double>(std::max<std::size_t>(pulls.size(), 1));
     for (const Pull& pull : pulls) {
-        const double w = std::pow(std::max(pull.gap.norm(), least_distance * mean), weight_power);
+        const double distance = std::max(pull.gap.norm(), least_distance * mean);
+        const double w = distance > 0 ? std::pow(distance / mean, power) : 0;
         const Matrix3 metric = w * (along_normal * pull.normal * pull.normal.transpose() +
                                     (1 - along_normal) * Matrix3::Identity());
         const Vector3 wanted = metric * pull.gap;
@@ -71,8 +70,8 @@ struct Assembly {
 }  // namespace
 
 std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                  std::span<const std::uint8_t> fixed) {
-    const std::vector<FaceSystem> faces = face_systems(triangles.size(), pulls);
+                                  std::span<const std::uint8_t> fixed, double power) {
+    const std::vector<FaceSystem> faces = face_systems(triangles.size(), pulls, power);
     Assembly system(fixed.size());
     std::vector<double> trace(fixed.size(), 0);
     double whole_trace = 0;

@@ -9,20 +9,9 @@
 
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
+#include "spots.hpp"
 
 namespace faqem::detail {
-
-/// A point of a face.
-struct Spot {
-    Index face = no_index;
-    Vec3 weight = {};  ///< barycentric
-
-    engine::Vector3 on(std::span<const engine::Vector3> positions,
-                       std::span<const Triangle> triangles) const {
-        const Triangle& t = triangles[face];
-        return weight[0] * positions[t[0]] + weight[1] * positions[t[1]] + weight[2] * positions[t[2]];
-    }
-};
 
 /// A point of the mesh, and where another surface wants it.
 struct Pull {
@@ -32,13 +21,12 @@ struct Pull {
 };
 
 /// The step of each vertex that would bring the points closest to their counterparts, if the surfaces were
-/// their tangent planes: nine tenths point to plane, one tenth point to point, weights d^(1/2) (that is, the
-/// sum of d^2.5). Damped, so that what the pulls say little about stays.
-/// \param triangles  a triangle with no_index corners is none
-/// \param fixed      one per vertex: nonzero stays
-/// \return one step per vertex; not finite where the system cannot be solved
+/// their tangent planes: nine tenths point to plane, one tenth point to point, weighted by their distance d
+/// to a power. Damped, so that what the pulls say little about stays. \param triangles  a triangle with
+/// no_index corners is none \param power      p: what gets smaller is the sum of d^(2 + p); >= 0 \param fixed
+/// one per vertex: nonzero stays \return one step per vertex; not finite where the system cannot be solved
 /// Complexity: O(pulls + faces) and at most 60 steps of conjugate gradients.
 std::vector<engine::Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                          std::span<const std::uint8_t> fixed);
+                                          std::span<const std::uint8_t> fixed, double power);
 
 }  // namespace faqem::detail

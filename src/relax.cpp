@@ -5,10 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "bvh.hpp"
 #include "fit.hpp"
-#include "parallel.hpp"
-#include "surface.hpp"
+#include "gaps.hpp"
+#include "spots.hpp"
 
 namespace faqem::detail {
 
@@ -16,9 +15,10 @@ namespace {
 
 using engine::Vector3;
 
-constexpr std::size_t block = 1024;
-constexpr int steps = 4;
-constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
+constexpr int steps = 3;
+/// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
+constexpr double power = 0.5;
+constexpr std::size_t points_per_face = 8, least_points = 5000, most_points = 2'000'000;
 /// Points that end farther away than this share of the farthest at the start go back.
 constexpr double put_back_from = 0.9;
 /// Added to each point's distance between the normals: a fraction of a degree does not matter.
@@ -31,68 +31,13 @@ constexpr double least_area = 0.05;
 constexpr int halvings = 6;
 /// Times that far points are put back before all of them are.
 constexpr int most_rounds = 6;
+/// Times that the farthest points are drawn in; they are those beyond this share of the farthest one; the
+/// power of their distance by which they count; and the squared distance that counts as nearer.
+constexpr int most_draws = 20;
+constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998;
 
 Vector3 area_vector(std::span<const Vector3> x, const Triangle& t) {
     return engine::area_vector(x[t[0]], x[t[1]], x[t[2]]);
-}
-
-Vector3 unit(const Vector3& n) {
-    const double length = n.norm();
-    return length > 0 ? Vector3(n / length) : Vector3(Vector3::Zero());
-}
-
-/// A point of the original and the unit normal there. Planes are those of the point's own surface: where the
-/// closest face of the other surface is one of several, its plane would be chance.
-struct Point {
-    Vector3 position, normal;
-};
-
-/// The k-th point of a sequence that fills the triangle evenly (Roberts 2018, with the plastic number).
-Vec3 even_weight(std::size_t k) {
-    const auto fraction = [&](double step) {
-        const double x = 0.5 + step * static_cast<double>(k);
-        return x - std::floor(x);
-    };
-    double v = fraction(0.75487766624669276), w = fraction(0.56984029099805327);
-    if (v + w > 1) v = 1 - v, w = 1 - w;
-    return {1 - v - w, v, w};
-}
-
-/// `count` points spread by area.
-std::vector<Spot> spread(const Patchwork& mesh, std::size_t count) {
-    std::vector<double> area_up_to;
-    double area = 0;
-    for (const Triangle& t : mesh.triangles) {
-        if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
-        area_up_to.push_back(area);
-    }
-    std::vector<Spot> spots;
-    if (!(area > 0)) return spots;
-    Index face = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
-        while (face + 1 < area_up_to.size() && !(area_up_to[face] > place)) ++face;
-        spots.push_back({face, even_weight(k)});
-    }
-    return spots;
-}
-
-/// Vertices and middles of edges, each at least once: where the light mesh sticks out.
-std::vector<Spot> corners_and_middles(const Patchwork& mesh) {
-    std::vector<Spot> spots;
-    std::vector<std::uint8_t> seen(mesh.positions.size(), 0);
-    for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        const Triangle& t = mesh.triangles[f];
-        if (t[0] == no_index) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            Spot corner{f, {0, 0, 0}};
-            corner.weight[k] = 1;
-            if (!std::exchange(seen[t[k]], std::uint8_t{1})) spots.push_back(corner);
-            corner.weight[k] = corner.weight[(k + 1) % 3] = 0.5;
-            spots.push_back(corner);
-        }
-    }
-    return spots;
 }
 
 /// Vertices on edges with one face.
@@ -117,43 +62,36 @@ class Relaxation {
 public:
     Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
                double least_turn, std::uint32_t threads)
-        : original_(original),
-          light_(light),
+        : light_(light),
           least_turn_(least_turn),
           threads_(threads),
-          original_tree_(original.positions, original.triangles),
+          original_(original),
           start_(light.positions.begin(), light.positions.end()),
           positions_(start_),
-          fixed_(on_border(light.triangles, start_.size())) {
+          fixed_(on_border(light.triangles, start_.size())),
+          there_(original_, light.triangles, spots(light)),
+          back_(even_points(), light.triangles),
+          corners_(oriented_vertices(original), light.triangles) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
-        const std::size_t faces =
-            static_cast<std::size_t>(std::count_if(light.triangles.begin(), light.triangles.end(),
-                                                   [](const Triangle& t) { return t[0] != no_index; }));
-        const std::size_t count = std::clamp(points_per_face * faces, least_points, most_points);
-        for (const Triangle& t : original.triangles) {
-            original_normals_.push_back(t[0] == no_index ? Vector3::Zero()
-                                                         : unit(area_vector(original.positions, t)));
-        }
-        spots_ = spread(light, count);
-        for (const Spot& spot : corners_and_middles(light)) spots_.push_back(spot);
-        add_original_vertices(4 * count);
-        for (const Spot& spot : spread(original, count)) {
-            original_points_.push_back(
-                {spot.on(original.positions, original.triangles), original_normals_[spot.face]});
-        }
     }
 
     std::vector<Vector3> operator()() {
-        if (spots_.empty() || original_points_.empty()) return start_;
+        if (there_.size() == 0 || back_.size() == 0) return start_;
         measure();
         const std::vector<Fit> first = fits_;
         const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
-            move(fitting_step(light_.triangles, pulls_, fixed_));
+            move(fitting_step(light_.triangles, pulls(), fixed_, power));
+            measure_pulls();
+        }
+        measure();
+        for (int round = 0; round < most_rounds && put_back(first, before); ++round) measure();
+        if (!(farthest(fits_) <= before)) {
+            positions_ = start_;
             measure();
         }
-        for (int round = 0; round < most_rounds && put_back(first, before); ++round) measure();
-        return farthest(fits_) <= before ? positions_ : start_;
+        draw_in();
+        return positions_;
     }
 
 private:
@@ -171,13 +109,22 @@ private:
         bool is_worse_than(const Fit& other) const {
             return turn > other.turn && distance * turn * turn > other.distance * other.turn * other.turn;
         }
+        /// Is the farthest nearer, and does the gain make up for what the sums lose, twice over?
+        bool is_drawn_in_from(const Fit& other) const {
+            if (!(farthest < least_draw * other.farthest)) return false;
+            const double gain = std::sqrt(other.farthest / farthest);
+            const double lost_turn = turn / other.turn;
+            return distance <= gain * other.distance && lost_turn * lost_turn <= gain;
+        }
     };
 
-    static double farthest(std::span<const Fit> fits) {
+    static Fit sum(std::span<const Fit> fits) {
         Fit all;
         for (const Fit& fit : fits) all.add(fit);
-        return all.farthest;
+        return all;
     }
+
+    static double farthest(std::span<const Fit> fits) { return sum(fits).farthest; }
 
     /// Of the faces around each vertex together.
     std::vector<Fit> around_vertices(std::span<const Fit> fits) const {
@@ -189,51 +136,57 @@ private:
         return sums;
     }
 
-    /// With the mean normal of the faces around each; none if there are more than `most`.
-    void add_original_vertices(std::size_t most) {
-        std::vector<Vector3> normal(original_.positions.size(), Vector3::Zero());
-        std::vector<std::uint8_t> used(original_.positions.size(), 0);
-        for (const Triangle& t : original_.triangles) {
-            if (t[0] == no_index) continue;
-            const Vector3 n = area_vector(original_.positions, t);
-            for (const Index v : t) normal[v] += n, used[v] = 1;
-        }
-        const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
-        for (std::size_t v = 0; v < used.size() && count <= most; ++v) {
-            if (used[v]) original_points_.push_back({original_.positions[v], unit(normal[v])});
-        }
+    static std::size_t point_count(const Patchwork& light) {
+        const auto faces = std::count_if(light.triangles.begin(), light.triangles.end(),
+                                         [](const Triangle& t) { return t[0] != no_index; });
+        return std::clamp(points_per_face * static_cast<std::size_t>(faces), least_points, most_points);
     }
 
-    /// Finds the pulls of all points where the vertices are now, and how well the faces fit.
-    void measure() {
-        pulls_.resize(spots_.size() + original_points_.size());
-        std::vector<double> turn(spots_.size());
-        parallel_blocks(spots_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Vector3 p = spots_[i].on(positions_, light_.triangles);
-                const Bvh::Hit hit = original_tree_.closest(engine::to_array(p));
-                pulls_[i] = {spots_[i], engine::to_eigen(hit.point) - p,
-                             unit(area_vector(positions_, light_.triangles[spots_[i].face]))};
-                const double cosine = best_cosine(original_tree_, original_normals_, engine::to_array(p), hit,
-                                                  pulls_[i].normal, tie_tolerance);
-                turn[i] = least_turn_counted + std::sqrt(2 - 2 * cosine);
-            }
-        });
-        const Bvh tree(positions_, light_.triangles);
-        parallel_blocks(original_points_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Vector3& p = original_points_[i].position;
-                const Bvh::Hit hit = tree.closest(engine::to_array(p));
-                pulls_[spots_.size() + i] = {
-                    {hit.face, hit.barycentric}, p - engine::to_eigen(hit.point), original_points_[i].normal};
-            }
-        });
-        fits_.assign(light_.triangles.size(), {});
-        for (const Pull& pull : pulls_) {
-            const double distance = pull.gap.squaredNorm();
-            fits_[pull.spot.face].add({distance, distance, 0});
+    static std::vector<Spot> spots(const Patchwork& light) {
+        std::vector<Spot> all = evenly_spread(light, point_count(light));
+        for (const Spot& spot : corners_and_middles(light.triangles)) all.push_back(spot);
+        return all;
+    }
+
+    std::vector<OrientedPoint> even_points() const {
+        std::vector<OrientedPoint> points;
+        for (const Spot& spot : evenly_spread(original_.mesh, point_count(light_))) {
+            points.push_back(
+                {spot.on(original_.mesh.positions, original_.mesh.triangles), original_.normals[spot.face]});
         }
-        for (std::size_t i = 0; i < turn.size(); ++i) fits_[spots_[i].face].turn += turn[i];
+        return points;
+    }
+
+    std::vector<Pull> pulls() const {
+        std::vector<Pull> all;
+        all.reserve(there_.size() + back_.size());
+        for (std::size_t i = 0; i < there_.size(); ++i) all.push_back(there_.pull(i));
+        for (std::size_t i = 0; i < back_.size(); ++i) all.push_back(back_.pull(i));
+        return all;
+    }
+
+    void measure_pulls() {
+        there_.move_to(positions_, threads_);
+        back_.move_to(positions_, threads_);
+    }
+
+    /// Finds how well the faces fit where the vertices are now.
+    void measure() {
+        measure_pulls();
+        there_.measure_turns(tie_tolerance, threads_);
+        corners_.move_to(positions_, threads_);
+        fits_.assign(light_.triangles.size(), {});
+        for (std::size_t i = 0; i < there_.size(); ++i) {
+            const double distance = there_.gap(i).squaredNorm();
+            fits_[there_.spot(i).face].add({distance, distance, least_turn_counted + there_.turn(i)});
+        }
+        for (std::size_t i = 0; i < back_.size(); ++i) {
+            const double distance = back_.gap(i).squaredNorm();
+            fits_[back_.spot(i).face].add({distance, distance, 0});
+        }
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            fits_[corners_.spot(i).face].add({corners_.gap(i).squaredNorm(), 0, 0});
+        }
     }
 
     /// Takes the steps, shorter where a face would turn too far from where it was at the start.
@@ -259,6 +212,54 @@ private:
             positions_[t[0]] + step[t[0]], positions_[t[1]] + step[t[1]], positions_[t[2]] + step[t[2]]);
         const double old_norm = before.norm(), new_norm = after.norm();
         return new_norm >= least_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
+    }
+
+    /// Draws in the farthest points: the vertices around them alone take steps that count the far ones most,
+    /// as long as that helps.
+    void draw_in() {
+        for (int round = 0; round < most_draws; ++round) {
+            const Fit before = sum(fits_);
+            std::vector<std::uint8_t> held(start_.size(), 1);
+            for (std::size_t f = 0; f < fits_.size(); ++f) {
+                if (!(fits_[f].farthest > draw_from * draw_from * before.farthest)) continue;
+                for (const Index v : light_.triangles[f]) held[v] = fixed_[v];
+            }
+            if (!draw_in(before, fitting_step(light_.triangles, pulls_around(held), held, draw_power)))
+                return;
+        }
+    }
+
+    /// False, and all is as it was: neither the step nor its half or quarter helps.
+    bool draw_in(const Fit& before, std::vector<Vector3> step) {
+        const std::vector<Vector3> from = positions_;
+        for (int half = 0; half < 3; ++half) {
+            move(step);
+            measure();
+            if (sum(fits_).is_drawn_in_from(before)) return true;
+            positions_ = from;
+            for (Vector3& s : step) s *= 0.5;
+        }
+        measure();
+        return false;
+    }
+
+    /// Of faces with a vertex that is not held.
+    std::vector<Pull> pulls_around(std::span<const std::uint8_t> held) const {
+        std::vector<std::uint8_t> counts(light_.triangles.size(), 0);
+        for (std::size_t f = 0; f < counts.size(); ++f) {
+            if (light_.triangles[f][0] == no_index) continue;
+            for (const Index v : light_.triangles[f]) counts[f] |= !held[v];
+        }
+        std::vector<Pull> all;
+        const auto add = [&](const auto& gaps) {
+            for (std::size_t i = 0; i < gaps.size(); ++i) {
+                if (counts[gaps.spot(i).face]) all.push_back(gaps.pull(i));
+            }
+        };
+        add(there_);
+        add(back_);
+        add(corners_);
+        return all;
     }
 
     /// Undoes the moves at faces with far points that were nearer before, and of vertices around which the
@@ -298,18 +299,16 @@ private:
         return true;
     }
 
-    const Patchwork& original_;
     const Patchwork& light_;
     double least_turn_;
     std::uint32_t threads_;
-    Bvh original_tree_;
+    StillSurface original_;
     std::vector<Vector3> start_, positions_;
     std::vector<std::uint8_t> fixed_;
-    std::vector<Spot> spots_;             // points of the light mesh
-    std::vector<Point> original_points_;  // of the original
-    std::vector<Pull> pulls_;             // of spots_, then of original_points_
-    std::vector<Fit> fits_;               // of the faces of the light mesh
-    std::vector<Vector3> original_normals_;
+    GapsThere there_;
+    GapsBack back_;          // from points spread by area: they pull, and say how well the faces fit
+    GapsBack corners_;       // from the vertices: among them are the farthest points
+    std::vector<Fit> fits_;  // of the faces of the light mesh
 };
 
 }  // namespace

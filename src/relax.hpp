@@ -6,28 +6,20 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/vector.hpp"
-#include "faqem/mesh.hpp"
+#include "gaps.hpp"
 
 namespace faqem::detail {
-
-/// Positions and the triangles that refer to them; a triangle with no_index corners is none. Borrowed.
-struct Patchwork {
-    std::span<const engine::Vector3> positions;
-    std::span<const Triangle> triangles;
-};
 
 /// Fits the light mesh to the original: Gauss-Newton steps on points spread over both, each with its closest
 /// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
 /// allows, where a point would be nearly as far away as the farthest was before, and where the normals lose
-/// more than the distances gain; if the farthest is farther in the end, nothing moves.
-/// \param original    finite
-/// \param light       finite, in the same units
-/// \param fixed       one per vertex of light: nonzero must not move. Open borders do not move either.
-/// \param least_turn  cosine between old and new normal of a face, at least
-/// \param threads     0: all; the result does not depend on it
-/// \return the positions of all vertices of light
-/// Complexity: O(points log faces) a step; about twelve points per face of the light mesh on either side.
+/// more than the distances gain; if the farthest is farther in the end, nothing moves. Then the vertices
+/// around the farthest points move on, as long as these come nearer for less than the rest loses. \param
+/// original    finite \param light       finite, in the same units \param fixed       one per vertex of
+/// light: nonzero must not move. Open borders do not move either. \param least_turn  cosine between old and
+/// new normal of a face, at least \param threads     0: all; the result does not depend on it \return the
+/// positions of all vertices of light Complexity: O(points log faces) a step; about ten points per face of
+/// the light mesh on either side.
 std::vector<engine::Vector3> relax(const Patchwork& original, const Patchwork& light,
                                    std::span<const std::uint8_t> fixed, double least_turn,
                                    std::uint32_t threads);

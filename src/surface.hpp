@@ -57,14 +57,8 @@ public:
 
     /// The point closest to p, as Bvh::closest().
     Bvh::Hit operator()(const Vec3& p) {
-        const ClosestPoint near_last =
-            closest_point_on_triangle(engine::to_eigen(p), surface_.corner(last_, 0),
-                                      surface_.corner(last_, 1), surface_.corner(last_, 2));
-        Bvh::Hit hit = tree_.closest(p, near_last.distance_squared);
-        if (hit.face == no_index) {  // rounding: the box may seem a last digit farther than what is in it
-            hit = {last_, engine::to_array(near_last.barycentric), engine::to_array(near_last.point),
-                   near_last.distance_squared};
-        }
+        const Bvh::Hit hit = tree_.closest_from(p, last_, surface_.corner(last_, 0),
+                                                surface_.corner(last_, 1), surface_.corner(last_, 2));
         last_ = hit.face;
         return hit;
     }

@@ -1,0 +1,101 @@
+#pragma once
+/// \file
+/// How far points of two surfaces are from the other one, kept up while the vertices of one of them move.
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bvh.hpp"
+#include "fit.hpp"
+#include "spots.hpp"
+
+namespace faqem::detail {
+
+/// Unit normal of each triangle; zero where it has no area, or is none.
+std::vector<engine::Vector3> unit_normals(const Patchwork& mesh);
+
+/// A surface that stays, with what is asked of it again and again. Refers to its arguments.
+struct StillSurface {
+    explicit StillSurface(const Patchwork& surface)
+        : mesh(surface), tree(surface.positions, surface.triangles), normals(unit_normals(surface)) {}
+
+    Patchwork mesh;
+    Bvh tree;
+    std::vector<engine::Vector3> normals;
+};
+
+/// Gaps from spots of a mesh that moves to one that stays.
+class GapsThere {
+public:
+    /// \param original   refers to it
+    /// \param triangles  of the moving mesh; refers to them
+    /// \param spots      on these triangles
+    GapsThere(const StillSurface& original, std::span<const Triangle> triangles, std::vector<Spot> spots)
+        : original_(original), triangles_(triangles), spots_(std::move(spots)), gaps_(spots_.size()) {}
+
+    /// Measures where the mesh has moved since the last time; all of it at first.
+    /// \param threads  0: all; the result does not depend on it
+    /// O(log faces) for each spot whose face has moved, typically
+    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
+
+    std::size_t size() const { return spots_.size(); }
+    const Spot& spot(std::size_t i) const { return spots_[i]; }
+    /// From spot i to its closest point.
+    const engine::Vector3& gap(std::size_t i) const { return gaps_[i].gap; }
+    /// With the normal of the moving face: where the closest face is one of several, its own would be chance.
+    Pull pull(std::size_t i) const;
+
+    /// Distance between the unit normals at spot i and at its closest point; there, of all faces that are as
+    /// near but for `tolerance`, the one with the nearest normal counts. Remembered until the face moves.
+    void measure_turns(double tolerance, std::uint32_t threads);
+    double turn(std::size_t i) const { return gaps_[i].turn; }
+
+private:
+    struct Gap {
+        engine::Vector3 gap = engine::Vector3::Zero();
+        Index face = no_index;  ///< of the original
+        double turn = -1;       ///< < 0: not measured
+    };
+    void measure(std::size_t i);
+    engine::Vector3 normal(std::size_t i) const;
+
+    const StillSurface& original_;
+    std::span<const Triangle> triangles_;
+    std::vector<Spot> spots_;
+    std::vector<Gap> gaps_;
+    std::vector<engine::Vector3> positions_;
+};
+
+/// Gaps from points that stay to a mesh that moves.
+class GapsBack {
+public:
+    /// \param triangles  of the moving mesh; refers to them
+    GapsBack(std::vector<OrientedPoint> points, std::span<const Triangle> triangles)
+        : triangles_(triangles), points_(std::move(points)), gaps_(points_.size()) {}
+
+    /// As GapsThere::move_to(). O(faces), and O(log faces) for each point whose closest face, or one that has
+    /// come nearer, has moved, typically
+    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
+
+    std::size_t size() const { return points_.size(); }
+    /// Where on the moving mesh the point nearest to point i is.
+    const Spot& spot(std::size_t i) const { return gaps_[i].spot; }
+    /// From there to point i.
+    const engine::Vector3& gap(std::size_t i) const { return gaps_[i].gap; }
+    Pull pull(std::size_t i) const { return {gaps_[i].spot, gaps_[i].gap, points_[i].normal}; }
+
+private:
+    struct Gap {
+        Spot spot;
+        engine::Vector3 gap = engine::Vector3::Zero();
+    };
+    std::span<const Triangle> triangles_;
+    std::vector<OrientedPoint> points_;
+    std::vector<Gap> gaps_;
+    std::vector<engine::Vector3> positions_;
+    Bvh tree_{std::span<const engine::Vector3>(), {}};
+};
+
+}  // namespace faqem::detail

@@ -1,0 +1,66 @@
+#include "spots.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace faqem;
+using detail::Spot;
+using engine::Vector3;
+
+namespace {
+
+// c       Two triangles in the plane z = 0, and one that is none:
+// | \     abc has three times the area of bde.
+// |   \ /e
+// a----b--d
+const std::vector<Vector3> places = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {5, 0, 0}, {4, 1, 0}};
+const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {1, 3, 4}};
+
+}  // namespace
+
+TEST_CASE("spots: points are spread by area, in the order of the faces") {
+    const std::vector<Spot> spots = detail::evenly_spread({places, faces}, 400);
+    REQUIRE(spots.size() == 400);
+    CHECK(std::count_if(spots.begin(), spots.end(), [](const Spot& s) { return s.face == 0; }) == 300);
+    CHECK(std::is_sorted(spots.begin(), spots.end(),
+                         [](const Spot& a, const Spot& b) { return a.face < b.face; }));
+    Vector3 mean = Vector3::Zero();
+    for (const Spot& spot : spots) {
+        CHECK(spot.face != 1);
+        CHECK(std::min({spot.weight[0], spot.weight[1], spot.weight[2]}) >= 0);
+        CHECK(spot.weight[0] + spot.weight[1] + spot.weight[2] == Approx(1));
+        if (spot.face == 0) mean += spot.on(places, faces) / 300;
+    }
+    CHECK((mean - Vector3(1, 2.0 / 3, 0)).norm() < 0.01);
+}
+
+TEST_CASE("spots: without area there are none") {
+    const std::vector<Triangle> flat = {{0, 1, 3}};
+    CHECK(detail::evenly_spread({places, flat}, 10).empty());
+    CHECK(detail::evenly_spread({places, {}}, 10).empty());
+}
+
+TEST_CASE("spots: every corner once, every middle of an edge once for each face") {
+    const std::vector<Spot> spots = detail::corners_and_middles(faces);
+    CHECK(spots.size() == 5 + 6);
+    const auto at = [&](const Vector3& p) {
+        return std::count_if(spots.begin(), spots.end(),
+                             [&](const Spot& s) { return (s.on(places, faces) - p).norm() < 1e-15; });
+    };
+    for (const Vector3& p : places) CHECK(at(p) == 1);
+    CHECK(at({1.5, 1, 0}) == 1);
+    CHECK(at({4.5, 0.5, 0}) == 1);
+}
+
+TEST_CASE("spots: vertices have the mean normal of their faces, and those of no face are left out") {
+    // A vertical face of the same area beside abc, along ab.
+    const std::vector<Vector3> corner = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {9, 9, 9}, {0, 0, 2}};
+    const std::vector<Triangle> both = {{0, 1, 2}, {1, 0, 4}};
+    const auto points = detail::oriented_vertices({corner, both});
+    REQUIRE(points.size() == 4);
+    CHECK((points[0].normal - Vector3(0, 1, 1) / std::sqrt(2.0)).norm() < 1e-15);
+    CHECK(points[2].normal == Vector3(0, 0, 1));
+    CHECK(points[3].position == corner[4]);
+    CHECK(points[3].normal == Vector3(0, 1, 0));
+}
