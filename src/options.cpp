@@ -45,6 +45,10 @@ void validate(const Options& options) {
     }
     require(topology.virtual_edge_distance > 0 && topology.virtual_edge_distance <= 1,
             "virtual_edge_distance must be in (0, 1]");
+    if (topology.prune) {
+        require(topology.prune->value > 0 && std::isfinite(topology.prune->value),
+                "prune must be finite and > 0");
+    }
     const BakeOptions& bake = options.bake;
     require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
             "texture_size must be a power of two in [64, 16384]");

@@ -35,6 +35,15 @@ void check_sizes(const MeshView& mesh) {
     if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size()) {
         fail("vertex_locks", "needs one entry per vertex or none");
     }
+    if (!mesh.vertex_weights.empty() && mesh.vertex_weights.size() != mesh.positions.size()) {
+        fail("vertex_weights", "needs one entry per vertex or none");
+    }
+    for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
+        const float weight = mesh.vertex_weights[v];
+        if (!(weight >= 1e-6f && weight <= 1e6f)) {
+            fail("vertex " + std::to_string(v), "weight is not in [1e-6, 1e6]");
+        }
+    }
     if (mesh.attributes) {
         const CornerAttributes& a = *mesh.attributes;
         if (a.width == 0 || a.values.size() != std::uint64_t{3} * mesh.triangles.size() * a.width) {
@@ -203,7 +212,33 @@ Prepared prepare(const MeshView& mesh, const Settings& settings) {
     drop_collapsed(out);
     drop_doubles(mesh.face_groups, out);
     find_scale(settings.diagonal, out);
+    if (settings.prune) {
+        out.pruned = prune(out.positions, locks_of_welded(mesh, out.welded, out.positions.size()),
+                           *settings.prune, out.triangles);
+    }
     return out;
+}
+
+std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options) {
+    std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
+    if (options.topology.prune) {
+        for (const PrunedFace& pruned : prepare(mesh, settings(options)).pruned.faces)
+            is_pruned[pruned.face] = 1;
+    }
+    std::vector<Triangle> left;
+    for (std::size_t f = 0; f < is_pruned.size(); ++f) {
+        if (!is_pruned[f]) left.push_back(mesh.triangles[f]);
+    }
+    return left;
+}
+
+std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
+                                          std::size_t vertices) {
+    std::vector<std::uint8_t> locked(vertices, 0);
+    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
+        if (mesh.vertex_locks[v]) locked[welded[v]] = 1;
+    }
+    return locked;
 }
 
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {

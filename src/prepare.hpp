@@ -2,11 +2,13 @@
 /// \file
 /// From the caller's arrays to the engine's complex: checks, weld, repair, scale.
 
+#include <span>
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
 #include "faqem/mesh.hpp"
 #include "presets.hpp"
+#include "prune.hpp"
 
 namespace faqem::detail {
 
@@ -17,7 +19,8 @@ struct Prepared {
     std::vector<Index> welded;         ///< input vertex -> welded vertex
     std::vector<Triangle> triangles;   ///< per input face; three no_index where dropped
     std::uint64_t dropped_faces = 0;   ///< with two equal corners, or doubles of an earlier face
-    Vec3 centre = {0, 0, 0};           ///< of the box of the used vertices, model units
+    Pruned pruned;                     ///< dropped because their component is small
+    Vec3 centre = {0, 0, 0};           ///< of the box of the used vertices, pruned too
     double scale = 1;                  ///< model units to engine units
 
     /// Engine units: (p - centre) * scale.
@@ -28,6 +31,13 @@ struct Prepared {
 
 /// \throws InputError  see simplify()
 Prepared prepare(const MeshView& mesh, const Settings& settings);
+
+/// The input's faces less those that are pruned.
+std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options);
+
+/// One per welded vertex: nonzero where a locked vertex went into it.
+std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
+                                          std::size_t vertices);
 
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -95,6 +95,7 @@ Settings settings(const Options& options) {
     if (s.link == LinkCondition::by_size && s.carry == Settings::Carry::memory) s.link = LinkCondition::on;
     s.weld = options.topology.weld;
     s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
+    s.prune = options.topology.prune;
     // 1/A stays finite on faces that are thinner than any real one.
     s.weights.least_area = 1e-12 * s.diagonal * s.diagonal;
     return s;

@@ -20,6 +20,7 @@ struct Settings {
     double diagonal = 1;    ///< the model is scaled to this diagonal: the paper's terms have different units
     Weld weld = Weld::by_position;
     double weld_distance = 0;  ///< model units
+    std::optional<Length> prune = {};
 };
 
 /// \pre options are valid

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem"
 constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
                                                         "reached_max_error", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
-    "flip", "degenerate", "link", "locked", "seam", "zero_length", "last_faces"};
+    "flip", "degenerate", "link", "locked", "seam", "group", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
     "reseed", "tiny_components", "without_link", "flip_zero", "flip_half", "flip_any", "any_component"};
 
@@ -72,6 +72,8 @@ std::string to_json(const Report& report) {
     json["rungs"] = counts(report.rungs, rung_names);
     json["faces_dropped"] = report.faces_dropped;
     json["components_deleted"] = report.components_deleted;
+    json["components_pruned"] = report.components_pruned;
+    json["faces_pruned"] = report.faces_pruned;
     json["vertices_relaxed"] = report.vertices_relaxed;
     json["virtual_edges"] = report.virtual_edges;
     json["warnings"] = report.warnings;

@@ -9,6 +9,8 @@
 #include "arrange.hpp"
 #include "cost_curve.hpp"
 #include "faqem/engine/engine.hpp"
+#include "faqem/engine/group_curves.hpp"
+#include "faqem/engine/importance.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/tracked.hpp"
 #include "prepare.hpp"
@@ -27,18 +29,43 @@ using detail::Stopwatch;
 using engine::Complex;
 using engine::Vector3;
 
+// What the engine works on, in slots.
+struct Work {
+    explicit Work(const detail::Arranged& arranged) : complex(arranged.positions, arranged.triangles) {}
+    Work(const Work&) = delete;
+
+    Complex complex;
+    engine::Wedges wedges;
+    std::vector<std::uint8_t> locked;
+    std::vector<Index> groups;  // borrowed by the curves
+    engine::GroupCurves curves;
+    std::vector<double> importance;  // empty: the same everywhere
+};
+
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
                                 const detail::Arranged& arranged, const engine::PairTable& pairs,
                                 Border border) {
-    std::vector<std::uint8_t> at_vertex(prepared.positions.size(), 0), locked;
-    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
-        if (mesh.vertex_locks[v]) at_vertex[prepared.welded[v]] = 1;
-    }
+    const std::vector<std::uint8_t> at_vertex =
+        detail::locks_of_welded(mesh, prepared.welded, prepared.positions.size());
+    std::vector<std::uint8_t> locked;
     for (const Index v : arranged.vertex) locked.push_back(at_vertex[v]);
     if (border == Border::locked) {
         for (Index v = 0; v < locked.size(); ++v) locked[v] |= pairs.boundary_degree(v) > 0;
     }
     return locked;
+}
+
+// Of vertices at one place the largest weight counts.
+std::vector<double> importance(const MeshView& mesh, const detail::Prepared& prepared,
+                               const detail::Arranged& arranged) {
+    std::vector<double> at_vertex(prepared.positions.size(), 0), result;
+    if (mesh.vertex_weights.empty()) return result;
+    for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
+        double& weight = at_vertex[prepared.welded[v]];
+        weight = std::max<double>(weight, mesh.vertex_weights[v]);
+    }
+    for (const Index v : arranged.vertex) result.push_back(at_vertex[v]);
+    return result;
 }
 
 // Remembers whose place a slot still has, so that what did not move comes out to the last bit.
@@ -79,28 +106,30 @@ private:
 };
 
 template <class Recorder>
-engine::LoopResult run(Complex& complex, engine::PairTable& pairs, engine::Wedges& wedges,
-                       std::vector<std::uint8_t>& locked, const detail::Settings& settings,
+engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Settings& settings,
                        Recorder& recorder, const engine::LoopOptions& loop) {
-    std::vector<std::uint8_t> seam;
-    if (!wedges.empty()) {
-        seam.resize(complex.vertex_slots());
-        for (Index v = 0; v < seam.size(); ++v) seam[v] = wedges.is_seam(complex, v);
-    }
+    engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue) {
-        engine::Engine<decltype(metric), Queue, Recorder> engine(complex, pairs, wedges, locked, metric,
-                                                                 recorder);
+        engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
+                                                                 work.locked, metric, recorder, curves);
         return engine.run(loop);
     };
+    const auto weighted = [&](auto metric, auto queue) {
+        if (work.importance.empty()) return collapse(std::move(metric), queue);
+        return collapse(engine::ImportanceMetric(std::move(metric), work.importance), queue);
+    };
     switch (settings.carry) {
-        case detail::Settings::Carry::memory:
-            return collapse(engine::MemoryMetric(settings.weights, seam), engine::HeapQueue());
+        case detail::Settings::Carry::memory: {
+            std::vector<std::uint8_t> seam(work.wedges.empty() ? 0 : work.complex.vertex_slots());
+            for (Index v = 0; v < seam.size(); ++v) seam[v] = work.wedges.is_seam(work.complex, v);
+            return weighted(engine::MemoryMetric(settings.weights, seam, curves), engine::HeapQueue());
+        }
         case detail::Settings::Carry::memoryless:
-            return collapse(engine::MemorylessMetric(), engine::BucketQueue());
+            return weighted(engine::MemorylessMetric({}, curves), engine::BucketQueue());
         case detail::Settings::Carry::tracked:
             break;
     }
-    return collapse(engine::TrackedMetric({}, loop.target_faces), engine::BucketQueue());
+    return weighted(engine::TrackedMetric({}, loop.target_faces, curves), engine::BucketQueue());
 }
 
 // Everything of one run, in the order it is made.
@@ -118,14 +147,14 @@ public:
         result_.report.faces_dropped = prepared_.dropped_faces;
         result_.report.seconds.weld = all.seconds();
         arranged_ = detail::arrange(prepared_);
-        Complex complex(arranged_.positions, arranged_.triangles);
+        Work work(arranged_);
         if (options_.history == Recording::on) {
-            engine::HistoryRecorder history(complex);
-            collapse_and_collect(complex, history);
+            engine::HistoryRecorder history(work.complex);
+            collapse_and_collect(work, history);
             finish_history(history);
         } else {
             engine::NoRecorder nothing;
-            collapse_and_collect(complex, nothing);
+            collapse_and_collect(work, nothing);
         }
         take_relaxed();
         finish_report();
@@ -136,19 +165,17 @@ public:
     detail::CostCurve curve() {
         prepared_ = detail::prepare(mesh_, settings_);
         arranged_ = detail::arrange(prepared_);
-        Complex complex(arranged_.positions, arranged_.triangles);
+        Work work(arranged_);
         CostRecorder recorder;
-        engine::Wedges wedges;
-        std::vector<std::uint8_t> locked;
-        const engine::LoopResult looped = collapse(complex, wedges, locked, recorder);
-        return {recorder.take(), complex.face_count(), settings_.diagonal / prepared_.scale,
+        const engine::LoopResult looped = collapse(work, recorder);
+        return {recorder.take(), work.complex.face_count(), settings_.diagonal / prepared_.scale,
                 looped.stop != StopReason::cancelled};
     }
 
 private:
     template <class Recorder>
-    engine::LoopResult collapse(Complex& complex, engine::Wedges& wedges, std::vector<std::uint8_t>& locked,
-                                Recorder& recorder) {
+    engine::LoopResult collapse(Work& work, Recorder& recorder) {
+        const Complex& complex = work.complex;
         std::vector<std::pair<Index, Index>> extra;
         const double least_length = 1e-8 * settings_.diagonal;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
@@ -160,9 +187,14 @@ private:
         engine::PairTable pairs(complex, extra);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
-            wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
+            work.wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
         }
-        locked = locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
+        work.locked = locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
+        if (options_.topology.group_borders == GroupBorders::kept) {
+            work.groups = arranged_.per_face(mesh_.face_groups);
+            work.curves = engine::GroupCurves(complex, work.groups);
+        }
+        work.importance = importance(mesh_, prepared_, arranged_);
         engine::LoopOptions loop;
         result_.report.target_faces =
             std::max(detail::smallest_target,
@@ -173,33 +205,31 @@ private:
         if (options_.progress) {
             loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
         }
-        return run(complex, pairs, wedges, locked, settings_, recorder, loop);
+        return run(work, pairs, settings_, recorder, loop);
     }
 
     template <class Recorder>
-    void collapse_and_collect(Complex& complex, Recorder& recorder) {
-        OriginRecorder<Recorder> origin(recorder, complex);
-        engine::Wedges wedges;
-        std::vector<std::uint8_t> locked;
-        const engine::LoopResult looped = collapse(complex, wedges, locked, origin);
+    void collapse_and_collect(Work& work, Recorder& recorder) {
+        OriginRecorder<Recorder> origin(recorder, work.complex);
+        const engine::LoopResult looped = collapse(work, origin);
         Report& report = result_.report;
         report.stop = looped.stop;
         report.collapses = looped.collapses;
         report.refusals = looped.refusals;
         report.rungs = looped.rungs;
         report.components_deleted = looped.components_deleted;
-        collect(complex, wedges, origin);
-        if (settings_.relax) relax(complex, wedges, locked);
+        collect(work.complex, work.wedges, origin);
+        if (settings_.relax) relax(work);
     }
 
     // On vertices of the result, in its order: what no face uses has no say.
-    void relax(const Complex& complex, const engine::Wedges& wedges,
-               const std::vector<std::uint8_t>& locked) {
+    void relax(const Work& work) {
         std::vector<Vector3> now;
         std::vector<std::uint8_t> fixed;
         for (const Index v : slots_) {
-            now.push_back(complex.position(v));
-            fixed.push_back(locked[v] || (!wedges.empty() && wedges.is_seam(complex, v)));
+            now.push_back(work.complex.position(v));
+            const bool is_seam = !work.wedges.empty() && work.wedges.is_seam(work.complex, v);
+            fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
         const std::vector<Vector3> relaxed =
             detail::relax({arranged_.positions, arranged_.triangles}, {now, result_.mesh.triangles}, fixed,
@@ -279,6 +309,14 @@ private:
         }
         for (Index& face : history.patch_faces) face = arranged_.face[face];
         for (DeletedFace& deleted : history.deleted_faces) deleted.face = arranged_.face[deleted.face];
+        // What was pruned is deleted before the first collapse.
+        for (const detail::PrunedFace& pruned : prepared_.pruned.faces)
+            prepared_.triangles[pruned.face] = pruned.corners;
+        std::vector<DeletedFace> deleted_faces;
+        for (const detail::PrunedFace& pruned : prepared_.pruned.faces)
+            deleted_faces.push_back({0, pruned.face});
+        history.deleted_faces.insert(history.deleted_faces.begin(), deleted_faces.begin(),
+                                     deleted_faces.end());
         history.positions = std::move(prepared_.positions);
         history.triangles = std::move(prepared_.triangles);
         history.face_groups.assign(mesh_.face_groups.begin(), mesh_.face_groups.end());
@@ -307,6 +345,13 @@ private:
         if (report.faces_dropped > 0) {
             report.warnings.push_back(std::to_string(report.faces_dropped) +
                                       " faces without area, or doubles of another face, were dropped");
+        }
+        report.components_pruned = prepared_.pruned.components;
+        report.faces_pruned = prepared_.pruned.faces.size();
+        if (report.components_pruned > 0) {
+            report.warnings.push_back(std::to_string(report.components_pruned) +
+                                      " components smaller than asked for were pruned, with " +
+                                      std::to_string(report.faces_pruned) + " faces");
         }
         if (report.components_deleted > 0) {
             report.warnings.push_back(std::to_string(report.components_deleted) +

@@ -5,12 +5,14 @@
 
 #include "faqem/compare.hpp"
 #include "hausdorff.hpp"
+#include "prepare.hpp"
 #include "presets.hpp"
 
 namespace faqem::detail {
 
-Original::Original(const MeshView& mesh)
-    : surface_(surface_of(mesh)), tree_(surface_.positions, surface_.triangles) {}
+Original::Original(const MeshView& mesh, const Options& options)
+    : surface_(surface_of({mesh.positions, triangles_left(mesh, options)})),
+      tree_(surface_.positions, surface_.triangles) {}
 
 Distance Original::distance(const MeshView& result, double allowed, Look look, std::uint32_t threads) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -51,9 +53,12 @@ Distance distance(const Original& original, const SimplifyResult& result, double
 }
 
 SimplifyResult simplify_within(const MeshView& mesh, const Options& options) {
-    const Original original(mesh);
+    const Original original(mesh, options);
     const MaxError& error = *options.max_error;
-    const double unit = error.unit == MaxError::Unit::model ? 1 : original.surface().diagonal();
+    // A share is one of the whole mesh, pruned or not.
+    const double unit = error.unit == MaxError::Unit::model ? 1
+                        : options.topology.prune            ? surface_of(mesh).diagonal()
+                                                            : original.surface().diagonal();
     const double allowed = error.value * unit;
     return run_within<SimplifyResult>(
         options, mesh.triangles.size(), allowed, [&](const Options& own) { return simplify(mesh, own); },

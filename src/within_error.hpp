@@ -32,9 +32,10 @@ enum class Look {
 /// An original to measure several results against.
 class Original {
 public:
-    /// \param mesh  read here only
-    /// \throws InputError  an index is out of range
-    explicit Original(const MeshView& mesh);
+    /// \param mesh     read here only
+    /// \param options  of the runs: what they prune is left out
+    /// \throws InputError  as simplify()
+    explicit Original(const MeshView& mesh, const Options& options = {});
 
     /// Its faces with area.
     const Surface& surface() const { return surface_; }

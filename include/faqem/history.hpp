@@ -23,7 +23,8 @@ struct Collapse {
     Vec3 position = {};
 };
 
-/// A whole component deleted by the starvation ladder: `face` was gone from time `time` on.
+/// A whole component deleted by the starvation ladder, or pruned at time 0: `face` was gone from time `time`
+/// on.
 struct DeletedFace {
     std::uint64_t time = 0;
     Index face = no_index;

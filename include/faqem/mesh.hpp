@@ -94,6 +94,8 @@ struct MeshView {
     const CornerAttributes* attributes = nullptr;  ///< null, or attributes to carry along (UVs are kept)
     std::span<const std::uint8_t> vertex_locks =
         {};  ///< empty, or one per vertex; nonzero: must stay where it is
+    /// Empty, or one per vertex, in [1e-6, 1e6]: errors around it count this many times. See docs/method.md.
+    std::span<const float> vertex_weights = {};
 };
 
 /// A triangle mesh that owns its arrays.

@@ -22,6 +22,12 @@ enum class Region {
     selected_faces,  ///< only vertices whose faces are all selected
 };
 
+/// What properties of the mesh say; invalid handles say nothing.
+struct Properties {
+    OpenMesh::VPropHandleT<float> weight = {};  ///< as MeshView::vertex_weights
+    OpenMesh::FPropHandleT<Index> group = {};   ///< as MeshView::face_groups
+};
+
 namespace openmesh_detail {
 
 /// The mesh as arrays. Vertex i is the vertex handle i; faces are those that are not deleted.
@@ -30,6 +36,8 @@ struct Arrays {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
     std::vector<std::uint8_t> locked;
+    std::vector<float> weights;  ///< empty, or one per vertex
+    std::vector<Index> groups;   ///< empty, or one per face
     std::vector<typename Mesh::FaceHandle> faces;
 };
 
@@ -61,8 +69,21 @@ void lock_by_status(const Mesh& mesh, Region region, std::vector<std::uint8_t>& 
     }
 }
 
+// Deleted vertices have no say.
 template <class Mesh>
-Arrays<Mesh> read(const Mesh& mesh, Region region) {
+void read_properties(const Mesh& mesh, const Properties& properties, Arrays<Mesh>& arrays) {
+    if (properties.weight.is_valid()) {
+        arrays.weights.assign(mesh.n_vertices(), 1);
+        for (const auto v : mesh.vertices())
+            arrays.weights[static_cast<std::size_t>(v.idx())] = mesh.property(properties.weight, v);
+    }
+    if (properties.group.is_valid()) {
+        for (const auto f : arrays.faces) arrays.groups.push_back(mesh.property(properties.group, f));
+    }
+}
+
+template <class Mesh>
+Arrays<Mesh> read(const Mesh& mesh, Region region, const Properties& properties) {
     Arrays<Mesh> arrays;
     arrays.positions.resize(mesh.n_vertices());
     for (const auto v : mesh.vertices()) {
@@ -78,6 +99,7 @@ Arrays<Mesh> read(const Mesh& mesh, Region region) {
     }
     arrays.locked.assign(mesh.n_vertices(), 0);
     lock_by_status(mesh, region, arrays.locked);
+    read_properties(mesh, properties, arrays);
     return arrays;
 }
 
@@ -144,16 +166,17 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
 /// \param options  see Options; `topology.link`, `topology.weld` and `history` are decided here, `bake` is
 ///                 ignored
 /// \param region   which part may change
+/// \param properties  weights and groups, where the mesh has such
 /// \return the report. When cancelled, the mesh is unchanged. `max_error` is measured in double, before the
 ///         mesh rounds the positions to its scalar.
 /// \throws OptionError  as simplify(const MeshView&, ...); virtual edges are on: a half-edge mesh cannot have
 ///                      them
-/// \throws InputError   a position is not finite
+/// \throws InputError   a position is not finite, or a weight is out of range
 ///
 /// Complexity: O(n log n) in the number of faces for bounded valence.
 template <class Traits>
 Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = {},
-                Region region = Region::all) {
+                Region region = Region::all, const Properties& properties = {}) {
     using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
     if (options.topology.virtual_edges == VirtualEdges::on) {
         throw OptionError("virtual edges join parts in ways that a half-edge mesh cannot hold");
@@ -161,9 +184,11 @@ Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = 
     options.topology.link = LinkCondition::strict;
     options.topology.weld = Weld::none;
     options.history = Recording::on;
-    const openmesh_detail::Arrays<Mesh> arrays = openmesh_detail::read<Mesh>(mesh, region);
+    const openmesh_detail::Arrays<Mesh> arrays = openmesh_detail::read<Mesh>(mesh, region, properties);
     MeshView view{arrays.positions, arrays.triangles};
     view.vertex_locks = arrays.locked;
+    view.vertex_weights = arrays.weights;
+    view.face_groups = arrays.groups;
     const SimplifyResult result = simplify(view, options);
     if (result.report.stop == StopReason::cancelled) return result.report;
     openmesh_detail::request_status<Mesh>(mesh);

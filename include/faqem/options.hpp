@@ -27,22 +27,25 @@ constexpr Target ratio(double r) { return {Target::Kind::ratio, r}; }
 /// A number of faces, >= 1. The result has at most max(4, n) faces.
 constexpr Target faces(std::uint64_t n) { return {Target::Kind::faces, static_cast<double>(n)}; }
 
-/// How far result and original may be from each other: no point of either is farther from the other, as
-/// hausdorff() measures it. See model_units() and of_diagonal().
-struct MaxError {
+/// A distance or a size. See model_units() and of_diagonal().
+struct Length {
     enum class Unit {
-        model,
+        model,     ///< of an asset, the scene's
         diagonal,  ///< of the original's bounding box; of an asset, the whole scene's
     };
     double value = 0;
     Unit unit = Unit::model;
 };
 
-/// A distance in model units, finite and > 0.
-constexpr MaxError model_units(double distance) { return {distance, MaxError::Unit::model}; }
+/// How far result and original may be from each other: no point of either is farther from the other, as
+/// hausdorff() measures it.
+using MaxError = Length;
 
-/// A distance as a share of the bounding box's diagonal, finite and > 0: 0.001 is a thousandth of it.
-constexpr MaxError of_diagonal(double share) { return {share, MaxError::Unit::diagonal}; }
+/// A length in model units, finite and > 0.
+constexpr Length model_units(double length) { return {length, Length::Unit::model}; }
+
+/// A length as a share of the bounding box's diagonal, finite and > 0: 0.001 is a thousandth of it.
+constexpr Length of_diagonal(double share) { return {share, Length::Unit::diagonal}; }
 
 /// A named choice of metric, weights and rules.
 enum class Preset {
@@ -85,6 +88,12 @@ enum class Weld { by_position, none };
 /// Whether vertices on open borders may move.
 enum class Border { free, locked };
 
+/// Whether the curves between faces of different groups (of an asset: materials) may move.
+enum class GroupBorders {
+    free,
+    kept,  ///< held in place as open borders are, and never torn or joined, even if the target is missed
+};
+
 /// Collapses between parts that do not touch (paper, supplementary).
 enum class VirtualEdges { off, on };
 
@@ -92,6 +101,7 @@ enum class VirtualEdges { off, on };
 struct Topology {
     LinkCondition link = LinkCondition::as_preset;
     Border border = Border::free;
+    GroupBorders group_borders = GroupBorders::free;
     /// Files split vertices at UV and normal seams: without welding, every seam would be an open border.
     Weld weld = Weld::by_position;
     /// Vertices at most this far apart (model units) become one. Unset: the preset's (paper 1e-6, else
@@ -100,6 +110,10 @@ struct Topology {
     VirtualEdges virtual_edges = VirtualEdges::off;
     /// Largest gap a virtual edge may span, as a share of the bounding-box diagonal, in (0, 1].
     double virtual_edge_distance = 0.01;
+    /// Connected components whose bounding box has a smaller diagonal are deleted before anything else; of an
+    /// asset, those smaller in all places of the scene. The largest of each mesh stays, and so do those with
+    /// locked vertices. max_error does not count what they were.
+    std::optional<Length> prune = {};
 };
 
 /// How the target of a scene is spread over its meshes; used by the asset door only.

@@ -29,10 +29,11 @@ enum class Refusal {
     link,         ///< the link condition would be violated
     locked,       ///< both ends are locked, or the new point would move a locked one
     seam,         ///< a kept UV seam would be torn
+    group,        ///< a kept border between groups would be damaged
     zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
     last_faces,   ///< nothing at all would be left
 };
-inline constexpr std::size_t refusal_kinds = 7;
+inline constexpr std::size_t refusal_kinds = 8;
 
 /// Steps taken when no collapse was legal above the target, in this order. With LinkCondition::by_size the
 /// link condition is lifted pair by pair, and each collapse against it counts.
@@ -76,7 +77,9 @@ struct Report {
     /// Faces without area, before or after, or with two equal corners, and doubles.
     std::uint64_t faces_dropped = 0;
     std::uint64_t components_deleted = 0;
-    std::uint64_t vertices_relaxed = 0;  ///< moved in the end to come closer to the original (preset best)
+    std::uint64_t components_pruned = 0;  ///< deleted at the start, as Topology::prune says
+    std::uint64_t faces_pruned = 0;       ///< faces of these
+    std::uint64_t vertices_relaxed = 0;   ///< moved in the end to come closer to the original (preset best)
     std::uint64_t virtual_edges = 0;
     std::optional<MeasuredError> max_error = {};  ///< unless Options::max_error is unset, or it was cancelled
     std::vector<std::string> warnings;

@@ -7,6 +7,7 @@
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
 #include "bake/parts_within_error.hpp"
+#include "bake/scene_size.hpp"
 #include "cost_curve.hpp"
 #include "faqem/bake.hpp"
 #include "target.hpp"
@@ -30,9 +31,8 @@ CornerAttributes corner_attributes(const Part& part) {
     return result;
 }
 
-// The engine's groups: where materials are baked into one page they are one group, so that borders between
-// them cost no faces and samples may cross them; elsewhere they are the materials themselves.
-std::vector<Index> engine_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
+// Empty where there is one group only.
+std::vector<Index> face_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
     std::vector<Index> result;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         const Index material = detail::face_material(part, f);
@@ -54,6 +54,8 @@ void add(Report& sum, const Report& part, const std::string& title) {
     for (std::size_t i = 0; i < refusal_kinds; ++i) sum.refusals[i] += part.refusals[i];
     for (std::size_t i = 0; i < rung_kinds; ++i) sum.rungs[i] += part.rungs[i];
     sum.faces_dropped += part.faces_dropped;
+    sum.components_pruned += part.components_pruned;
+    sum.faces_pruned += part.faces_pruned;
     sum.components_deleted += part.components_deleted;
     sum.vertices_relaxed += part.vertices_relaxed;
     sum.virtual_edges += part.virtual_edges;
@@ -62,14 +64,16 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.seconds.simplify += part.seconds.simplify;
 }
 
-// A part as the engine takes it.
+// A part as the engine takes it. Where materials are baked into one page they are one group, so that borders
+// between them cost no faces and samples may cross them; elsewhere, and where such borders are to be kept,
+// they are the materials themselves.
 struct PartInput {
     std::vector<Index> groups;
     CornerAttributes attributes;
     MeshView view;
 
     PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake)
-        : groups(engine_groups(part, material_groups)) {
+        : groups(face_groups(part, material_groups)) {
         if (bake == Bake::keep) attributes = corner_attributes(part);
         view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {}};
     }
@@ -83,6 +87,10 @@ public:
         : source_(source), options_(options), small_{std::vector<SimplifyResult>(source.parts.size()), {}} {
         const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
         if (merged) groups_ = detail::group_materials(source, options.bake.kind);
+        if (options.topology.prune)
+            size_ = detail::scene_size(source);
+        else
+            size_.scales.resize(source.parts.size());
         for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
     }
 
@@ -94,6 +102,7 @@ public:
             own.history = Recording::on;
             own.target = faces(share[p]);
             small_.parts[p] = simplify(view, own);
+            if (keeps_groups() && groups_) regroup(p);
             add(small_.report, small_.parts[p].report, detail::part_title(source_, p));
         });
         small_.report.seconds.total = watch.seconds();
@@ -118,6 +127,18 @@ private:
         return detail::share_by_cost(curves, detail::cost_weights(curves.size(), instances(source_)), goal);
     }
 
+    bool keeps_groups() const { return options_.topology.group_borders == GroupBorders::kept; }
+
+    // Kept borders say nothing about what is baked into one page.
+    void regroup(std::size_t p) {
+        SimplifyResult& result = small_.parts[p];
+        result.history.face_groups = face_groups(source_.parts[p], groups_);
+        result.mesh.face_groups.clear();
+        if (result.history.face_groups.empty()) return;
+        for (const Index f : result.face_origin)
+            result.mesh.face_groups.push_back(result.history.face_groups[f]);
+    }
+
     // Calls work(part, view, options) for every part with faces, until cancelled.
     template <class Work>
     void for_each_part(Work&& work) {
@@ -125,14 +146,15 @@ private:
             const Part& part = source_.parts[p];
             if (part.triangles.empty() || small_.report.stop == StopReason::cancelled) continue;
             const double size = static_cast<double>(part.triangles.size());
-            Options own = options_;
+            Options own = detail::part_options(options_, size_, size_.scales[p]);
             if (options_.progress) {
                 own.progress = [this, size](Phase phase, double fraction) {
                     const double done = (done_ + fraction * size) / (passes_ * faces_);
                     return options_.progress(phase, std::min(1.0, done));
                 };
             }
-            work(p, PartInput(part, groups_, options_.bake.kind).view, own);
+            const auto& groups = keeps_groups() ? std::nullopt : groups_;
+            work(p, PartInput(part, groups, options_.bake.kind).view, own);
             done_ += size;
         }
     }
@@ -141,6 +163,7 @@ private:
     const Options& options_;
     std::optional<detail::MaterialGroups> groups_;
     SmallParts small_;
+    detail::SceneSize size_;
     double faces_ = 0;   // of all parts
     double done_ = 0;    // faces that were worked on
     double passes_ = 1;  // how often each is

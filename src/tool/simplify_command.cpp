@@ -56,9 +56,9 @@ double number(const std::string& text, const char* option) {
 }
 
 /// `0.01` in model units, or `0.1%` of the diagonal.
-MaxError max_error(const std::string& text) {
-    if (!text.ends_with('%')) return model_units(number(text, "--max-error"));
-    return of_diagonal(number(text.substr(0, text.size() - 1), "--max-error") / 100);
+Length length(const std::string& text, const char* option) {
+    if (!text.ends_with('%')) return model_units(number(text, option));
+    return of_diagonal(number(text.substr(0, text.size() - 1), option) / 100);
 }
 
 /// The command line as it was given.
@@ -66,10 +66,10 @@ struct Arguments {
     std::string in, out, report, history;
     std::string preset, budget, bake, mapping;
     std::string virtual_edges;  ///< empty: off
-    std::optional<std::string> max_error;
+    std::optional<std::string> max_error, prune;
     std::optional<double> ratio;
     std::uint64_t faces = 0;
-    bool link = false, lock_border = false;
+    bool link = false, lock_border = false, keep_groups = false;
     bool strict_target = false, force = false, quiet = false;
     Options options;
 
@@ -80,13 +80,15 @@ Options make_options(const Arguments& arguments) {
     Options options = arguments.options;
     if (arguments.faces > 0) options.target = faces(arguments.faces);
     if (arguments.ratio) options.target = ratio(*arguments.ratio);
-    if (arguments.max_error) options.max_error = max_error(*arguments.max_error);
+    if (arguments.max_error) options.max_error = length(*arguments.max_error, "--max-error");
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
     if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
     if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
     if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
     if (arguments.link) options.topology.link = LinkCondition::on;
     if (arguments.lock_border) options.topology.border = Border::locked;
+    if (arguments.keep_groups) options.topology.group_borders = GroupBorders::kept;
+    if (arguments.prune) options.topology.prune = length(*arguments.prune, "--prune");
     if (!arguments.virtual_edges.empty()) {
         options.topology.virtual_edges = VirtualEdges::on;
         options.topology.virtual_edge_distance = number(arguments.virtual_edges, "--virtual-edges");
@@ -275,7 +277,12 @@ void add_topology_options(CLI::App& command, Arguments& a) {
     command.add_flag_callback(
         "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
     command.add_flag("--lock-border", a.lock_border, "Open borders stay where they are");
+    command.add_flag("--keep-groups", a.keep_groups,
+                     "Borders between materials stay where they are, even if the target is missed");
     command.add_option("--weld", a.options.topology.weld_distance, "Join vertices at most this far apart");
+    command.add_option("--prune", a.prune,
+                       "Delete connected components whose box has a smaller diagonal, in model units or "
+                       "with % of the scene's diagonal; never the largest of a mesh");
     // A flag, not an option: an option would take the file name that may follow for its value.
     command.add_flag(
         "--virtual-edges{0.01}", a.virtual_edges,

@@ -141,6 +141,86 @@ TEST_CASE("the counts of the report are sums over the parts") {
     CHECK(sum.vertices_relaxed > 0);
 }
 
+TEST_CASE("components are pruned from every part, which keeps its largest") {
+    // Two sheets of side 20 with a speck of side 1 each; the second one is ten times as large.
+    Part dusty = bumpy(20);
+    const auto first = static_cast<Index>(dusty.positions.size());
+    for (const Vec3& p : {Vec3{30, 0, 0}, {31, 0, 0}, {30, 1, 0}}) dusty.positions.push_back(p);
+    dusty.triangles.push_back({first, first + 1, first + 2});
+    dusty.face_material.clear();
+    Part speck;
+    speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    speck.triangles = {{0, 1, 2}};
+    Asset asset;
+    asset.parts = {dusty, dusty, speck};
+    for (Vec3& p : asset.parts[1].positions) p = {10 * p[0], 10 * p[1], 10 * p[2]};
+    Options options;
+    options.bake.kind = Bake::none;
+    options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.components_pruned == 1);
+    CHECK(small.report.faces_pruned == 1);
+    CHECK(small.parts[0].report.components_pruned == 1);
+    CHECK(small.parts[1].report.components_pruned == 0);
+    CHECK(small.parts[2].mesh.triangles.size() == 1);
+    CHECK(small.report.faces_out <= small.report.target_faces);
+}
+
+TEST_CASE("an error does not count what is pruned from a scene") {
+    Part dusty = bumpy(20);
+    const auto first = static_cast<Index>(dusty.positions.size());
+    for (const Vec3& p : {Vec3{60, 0, 0}, {61, 0, 0}, {60, 1, 0}}) dusty.positions.push_back(p);
+    dusty.triangles.push_back({first, first + 1, first + 2});
+    dusty.face_material.clear();
+    Asset asset;
+    asset.parts = {dusty};
+    Options options;
+    options.bake.kind = Bake::none;
+    options.max_error = model_units(0.2);
+    options.topology.prune = model_units(2);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.components_pruned == 1);
+    REQUIRE(small.report.max_error);
+    CHECK(small.report.max_error->within());
+    CHECK(small.report.faces_out < 600);
+}
+
+TEST_CASE("kept borders between materials stay, also where they are baked into one page") {
+    // A flat sheet in two materials: its border costs no error, only the wish keeps it.
+    Asset asset;
+    asset.parts = {sheet(20, [](double x, double y) { return Vec3{x, y, 0}; })};
+    asset.materials.resize(2);
+    asset.parts[0].face_material.clear();
+    for (Index f = 0; f < 800; ++f) asset.parts[0].face_material.push_back(f / 2 % 20 / 10);
+    Options options;
+    options.target = ratio(0.05);
+    options.bake.kind = GENERATE(Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
+    options.topology.group_borders = GroupBorders::kept;
+    const SmallParts small = simplify_parts(asset, options);
+    const SimplifyResult& part = small.parts[0];
+    CHECK(part.report.faces_out <= 40);
+    double area[2] = {0, 0};
+    for (std::size_t f = 0; f < part.mesh.triangles.size(); ++f) {
+        bool left = false, right = false;
+        for (const Index v : part.mesh.triangles[f]) {
+            left |= part.mesh.positions[v][0] < 10 - 1e-6;
+            right |= part.mesh.positions[v][0] > 10 + 1e-6;
+        }
+        CHECK(left != right);
+        const Index material = asset.parts[0].face_material[part.face_origin[f]];
+        CHECK(right == (material == 1));
+        const Vec3 n = normal(part.mesh, part.mesh.triangles[f]);
+        area[material] += 0.5 * std::hypot(n[0], n[1], n[2]);
+    }
+    CHECK(area[0] == Approx(200));
+    CHECK(area[1] == Approx(200));
+    // What is baked into one page is one group for the second stage.
+    const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
+    CHECK(part.mesh.face_groups.empty() == merged);
+    CHECK(part.history.face_groups.empty() == merged);
+}
+
 TEST_CASE("cancelling the first stage leaves the second nothing to do") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20)};

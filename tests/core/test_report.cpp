@@ -27,6 +27,8 @@ TEST_CASE("names tell all reasons and rungs apart") {
     CHECK(names.count("") == 0);
     CHECK(name(Refusal::zero_length) == "zero_length");
     CHECK(name(Refusal::flip) == "flip");
+    CHECK(name(Refusal::seam) == "seam");
+    CHECK(name(Refusal::group) == "group");
     CHECK(name(Rung::any_component) == "any_component");
     CHECK(name(StopReason::no_legal_collapse) == "no_legal_collapse");
 }
@@ -46,6 +48,8 @@ TEST_CASE("the report as JSON holds every count") {
     report.faces_dropped = 9;
     report.components_deleted = 10;
     report.virtual_edges = 11;
+    report.components_pruned = 12;
+    report.faces_pruned = 13;
     report.warnings = {"a \"quoted\" line\n"};
     report.seconds.weld = 0.25;
     const auto json = nlohmann::json::parse(to_json(report));
@@ -64,6 +68,8 @@ TEST_CASE("the report as JSON holds every count") {
     CHECK(json["faces_dropped"] == 9);
     CHECK(json["components_deleted"] == 10);
     CHECK(json["virtual_edges"] == 11);
+    CHECK(json["components_pruned"] == 12);
+    CHECK(json["faces_pruned"] == 13);
     CHECK(json["warnings"][0] == "a \"quoted\" line\n");
     CHECK(json["seconds"]["weld"] == 0.25);
     CHECK(json["peak_rss_bytes"] > 0);

@@ -222,6 +222,57 @@ TEST_CASE("only the selected region changes") {
     CHECK(living < soup.triangles.size() * 6 / 10);
 }
 
+TEST_CASE("weights and groups come from properties, and the result is that of the array door") {
+    const Soup soup = torus(40);
+    Mesh mesh = build(soup);
+    faqem::Properties properties;
+    mesh.add_property(properties.weight);
+    mesh.add_property(properties.group);
+    std::vector<float> weights;
+    std::vector<faqem::Index> groups;
+    for (const auto v : mesh.vertices()) {
+        weights.push_back(mesh.point(v)[0] > 0 ? 10 : 1);
+        mesh.property(properties.weight, v) = weights.back();
+    }
+    for (const auto f : mesh.faces()) {
+        groups.push_back(mesh.calc_face_centroid(f)[1] > 0);
+        mesh.property(properties.group, f) = groups.back();
+    }
+    faqem::Options options{.target = faqem::ratio(0.1)};
+    options.topology.group_borders = faqem::GroupBorders::kept;
+    const faqem::Report report = faqem::simplify(mesh, options, faqem::Region::all, properties);
+    CHECK(report.faces_out <= report.target_faces);
+    CHECK(report.refusals[static_cast<std::size_t>(faqem::Refusal::group)] > 0);
+    options.topology.link = faqem::LinkCondition::strict;
+    options.topology.weld = faqem::Weld::none;
+    faqem::MeshView view{soup.positions, soup.triangles, groups};
+    view.vertex_weights = weights;
+    CHECK(face_set(mesh) == face_set(faqem::simplify(view, options).mesh));
+    CHECK(is_consistent(mesh));
+    unsigned important = 0;
+    for (const auto f : mesh.faces()) important += mesh.calc_face_centroid(f)[0] > 0;
+    CHECK(important > 0.6 * double(mesh.n_faces() - (soup.triangles.size() - report.faces_out)));
+}
+
+TEST_CASE("small components are pruned from an OpenMesh mesh, even where nothing else changes") {
+    Soup soup = torus(20);
+    const auto first = static_cast<faqem::Index>(soup.positions.size());
+    for (const faqem::Vec3& p : {faqem::Vec3{9, 0, 0}, {9.1, 0, 0}, {9, 0.1, 0}}) soup.positions.push_back(p);
+    soup.triangles.push_back({first, first + 1, first + 2});
+    const double share = GENERATE(1.0, 0.3);
+    faqem::Options options{.target = faqem::ratio(share)};
+    options.topology.prune = faqem::model_units(0.2);
+    Mesh mesh = build(soup);
+    const faqem::Report report = faqem::simplify(mesh, options);
+    CHECK(report.components_pruned == 1);
+    CHECK(report.faces_pruned == 1);
+    CHECK(mesh.status(mesh.face_handle(800)).deleted());
+    CHECK(mesh.status(mesh.vertex_handle(static_cast<int>(first))).deleted());
+    CHECK(is_consistent(mesh));
+    mesh.garbage_collection();
+    CHECK(mesh.n_faces() == report.faces_out);
+}
+
 TEST_CASE("a float mesh, deleted faces and a second call work") {
     FloatMesh mesh = build<FloatMesh>(torus(30));
     mesh.request_face_status();

@@ -22,6 +22,7 @@
 
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/components.hpp"
+#include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/legality.hpp"
 #include "faqem/engine/metric.hpp"
 #include "faqem/engine/pairs.hpp"
@@ -62,15 +63,17 @@ public:
     /// \param pairs     of the complex
     /// \param wedges    kept attributes, or empty
     /// \param locked    one per vertex slot: nonzero must not move
+    /// \param curves    between groups, to be kept; null: none
     /// All are borrowed and must outlive the engine.
     Engine(Complex& complex, PairTable& pairs, Wedges& wedges, std::vector<std::uint8_t>& locked,
-           Metric& metric, Recorder& recorder)
+           Metric& metric, Recorder& recorder, GroupCurves* curves = nullptr)
         : complex_(complex),
           pairs_(pairs),
           wedges_(wedges),
           locked_(locked),
           metric_(metric),
           recorder_(recorder),
+          curves_(curves),
           legality_(complex),
           has_vetoed_(complex.vertex_slots(), 0),
           is_lifted_(pairs.size(), 0) {}
@@ -136,15 +139,13 @@ private:
     Freedom freedom(Index u, Index v) {
         const bool u_stays = locked_[u], v_stays = locked_[v];
         if (u_stays && v_stays) return refuse(Refusal::locked), Freedom::nowhere;
-        const Freedom seam = wedges_.freedom(complex_, u, v);
         const Freedom lock = u_stays ? Freedom::at_first : v_stays ? Freedom::at_second : Freedom::anywhere;
-        if (lock == Freedom::anywhere || seam == lock) return seam_or_refuse(seam);
-        return seam == Freedom::anywhere ? lock : seam_or_refuse(Freedom::nowhere);
-    }
-
-    Freedom seam_or_refuse(Freedom seam) {
-        if (seam == Freedom::nowhere) refuse(Refusal::seam);
-        return seam;
+        const Freedom seam = both(lock, wedges_.freedom(complex_, u, v));
+        if (seam == Freedom::nowhere) return refuse(Refusal::seam), seam;
+        if (!curves_) return seam;
+        const Freedom group = both(seam, curves_->freedom(complex_, pairs_, u, v));
+        if (group == Freedom::nowhere) refuse(Refusal::group);
+        return group;
     }
 
     std::optional<Candidate> candidate(Index pair) {
@@ -202,10 +203,12 @@ private:
     // What the link condition protects at a pair is about as large as the pair: against it the surface moves
     // by its length, over an area of its length squared. Where all other collapses cost more, it is lifted.
     void lift(Index pair, double cost) {
-        const double area =
-            (complex_.position(pairs_.first(pair)) - complex_.position(pairs_.second(pair))).squaredNorm();
+        const Index u = pairs_.first(pair), v = pairs_.second(pair);
+        const double area = (complex_.position(u) - complex_.position(v)).squaredNorm();
+        double price = area * area;
+        if constexpr (WeighingMetric<Metric>) price *= metric_.weight(u, v);
         is_lifted_[pair] = 1;
-        queue_.set(pair, std::max(cost, area * area));
+        queue_.set(pair, std::max(cost, price));
         veto(pair);
     }
 
@@ -221,6 +224,7 @@ private:
         recorder_.collapsing(complex_, survivor, gone, to);
         metric_.collapsing(complex_, pairs_, survivor, gone, p);
         wedges_.collapsing(complex_, survivor, gone, p);
+        if (curves_) curves_->collapsing(survivor, gone);
         complex_.collapse(survivor, gone, p);
         locked_[survivor] |= locked_[gone];
         killed_.clear();
@@ -267,18 +271,24 @@ private:
             case Rung::flip_zero:
                 return relax_turn(0);
             case Rung::flip_half:
-                return relax_turn(-0.5);
+                return !keeps_groups() && relax_turn(-0.5);
             case Rung::flip_any:
+                // Faces that turn over would cover another group's ground.
+                if (keeps_groups()) return false;
                 rules_.least_length = 0;
                 return relax_turn(-1);
             case Rung::any_component:
-                // Kept seams are a wish of the user's, like locks: a large part is not given up for them.
-                return wedges_.empty() && delete_components(options, std::numeric_limits<double>::infinity());
+                // Kept seams and groups are a wish of the user's, like locks: a large part is not given up
+                // for them.
+                return wedges_.empty() && !keeps_groups() &&
+                       delete_components(options, std::numeric_limits<double>::infinity());
             case Rung::reseed:
                 break;
         }
         return false;
     }
+
+    bool keeps_groups() const { return curves_ && !curves_->empty(); }
 
     bool relax_turn(double limit) {
         if (!(rules_.least_turn > limit)) return false;
@@ -333,6 +343,7 @@ private:
     std::vector<std::uint8_t>& locked_;
     Metric& metric_;
     Recorder& recorder_;
+    GroupCurves* curves_;
     Legality legality_;
     Queue queue_;
     std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may have been refused

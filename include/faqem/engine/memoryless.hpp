@@ -22,6 +22,8 @@ struct MemorylessWeights {
     /// The same along edges where the surface folds back (normals more than 120 degrees apart): the rim of a
     /// thin blade has hardly any area, and without this the blade shrinks from its tip.
     double fold_edge = 0.2;
+    /// The same along kept edges between groups, for each of the two faces.
+    double group_edge = 0.5;
 };
 
 /// Area-weighted planes of the faces around both vertices, and planes that hold open edges in place: each
@@ -30,7 +32,9 @@ struct MemorylessWeights {
 /// All planes of a vertex go through it, so six numbers hold their quadric: the sum of w n n^T.
 class MemorylessMetric {
 public:
-    explicit MemorylessMetric(const MemorylessWeights& weights = {}) : weights_(weights) {}
+    /// \param curves  between groups, to be held in place; borrowed; null: none
+    explicit MemorylessMetric(const MemorylessWeights& weights = {}, const GroupCurves* curves = nullptr)
+        : weights_(weights), curves_(curves) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         facets_.resize(complex.face_slots());
@@ -142,11 +146,14 @@ private:
         return q;
     }
 
-    // Sums up the planes along the open, crowded and folding edges of v.
+    // Sums up the planes along the open, crowded and folding edges of v, and those between groups.
     void find_edges(const Complex& complex, const PairTable& pairs, Index v) {
         has_edges_[v] = 0;
-        if (pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !may_fold(complex, v))
+        const bool is_on_curve = curves_ && curves_->has(v);
+        if (pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !is_on_curve &&
+            !may_fold(complex, v)) {
             return;
+        }
         Planes q;
         pairs.for_each_pair(v, [&](Neighbour n) {
             if (const double w = edge_weight(complex, v, n.vertex, pairs.face_count(n.pair)); w > 0) {
@@ -220,7 +227,9 @@ private:
                        Index last) const {
         if (faces == 1) return weights_.edge;
         if (faces > 2) return weights_.nonmanifold_edge * std::min(1.0, imbalance(complex, u, v));
-        const bool folds = faces == 2 && facets_[first].normal.dot(facets_[last].normal) < -0.5;
+        if (faces != 2) return 0;
+        if (curves_ && curves_->differ(first, last)) return weights_.group_edge;
+        const bool folds = facets_[first].normal.dot(facets_[last].normal) < -0.5;
         return folds ? weights_.fold_edge : 0;
     }
 
@@ -251,6 +260,7 @@ private:
     }
 
     MemorylessWeights weights_;
+    const GroupCurves* curves_;
     std::vector<Facet> facets_;  // of each face, now
     // Of each vertex, around itself, now: planes and sum of normals of its facets, planes along its edges.
     std::vector<Planes> rings_;

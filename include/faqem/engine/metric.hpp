@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/pairs.hpp"
 #include "faqem/engine/placement.hpp"
 #include "faqem/engine/quadric.hpp"
@@ -49,6 +50,13 @@ concept RefiningMetric = CollapseMetric<M> &&
     { metric.refine(complex, u, v, candidate) } -> std::same_as<double>;
 };
 
+/// A metric that counts the same error more in one place than in another.
+template <class M>
+concept WeighingMetric = CollapseMetric<M> && requires(const M& metric, Index u, Index v) {
+    // What the costs of the pair (u, v) were multiplied by.
+    { metric.weight(u, v) } -> std::same_as<double>;
+};
+
 /// When the area term takes part.
 enum class AreaTerm {
     after_placement,   ///< added to the cost once the point is found (paper eq. 4)
@@ -73,8 +81,10 @@ class MemoryMetric {
 public:
     /// \param weights       of the terms
     /// \param seam_vertex   empty, or one per vertex: nonzero where the UVs are split
-    explicit MemoryMetric(const CompositeWeights& weights, std::span<const std::uint8_t> seam_vertex = {})
-        : weights_(weights), seam_vertex_(seam_vertex) {}
+    /// \param curves        between groups, to be held in place; null: none
+    explicit MemoryMetric(const CompositeWeights& weights, std::span<const std::uint8_t> seam_vertex = {},
+                          const GroupCurves* curves = nullptr)
+        : weights_(weights), seam_vertex_(seam_vertex), curves_(curves) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         quadrics_.assign(complex.vertex_slots(), {});
@@ -136,11 +146,26 @@ private:
             normal *= weights_.normal;
             q += normal;
         }
+        if (curves_ && curves_->has(v)) add_curve_planes(complex, v);
         if (!seam_vertex_.empty() && seam_vertex_[v]) q *= weights_.seam;
+    }
+
+    // A square face stands on each edge between two groups, on either side across its face (after Garland and
+    // Heckbert 1997).
+    void add_curve_planes(const Complex& complex, Index v) {
+        curves_->for_each_edge(complex, v, [&](Index f, Index neighbour) {
+            const Vector3 edge = complex.position(neighbour) - complex.position(v);
+            const Vector3 across = edge.cross(complex.area_vector(f).normalized());
+            const double length = across.norm();
+            if (!(length > 0)) return;
+            quadrics_[v] += base_term(2 * edge.squaredNorm() / length * across, complex.position(v),
+                                      weights_.base, weights_.plane_area, weights_.least_area);
+        });
     }
 
     CompositeWeights weights_;
     std::span<const std::uint8_t> seam_vertex_;
+    const GroupCurves* curves_;
     std::vector<Quadric> quadrics_;
 };
 

@@ -16,6 +16,12 @@ enum class Freedom {
     nowhere,    ///< the pair may not be collapsed
 };
 
+/// The two of them together. \return nowhere if they contradict each other
+inline Freedom both(Freedom a, Freedom b) {
+    if (a == Freedom::anywhere || a == b) return b;
+    return b == Freedom::anywhere ? a : Freedom::nowhere;
+}
+
 /// A collapse that may be done.
 struct Candidate {
     Vector3 point;

@@ -29,8 +29,10 @@ public:
     static constexpr std::size_t begins_at = 4;
 
     /// \param target_faces  the result's, > 0
-    TrackedMetric(const MemorylessWeights& weights, std::size_t target_faces)
-        : planes_(weights), target_faces_(target_faces) {}
+    /// \param curves        as MemorylessMetric's
+    TrackedMetric(const MemorylessWeights& weights, std::size_t target_faces,
+                  const GroupCurves* curves = nullptr)
+        : planes_(weights, curves), target_faces_(target_faces) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         planes_.initialise(complex, pairs);
