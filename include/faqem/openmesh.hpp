@@ -24,8 +24,8 @@ enum class Region {
 
 /// What properties of the mesh say; invalid handles say nothing.
 struct Properties {
-    OpenMesh::VPropHandleT<float> weight = {};  ///< as MeshView::vertex_weights
-    OpenMesh::FPropHandleT<Index> group = {};   ///< as MeshView::face_groups
+    OpenMesh::VPropHandleT<float> weight = OpenMesh::VPropHandleT<float>();  ///< as MeshView::vertex_weights
+    OpenMesh::FPropHandleT<Index> group = OpenMesh::FPropHandleT<Index>();   ///< as MeshView::face_groups
 };
 
 namespace openmesh_detail {
