@@ -157,6 +157,31 @@ TEST_CASE("weights that are the same everywhere change nothing") {
     }
 }
 
+TEST_CASE("one weight for all scales the price of handles and parts, too") {
+    // A ring whose cross-section is a triangle cannot be collapsed under the link condition; beside it are
+    // parts to delete. With a power of two all costs stay exact.
+    TriangleMesh mesh = test::shaken(test::torus(60, 3), 0.02, 1);
+    for (int i = 0; i < 6; ++i)
+        mesh =
+            test::both(mesh, test::moved(test::scaled(test::tetrahedron(), 0.1 + 0.02 * i), {3.0 + i, 0, 0}));
+    const std::vector<float> weights(mesh.positions.size(), 4);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        Options options;
+        options.target = ratio(0.1);
+        options.preset = preset;
+        const SimplifyResult plain = simplify(mesh.view(), options);
+        MeshView view = mesh.view();
+        view.vertex_weights = weights;
+        const SimplifyResult weighted = simplify(view, options);
+        CHECK(weighted.mesh.positions == plain.mesh.positions);
+        CHECK(weighted.mesh.triangles == plain.mesh.triangles);
+        CHECK(weighted.report.rungs == plain.report.rungs);
+        if (preset >= Preset::fast)
+            CHECK(plain.report.rungs[static_cast<std::size_t>(Rung::without_link)] > 0);
+    }
+}
+
 TEST_CASE("of vertices at one place the largest weight counts") {
     // Each face has corners of its own; a quarter of those at a vertex have the weight.
     const Globe globe(10);

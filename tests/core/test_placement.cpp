@@ -36,3 +36,16 @@ TEST_CASE("of equally good places the first end comes first, then the second") {
     CHECK(place(plane_x(1, 1), a, b, Freedom::anywhere) == a);            // a and midpoint tie
     CHECK(place(plane_x(2, 1), a, b, Freedom::anywhere) == (a + b) / 2);  // a and b tie
 }
+
+TEST_CASE("two freedoms together are the stricter one, or none where they differ") {
+    using enum Freedom;
+    for (const Freedom one : {anywhere, at_first, at_second, nowhere}) {
+        CHECK(both(one, one) == one);
+        CHECK(both(anywhere, one) == one);
+        CHECK(both(one, anywhere) == one);
+        CHECK(both(one, nowhere) == nowhere);
+        CHECK(both(nowhere, one) == nowhere);
+    }
+    CHECK(both(at_first, at_second) == nowhere);
+    CHECK(both(at_second, at_first) == nowhere);
+}

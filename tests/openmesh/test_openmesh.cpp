@@ -242,12 +242,13 @@ TEST_CASE("weights and groups come from properties, and the result is that of th
     options.topology.group_borders = faqem::GroupBorders::kept;
     const faqem::Report report = faqem::simplify(mesh, options, faqem::Region::all, properties);
     CHECK(report.faces_out <= report.target_faces);
-    CHECK(report.refusals[static_cast<std::size_t>(faqem::Refusal::group)] > 0);
     options.topology.link = faqem::LinkCondition::strict;
     options.topology.weld = faqem::Weld::none;
     faqem::MeshView view{soup.positions, soup.triangles, groups};
     view.vertex_weights = weights;
     CHECK(face_set(mesh) == face_set(faqem::simplify(view, options).mesh));
+    view.face_groups = {};
+    CHECK(face_set(mesh) != face_set(faqem::simplify(view, options).mesh));
     CHECK(is_consistent(mesh));
     unsigned important = 0;
     for (const auto f : mesh.faces()) important += mesh.calc_face_centroid(f)[0] > 0;
