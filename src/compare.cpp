@@ -8,7 +8,7 @@
 #include "faqem/error.hpp"
 #include "hausdorff.hpp"
 #include "parallel.hpp"
-#include "surface.hpp"
+#include "surface_sample.hpp"
 
 namespace faqem {
 
@@ -25,39 +25,9 @@ constexpr double degrees_per_radian = 57.295779513082320877;
 /// Neighbouring faces whose distances differ by less than this share of the diagonal are tied.
 constexpr double tie_tolerance = 1e-9;
 
-/// A number in [0, 1) that depends on its arguments only (the finaliser is that of SplitMix64, Steele et al.
-/// 2014).
-double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
-    const auto mix = [](std::uint64_t x) {
-        x += 0x9e3779b97f4a7c15u;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-        return x ^ (x >> 31);
-    };
-    return static_cast<double>(mix(mix(mix(seed) + dimension) + sample) >> 11) * 0x1p-53;
-}
-
 struct Sums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
 };
-
-/// Sample i of n: the i-th stratum of the area, a uniform point of the face it falls into.
-struct Sample {
-    Index face;
-    Vec3 point;
-};
-
-Sample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed) {
-    const double place =
-        (static_cast<double>(i) + uniform(seed, i, 0)) / static_cast<double>(n) * s.area_up_to.back();
-    const auto found = std::lower_bound(s.area_up_to.begin(), s.area_up_to.end(), place);
-    const auto face = static_cast<Index>(
-        std::min<std::ptrdiff_t>(found - s.area_up_to.begin(), std::ssize(s.area_up_to) - 1));
-    const double r = std::sqrt(uniform(seed, i, 1)), t = uniform(seed, i, 2);
-    const Vector3 p =
-        (1 - r) * s.corner(face, 0) + r * (1 - t) * s.corner(face, 1) + r * t * s.corner(face, 2);
-    return {face, engine::to_array(p)};
-}
 
 /// Calls work(sums, begin, end) for blocks of [0, size) and returns the blocks' sums in order.
 template <class Work>
@@ -83,7 +53,7 @@ OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, cons
         sum_blocks(options.samples, options.threads, [&](Sums& sum, std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
-                const Sample s = sample(from, i, options.samples, seed);
+                const detail::SurfaceSample s = sample(from, i, options.samples, seed);
                 const Bvh::Hit hit = query(s.point);
                 const double cosine =
                     detail::best_cosine(tree, to.normals, s.point, hit, from.normals[s.face], tie);

@@ -68,6 +68,7 @@ Surface surface_of(const MeshView& mesh) {
         if (!(twice_area > least_height * longest) || !std::isfinite(twice_area)) continue;
         area += twice_area / 2;
         s.triangles.push_back(t);
+        s.faces.push_back(static_cast<Index>(f));
         s.normals.push_back(n / twice_area);
         s.area_up_to.push_back(area);
     }

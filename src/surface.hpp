@@ -14,8 +14,9 @@ namespace faqem::detail {
 
 /// The faces with area of a mesh.
 struct Surface {
-    std::vector<Vec3> positions;           ///< used ones, each once (-0 equals 0), in order of x, y, z
-    std::vector<Triangle> triangles;       ///< with area
+    std::vector<Vec3> positions;      ///< used ones, each once (-0 equals 0), in order of x, y, z
+    std::vector<Triangle> triangles;  ///< with area
+    std::vector<Index> faces;         ///< per triangle: the mesh's face, whose corners come in the same order
     std::vector<engine::Vector3> normals;  ///< unit, per triangle
     std::vector<double> area_up_to;        ///< per triangle: area of it and all before
     engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();

@@ -5,6 +5,7 @@
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/compare_colors.hpp"
 #include "faqem/error.hpp"
 #include "faqem/history.hpp"
 #include "faqem/mesh.hpp"

@@ -16,6 +16,7 @@ TEST_CASE("a surface leaves out faces without area, and unused and repeated posi
     const Surface surface = detail::make_surface(mesh.view(), "mesh");
     CHECK(surface.positions.size() == 4);
     CHECK(surface.triangles.size() == 4);
+    CHECK(surface.faces == std::vector<Index>{0, 1, 2, 3});
     CHECK(surface.area_up_to.back() == Approx(2));
     CHECK(surface.diagonal() == Approx(std::sqrt(2.0)));
     CHECK_THROWS_AS(detail::make_surface(TriangleMesh().view(), "mesh"), InputError);

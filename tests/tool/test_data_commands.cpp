@@ -66,6 +66,44 @@ TEST_CASE("compare measures distances and tells what it measured") {
     CHECK(run(folder, "compare a.glb b.stl --samples 1000 --seed 7 --threads 1").out == outcome.out);
 }
 
+TEST_CASE("compare measures colours where both models have some") {
+    const Folder folder;
+    const faqem::Asset sheet = tool_test::sheet(5, 0);
+    faqem::Asset blue = sheet;
+    blue.materials[0].base_color_texture = {};
+    blue.materials[0].base_color = {0, 0, 1, 1};
+    faqem::save(sheet, folder / "sheet.glb");
+    faqem::save(blue, folder / "blue.glb");
+    faqem::save(sheet, folder / "bare.stl");
+
+    // Half of the sheet is red, which is blue in two channels of three.
+    const Json result = Json::parse(run(folder, "compare sheet.glb blue.glb --samples 10000").out);
+    const Json& colors = result["colors"];
+    CHECK(colors["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
+    CHECK(colors["psnr"].get<double>() == Approx(10 * std::log10(3)).epsilon(0.02));
+    CHECK(colors["a_to_b"]["wrong"].get<double>() == Approx(0.5).epsilon(0.04));
+    CHECK(colors["b_to_a"]["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
+    CHECK(colors["b_to_a"]["one_sided"] == 0);
+    CHECK(colors["b_to_a"]["hidden"] == 0);
+
+    const Json same = Json::parse(run(folder, "compare blue.glb blue.glb --samples 1000").out);
+    CHECK(same["colors"]["rmse"] == 0);
+    CHECK(same["colors"]["psnr"].is_null());
+    CHECK(Json::parse(run(folder, "compare sheet.glb bare.stl --samples 1000").out)["colors"].is_null());
+}
+
+TEST_CASE("compare measures distances where an image cannot be read") {
+    const Folder folder;
+    faqem::Asset asset = sheet(5, 0);
+    asset.images[0].encoded.resize(60);
+    faqem::save(asset, folder / "broken.glb");
+    const Outcome outcome = run(folder, "compare broken.glb broken.glb --samples 1000");
+    REQUIRE(outcome.code == 0);
+    CHECK(Json::parse(outcome.out)["colors"].is_null());
+    CHECK(Json::parse(outcome.out)["hausdorff"].get<double>() < 1e-12);
+    CHECK(outcome.err.find("warning: colours are not compared") != std::string::npos);
+}
+
 TEST_CASE("compare puts instances where their nodes put them") {
     const Folder folder;
     // One triangle, placed twice; once moved by 10 and mirrored.
