@@ -15,6 +15,9 @@ def save(figure, file):
     plt.close(figure)
 
 
+EDGE = 30  # ratios beyond it, or below its inverse, are drawn there
+
+
 def per_mesh_ratios(file, series, title, measures):
     """One panel per measure: a dot per mesh, a bar at the geometric mean. series: name -> against()."""
     names = list(series)
@@ -24,12 +27,14 @@ def per_mesh_ratios(file, series, title, measures):
         for y, name in enumerate(names):
             ours = name.startswith("faqem-")
             colour = "tab:blue" if ours else "tab:gray"
-            values = [v[key] for v in series[name]["per_mesh"].values() if v[key] > 0]
-            panel.scatter(values, [y] * len(values), s=7, color=colour, alpha=0.4, linewidths=0)
+            values = [min(max(v[key], 1 / EDGE), EDGE) for v in series[name]["per_mesh"].values() if v[key] > 0]
+            panel.scatter(values, [y] * len(values), s=9, color=colour, alpha=0.4, linewidths=0, clip_on=False)
             mean = series[name]["geomean"][key]
             if mean:
                 panel.plot([mean, mean], [y - 0.35, y + 0.35], color=colour, linewidth=2.5)
         panel.set_xscale("log")
+        panel.set_xlim(1 / EDGE, EDGE)
+        panel.set_xticks([0.1, 1, 10], ["0.1", "1", "10"])
         panel.axvline(1, color="black", linewidth=0.6)
         panel.set_xlabel(label)
         panel.set_yticks(range(len(names)), names)

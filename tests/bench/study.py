@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """The paper's own studies with our engine: ablation, sensitivity of the weights, and the presets side by side.
 
-Usage: study.py --runner FAQEM-BENCH [--models DIR] [--out DIR] [--max-faces N] [--no-plots]
-Runs what is missing in DIR/study.jsonl, then writes DIR/study.md, DIR/study.json and DIR/study-*.svg.
+Usage: study.py --runner FAQEM-BENCH [--models DIR] [--tool FAQEM --textured DIR] [--out DIR] [--max-faces N]
+                [--samples N] [--no-plots]
+Runs what is missing in DIR/study.jsonl, and with --textured in DIR/study-textured.jsonl, then writes DIR/study.md,
+DIR/study.json and DIR/study-*.svg.
 """
 
 import argparse
@@ -11,14 +13,19 @@ import os
 import pathlib
 import subprocess
 
+import textured
 from results import Rows, against, load, number, percent, table
 
 RATIOS = (0.5, 0.1, 0.01)
 TERMS = ("area", "plane_area", "boundary", "normal")  # in the order of the paper's table
 WEIGHTS = {"area": 100, "plane_area": 1, "boundary": 500, "normal": 0.01}  # its Table 1
 FACTORS = (0, 0.1, 1, 10)
-# Hausdorff and Chamfer distance at 10% as the paper's ablation table prints them.
-PRINTED = ((0.1970, 0.0267), (0.1404, 0.0173), (0.1230, 0.0135), (0.0910, 0.0084), (0.0800, 0.0072))
+# Hausdorff, Chamfer and texture Chamfer distance at 10% as the paper's ablation table prints them.
+PRINTED = ((0.1970, 0.0267, 0.1141), (0.1404, 0.0173, 0.1115), (0.1230, 0.0135, 0.1109), (0.0910, 0.0084, 0.1035),
+           (0.0800, 0.0072, 0.0990))
+# Hausdorff and Chamfer distance at 10% and at 1% as its comparison prints them.
+PRINTED_RANKING = {"faqem-qem": (0.13, 0.46, 0.57, 1.37), "faqem-stmw": (0.10, 0.29, 0.44, 1.11),
+                   "faqem-paper": (0.08, 0.0072, 0.25, 0.0173)}
 
 
 def spec(**weights):
@@ -27,12 +34,17 @@ def spec(**weights):
                                       if value != WEIGHTS[term]])
 
 
-def ablation():
-    """(label, simplifier) with one more term each time."""
-    steps = [("all weights 0", spec(**{term: 0 for term in TERMS}))]
+def ablation_weights():
+    """(label, weights) with one more term each time."""
+    steps = [("all weights 0", {term: 0 for term in TERMS})]
     for i, term in enumerate(TERMS):
-        steps.append(("+ " + term, spec(**{later: 0 for later in TERMS[i + 1:]})))
+        steps.append(("+ " + term, {t: WEIGHTS[t] if t in TERMS[:i + 1] else 0 for t in TERMS}))
     return steps
+
+
+def ablation():
+    """(label, simplifier)."""
+    return [(label, spec(**weights)) for label, weights in ablation_weights()]
 
 
 def sensitivity():
@@ -51,7 +63,7 @@ def run(arguments, file, ours):
                           [name for steps in sensitivity().values() for _, name in steps])
     subprocess.run([arguments.runner, "--models", arguments.models, "--max-faces", str(arguments.max_faces),
                     "--ratios", ",".join(f"{ratio:g}" for ratio in RATIOS), "--simplifiers", ",".join(names),
-                    "--out", str(file)], check=True)
+                    "--samples", str(arguments.samples), "--out", str(file)], check=True)
 
 
 def means(by_ratio, name, baseline):
@@ -72,16 +84,107 @@ def compared(by_ratio, steps, baseline, first):
     return data, table(head(first), [[label] + [number(cell, 3) for cell in cells] for label, cells in data.items()])
 
 
+def split(rows):
+    """Rows of the meshes with open borders, and of those without."""
+    meshes = {mesh: row["input"]["boundary_edges"] > 0 for (_, mesh, _), row in rows.items()}
+    return {name: {key: row for key, row in rows.items() if meshes[key[1]] == is_open}
+            for name, is_open in (("open", True), ("closed", False))}
+
+
+def ablation_section(arguments, rows, by_ratio):
+    """Text and data: all meshes at all ratios; open and closed ones, colours and the paper's figures at 10%."""
+    steps = ablation()
+    labels = [label for label, _ in steps]
+    ablated, text = compared(by_ratio, steps, steps[0][1], "terms")
+    columns = {"all": [cells[3:5] for cells in ablated.values()]}
+    for name, part in split(rows).items():
+        one = Rows(part, 0.1)
+        columns[name] = [[against(one, spec_, steps[0][1])["geomean"][key] for key in ("hausdorff", "chamfer")]
+                         for _, spec_ in steps]
+        columns[name + " meshes"] = len(one.meshes)
+    paper = [[value / first for value, first in zip(line, PRINTED[0])] for line in PRINTED]
+    colours, whole, left_out = {label: None for label in labels}, [], {}
+    if arguments.textured:
+        colours, whole, left_out = textured.against_first(
+            textured.run(arguments, ablation_weights(), arguments.out / "study-textured.jsonl"), labels)
+    head_ = ["terms, 10%", "H open", "C open", "H closed", "C closed", "colour RMSE", "paper: H", "C", "texture"]
+    lines = [[label] + [number(x, 3) for x in (*columns["open"][i], *columns["closed"][i], colours[label], *paper[i])]
+             for i, label in enumerate(labels)]
+    text = ["## Ablation\n", "To the composite metric with all weights 0.\n", text,
+            f"{columns['open meshes']} meshes with open borders, {columns['closed meshes']} without; colours of "
+            f"{len(whole)} textured models; and the paper's own table, as ratios to its first row:\n",
+            table(head_, lines)]
+    text += [f"Without colours to compare: `{name}` ({why})." for name, why in left_out.items()]
+    if not arguments.no_plots:
+        import plots  # only here: the tables need no plotting library
+        short = ["0"] + ["+" + term for term in TERMS]
+        panels = {what: (short, {"the paper's table": [line[i] for line in paper]} |
+                         {name: [cells[i] for cells in columns[name]] for name in ("open", "closed")})
+                  for i, what in enumerate(("Hausdorff", "Chamfer"))}
+        panels["colours"] = (short, {"the paper's table": [line[2] for line in paper],
+                                     "colour RMSE": [colours[label] for label in labels]})
+        plots.lines(arguments.out / "study-ablation.svg", panels, "Ablation at 10%", "ratio to all weights 0")
+        text.append("![ablation](study-ablation.svg)\n")
+    return text, {"all": ablated, **columns, "colours": colours, "paper": paper, "without_colours": left_out}
+
+
+def sensitivity_section(arguments, by_ratio):
+    text = ["## Sensitivity\n", "Preset `paper` with one weight changed, to the preset as it is.\n"]
+    data, panels = {}, {}
+    for term, steps in sensitivity().items():
+        data[term], one = compared(by_ratio, steps, "faqem-paper", term)
+        text.append(one)
+        panels[term] = ([label for label, _ in steps],
+                        {f"Chamfer {percent(ratio)}": [cells[3 * i + 1] for cells in data[term].values()]
+                         for i, ratio in enumerate(RATIOS)})
+    if not arguments.no_plots:
+        import plots  # only here: the tables need no plotting library
+        plots.lines(arguments.out / "study-sensitivity.svg", panels, "Sensitivity of the paper's weights",
+                    "ratio to the preset")
+        text.append("![sensitivity](study-sensitivity.svg)\n")
+    return text, data
+
+
+def averages(rows, names):
+    """Plain means of Hausdorff and Chamfer, as the paper averages, over meshes where all are on target."""
+    meshes = [mesh for mesh in rows.meshes if all(rows.hit(mesh, name) for name in names)]
+    return len(meshes), {name: [sum(rows.get(mesh, name)[key] for mesh in meshes) / max(len(meshes), 1)
+                                for key in ("hausdorff", "chamfer")] for name in names}
+
+
+def ranking_section(by_ratio, ours):
+    data, text = compared(by_ratio, [(name, name) for name in ours], "faqem-stmw", "preset")
+    means = {ratio: averages(by_ratio[ratio], ours) for ratio in (0.1, 0.01)}
+    lines = []
+    for name in ours:
+        cells = [means[ratio][1][name][i] * scale for ratio in means for i, scale in ((0, 1e3), (1, 1e6))]
+        printed = [value / of for value, of in zip(PRINTED_RANKING[name], PRINTED_RANKING["faqem-stmw"])] \
+            if name in PRINTED_RANKING else [None] * 4
+        lines.append([name] + [number(x, 3) for x in cells + printed])
+    head_ = ["preset", "H 10%, 1e-3", "C 10%, 1e-6", "H 1%, 1e-3", "C 1%, 1e-6",
+             "paper: H 10%", "C 10%", "H 1%", "C 1%"]
+    counts = " and ".join(f"{count} meshes at {percent(ratio)}" for ratio, (count, _) in means.items())
+    return ["## Presets\n", "To `stmw`.\n", text,
+            f"Plain means, as the paper averages, over meshes where all are on target: {counts}. Shares of the "
+            "diagonal and its square. Beside them the paper's own figures, as ratios to its row of Liu et al.:\n",
+            table(head_, lines)], {"to_stmw": data, "means": means}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runner", required=True)
     parser.add_argument("--models", default=os.environ.get("FAQEM_BENCH_MODELS"))
+    parser.add_argument("--tool")
+    parser.add_argument("--textured", default=os.environ.get("FAQEM_BENCH_TEXTURED"))
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
-    parser.add_argument("--max-faces", type=int, default=100000)
+    parser.add_argument("--max-faces", type=int, default=30000)
+    parser.add_argument("--samples", type=int, default=20000, help="per side of each comparison")
     parser.add_argument("--no-plots", action="store_true")
     arguments = parser.parse_args()
     if not arguments.models:
         parser.error("give a folder of meshes: --models DIR or FAQEM_BENCH_MODELS")
+    if arguments.textured and not arguments.tool:
+        parser.error("textured models need the tool: --tool FAQEM")
     arguments.out.mkdir(parents=True, exist_ok=True)
     file = arguments.out / "study.jsonl"
     ours = presets(arguments.runner)
@@ -89,34 +192,16 @@ def main():
     rows = load([file])
     by_ratio = {ratio: Rows(rows, ratio) for ratio in RATIOS}
     meshes = {mesh for _, mesh, _ in rows}
-
-    steps = ablation()
-    ablated, ablation_text = compared(by_ratio, steps, steps[0][1], "terms")
-    printed = table(["terms", "H 10% in the paper", "C 10% in the paper"],
-                    [[label, number(h / PRINTED[0][0], 3), number(c / PRINTED[0][1], 3)]
-                     for (label, _), (h, c) in zip(steps, PRINTED)])
-    text = [f"{len(meshes)} meshes with at most {arguments.max_faces} faces. H Hausdorff, C Chamfer, N normals: geometric "
-            "means of per-mesh ratios, over the meshes where both are on target; below 1 is better.\n",
-            "## Ablation\n", "To the composite metric with all weights 0.\n", ablation_text,
-            "The paper's own table, as ratios to its first row:\n", printed, "## Sensitivity\n",
-            "Preset `paper` with one weight changed, to the preset as it is.\n"]
-    sensitive, panels = {}, {}
-    for term, steps in sensitivity().items():
-        sensitive[term], one = compared(by_ratio, steps, "faqem-paper", term)
-        text.append(one)
-        panels[term] = ([label for label, _ in steps],
-                        {f"Chamfer {percent(ratio)}": [cells[3 * i + 1] for cells in sensitive[term].values()]
-                         for i, ratio in enumerate(RATIOS)})
-    if not arguments.no_plots:
-        import plots  # only here: the tables need no plotting library
-        plots.lines(arguments.out / "study-sensitivity.svg", panels, "Sensitivity of the paper's weights",
-                    "ratio to the preset")
-        text.append("![sensitivity](study-sensitivity.svg)\n")
-    side_by_side, presets_text = compared(by_ratio, [(name, name) for name in ours], "faqem-stmw", "preset")
-    text += ["## Presets\n", "To `stmw`.\n", presets_text]
+    ablation_text, ablation_data = ablation_section(arguments, rows, by_ratio)
+    sensitivity_text, sensitivity_data = sensitivity_section(arguments, by_ratio)
+    ranking_text, ranking_data = ranking_section(by_ratio, ours)
+    text = [f"{len(meshes)} meshes with at most {arguments.max_faces} faces, {arguments.samples} samples a side. H "
+            "Hausdorff, C Chamfer, N normals: geometric means of per-mesh ratios, over the meshes where both are on "
+            "target; below 1 is better.\n",
+            *ablation_text, *sensitivity_text, *ranking_text]
     (arguments.out / "study.md").write_text("\n".join(text), encoding="utf-8")
-    data = {"ratios": RATIOS, "columns": ["hausdorff", "chamfer", "normal_degrees"], "ablation": ablated,
-            "sensitivity": sensitive, "presets": side_by_side}
+    data = {"ratios": RATIOS, "columns": ["hausdorff", "chamfer", "normal_degrees"], "ablation": ablation_data,
+            "sensitivity": sensitivity_data, "presets": ranking_data}
     (arguments.out / "study.json").write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
 
 

@@ -172,7 +172,7 @@ def section(rows, baseline, folder, plots):
         import plots as drawing  # only here: the tables need no plotting library
         name = f"quality-{rows.ratio:g}.svg"
         drawing.per_mesh_ratios(folder / name, {k: v for k, v in compared.items() if k != baseline},
-                                f"{percent(rows.ratio)}: ratio to {baseline}, a dot per mesh", MEASURES)
+                                f"{percent(rows.ratio)} of the faces: ratio to {baseline}, a dot per mesh", MEASURES[:3])
         text.append(f"![ratios per mesh]({name})\n")
     text += ["Against the best of all peers on each mesh:\n", wins_text]
     for name, result in won.items():
