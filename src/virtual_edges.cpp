@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "faqem/engine/components.hpp"
+#include "faqem/engine/pairs.hpp"
 
 namespace faqem::detail {
 
@@ -100,6 +101,8 @@ bool compatible(const Complex& complex, std::span<const Index> groups, Index u, 
 std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
                                                    double distance, double least) {
     const std::vector<engine::Component> parts = engine::components(complex);
+    if (parts.size() < 2) return {};
+    const engine::PairTable surface(complex, {});
     Points points{complex, {}};
     std::vector<Index> component_of;
     std::vector<std::uint8_t> seen(complex.vertex_slots(), 0);
@@ -112,7 +115,6 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
             }
         }
     }
-    if (parts.size() < 2) return {};
     const Tree tree(3, points);
 
     struct Edge {
@@ -126,10 +128,12 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
     for (std::size_t i = 0; i < points.vertices.size(); ++i) {
         NearestElsewhere nearest(component_of, component_of[i], distance * distance);
         const Index v = points.vertices[i];
+        if (surface.boundary_degree(v) == 0) continue;
         tree.findNeighbors(nearest, complex.position(v).data(), nanoflann::SearchParams());
         for (const auto& hit : nearest.hits()) {
             const Index w = points.vertices[hit.point];
-            if (!(hit.distance >= least * least) || !compatible(complex, face_groups, v, w)) continue;
+            if (!(hit.distance >= least * least) || surface.boundary_degree(w) == 0) continue;
+            if (!compatible(complex, face_groups, v, w)) continue;
             edges.push_back({hit.distance, std::min(v, w), std::max(v, w)});
         }
     }

@@ -11,9 +11,10 @@
 namespace faqem::detail {
 
 /// For each vertex the few nearest vertices of other components. The paper compares centroids of triangles,
-/// which misses close vertices of large ones; vertices are what a collapse joins. Kept are pairs whose
-/// surfaces face the same way and belong to the same group; the shortest ones, at most as many as there are
-/// vertices.
+/// which misses close vertices of large ones; vertices are what a collapse joins. Kept are pairs on open
+/// borders whose surfaces face the same way and belong to the same group; the shortest ones, at most as many
+/// as there are vertices. The paper joins closed parts as well: where they touch, that costs nothing and
+/// pinches both, which no later collapse undoes.
 /// \param complex      the surface
 /// \param face_groups  empty, or one per face slot
 /// \param distance     largest length, engine units, > 0

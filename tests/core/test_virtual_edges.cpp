@@ -23,7 +23,8 @@ TriangleMesh two_quads(double gap) {
     return test::both(test::quad(), test::moved(test::quad(), {1 + gap, 0, 0}));
 }
 
-// By definition, over all pairs: the four nearest of other parts, agreeing normals, a common group.
+// By definition, over all pairs: the four nearest of other parts, both on borders, agreeing normals, a common
+// group.
 std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least) {
     const engine::Complex complex = test::complex_of(mesh);
     std::vector<Index> part(complex.vertex_slots(), no_index);
@@ -47,11 +48,14 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
         }
         return result;
     };
+    std::set<Index> border;
+    for (const auto& [edge, faces] : test::edges(mesh.triangles)) {
+        if (faces == 1) border.insert({edge.first, edge.second});
+    }
     std::set<std::tuple<double, Index, Index>> kept;
-    std::size_t used = 0;
-    for (Index v = 0; v < part.size(); ++v) {
-        if (part[v] == no_index) continue;
-        ++used;
+    const std::ptrdiff_t unused = std::count(part.begin(), part.end(), no_index);
+    const std::size_t used = part.size() - static_cast<std::size_t>(unused);
+    for (const Index v : border) {
         std::set<std::tuple<double, Index, Index>> near;
         for (Index w = 0; w < part.size(); ++w) {
             if (part[w] == no_index || part[w] == part[v]) continue;
@@ -59,13 +63,13 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
             if (squared <= distance * distance) near.insert({squared, rank[w], w});
         }
         std::size_t taken = 0;
-        for (const auto& [squared, unused, w] : near) {
-            static_cast<void>(unused);
+        for (const auto& [squared, order, w] : near) {
+            static_cast<void>(order);
             if (++taken > 4) break;
             const auto a = facts(v), b = facts(w);
             bool common = mesh.face_groups.empty();
             for (const Index group : a.second) common = common || b.second.count(group);
-            if (squared >= least * least && common && a.first.dot(b.first) > 0)
+            if (squared >= least * least && common && border.count(w) && a.first.dot(b.first) > 0)
                 kept.insert({squared, std::min(v, w), std::max(v, w)});
         }
     }
@@ -108,6 +112,18 @@ TEST_CASE("parts of different groups are not joined") {
     // Corner 1 has face 0 only, corner 2 both; 4 has both, 7 has face 3 only.
     mesh.face_groups = {0, 5, 1, 5};
     CHECK(between(mesh, 0.2) == std::vector<Edge>{{2, 7}});
+}
+
+TEST_CASE("only borders are joined") {
+    const TriangleMesh cube = test::cube();
+    CHECK(between(test::both(cube, test::moved(cube, {1.1, 0, 0})), 3).empty());
+    CHECK(between(test::both(cube, test::moved(test::quad(), {1.1, 0, 1})), 3).empty());
+    // A corner of the grid in the middle is nearer, but inside it.
+    const TriangleMesh above = test::moved(test::quad(), {0.5, 0.5, 0.1});
+    for (const auto& [a, b] : between(test::both(test::grid(2), above), 3)) {
+        CHECK(a != 4);
+        CHECK(b >= 9);
+    }
 }
 
 TEST_CASE("there are at most as many as vertices, the shortest ones") {
