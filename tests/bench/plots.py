@@ -43,18 +43,30 @@ def per_mesh_ratios(file, series, title, measures):
     save(figure, file)
 
 
+TICKS = [factor * 10**power for power in range(-4, 4) for factor in (1, 2, 5)]
+
+
 def lines(file, panels, title, ylabel):
-    """One panel per entry of panels: name -> (labels, {line name -> values})."""
-    figure, axes = plt.subplots(1, len(panels), figsize=(2.9 * len(panels), 2.8), sharey=True, squeeze=False)
+    """One panel per entry of panels: name -> (labels, {line name -> values}). A legend where the names change."""
+    figure, axes = plt.subplots(1, len(panels), figsize=(2.9 * len(panels), 2.9), sharey=True, squeeze=False)
+    named = None
     for axis, (name, (labels, curves)) in zip(axes[0], panels.items()):
         for curve, values in curves.items():
             points = [(x, y) for x, y in enumerate(values) if y]
             axis.plot([x for x, _ in points], [y for _, y in points], marker="o", label=curve)
         axis.set_xticks(range(len(labels)), labels)
+        if max(map(len, labels)) > 5:
+            axis.tick_params(axis="x", labelrotation=30)
         axis.set_yscale("log")
         axis.axhline(1, color="black", linewidth=0.6)
         axis.set_title(name)
+        if named != list(curves):
+            named = list(curves)
+            axis.legend(fontsize=7)
+    low, high = axes[0][0].get_ylim()
+    axes[0][0].set_yticks([tick for tick in TICKS if low <= tick <= high])
+    axes[0][0].yaxis.set_major_formatter("{x:g}")
+    axes[0][0].yaxis.set_minor_formatter("")
     axes[0][0].set_ylabel(ylabel)
-    axes[0][-1].legend(fontsize=7)
     figure.suptitle(title)
     save(figure, file)

@@ -2,7 +2,7 @@
 """The paper's own studies with our engine: ablation, sensitivity of the weights, and the presets side by side.
 
 Usage: study.py --runner FAQEM-BENCH [--models DIR] [--tool FAQEM --textured DIR] [--out DIR] [--max-faces N]
-                [--samples N] [--no-plots]
+                [--max-textured N] [--samples N] [--no-plots]
 Runs what is missing in DIR/study.jsonl, and with --textured in DIR/study-textured.jsonl, then writes DIR/study.md,
 DIR/study.json and DIR/study-*.svg.
 """
@@ -112,17 +112,18 @@ def ablation_section(arguments, rows, by_ratio):
              for i, label in enumerate(labels)]
     text = ["## Ablation\n", "To the composite metric with all weights 0.\n", text,
             f"{columns['open meshes']} meshes with open borders, {columns['closed meshes']} without; colours of "
-            f"{len(whole)} textured models; and the paper's own table, as ratios to its first row:\n",
+            f"{len(whole)} textured models of {textured.LEAST_FACES} to {arguments.max_textured} faces; and the paper's own "
+            "table, as ratios to its first row:\n",
             table(head_, lines)]
     text += [f"Without colours to compare: `{name}` ({why})." for name, why in left_out.items()]
     if not arguments.no_plots:
         import plots  # only here: the tables need no plotting library
-        short = ["0"] + ["+" + term for term in TERMS]
+        short = ["none"] + ["+" + term for term in TERMS]
         panels = {what: (short, {"the paper's table": [line[i] for line in paper]} |
-                         {name: [cells[i] for cells in columns[name]] for name in ("open", "closed")})
+                         {name + " meshes": [cells[i] for cells in columns[name]] for name in ("open", "closed")})
                   for i, what in enumerate(("Hausdorff", "Chamfer"))}
         panels["colours"] = (short, {"the paper's table": [line[2] for line in paper],
-                                     "colour RMSE": [colours[label] for label in labels]})
+                                     "textured models": [colours[label] for label in labels]})
         plots.lines(arguments.out / "study-ablation.svg", panels, "Ablation at 10%", "ratio to all weights 0")
         text.append("![ablation](study-ablation.svg)\n")
     return text, {"all": ablated, **columns, "colours": colours, "paper": paper, "without_colours": left_out}
@@ -157,11 +158,11 @@ def ranking_section(by_ratio, ours):
     means = {ratio: averages(by_ratio[ratio], ours) for ratio in (0.1, 0.01)}
     lines = []
     for name in ours:
-        cells = [means[ratio][1][name][i] * scale for ratio in means for i, scale in ((0, 1e3), (1, 1e6))]
+        cells = [means[ratio][1][name][i] * scale for ratio in means for i, scale in ((0, 1e3), (1, 1e5))]
         printed = [value / of for value, of in zip(PRINTED_RANKING[name], PRINTED_RANKING["faqem-stmw"])] \
             if name in PRINTED_RANKING else [None] * 4
         lines.append([name] + [number(x, 3) for x in cells + printed])
-    head_ = ["preset", "H 10%, 1e-3", "C 10%, 1e-6", "H 1%, 1e-3", "C 1%, 1e-6",
+    head_ = ["preset", "H 10%, 1e-3", "C 10%, 1e-5", "H 1%, 1e-3", "C 1%, 1e-5",
              "paper: H 10%", "C 10%", "H 1%", "C 1%"]
     counts = " and ".join(f"{count} meshes at {percent(ratio)}" for ratio, (count, _) in means.items())
     return ["## Presets\n", "To `stmw`.\n", text,
@@ -177,7 +178,8 @@ def main():
     parser.add_argument("--tool")
     parser.add_argument("--textured", default=os.environ.get("FAQEM_BENCH_TEXTURED"))
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
-    parser.add_argument("--max-faces", type=int, default=30000)
+    parser.add_argument("--max-faces", type=int, default=25000)
+    parser.add_argument("--max-textured", type=int, default=60000, help="as --max-faces, for textured models")
     parser.add_argument("--samples", type=int, default=20000, help="per side of each comparison")
     parser.add_argument("--no-plots", action="store_true")
     arguments = parser.parse_args()
