@@ -115,7 +115,8 @@ def ablation_section(arguments, rows, by_ratio):
             f"{len(whole)} textured models of {textured.LEAST_FACES} to {arguments.max_textured} faces; and the paper's own "
             "table, as ratios to its first row:\n",
             table(head_, lines)]
-    text += [f"Without colours to compare: `{name}` ({why})." for name, why in left_out.items()]
+    if left_out:
+        text.append("Without colours: " + ", ".join(f"`{name}` ({why})" for name, why in left_out.items()) + ".\n")
     if not arguments.no_plots:
         import plots  # only here: the tables need no plotting library
         short = ["none"] + ["+" + term for term in TERMS]
