@@ -46,10 +46,10 @@ def measure(arguments, file, weights):
         made = tool(arguments, "simplify", file, out, "--preset", "paper", *options, "--ratio", RATIO,
                     "--texture-size", TEXTURE_SIZE, "--quiet", "--threads", 1)
         if made.returncode != 0:
-            return {"why_not": made.stderr.strip().splitlines()[-1]}
+            return {"why_not": made.stderr.strip().splitlines()[-1].replace(f"faqem: {file}: ", "")}
         compared = tool(arguments, "compare", file, out, "--samples", SAMPLES, "--tolerance", 1, "--threads", 1)
         colors = json.loads(compared.stdout).get("colors") if compared.returncode == 0 else None
-        return {"colors": colors} if colors else {"why_not": compared.stderr.strip() or "no colours"}
+        return {"colors": colors} if colors else {"why_not": compared.stderr.strip() or "it has none"}
 
 
 def load(file):
