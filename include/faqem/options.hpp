@@ -94,7 +94,7 @@ enum class GroupBorders {
     kept,  ///< held in place as open borders are, and never torn or joined, even if the target is missed
 };
 
-/// Collapses between parts that do not touch (paper, supplementary).
+/// Collapses between open borders of parts that do not touch (paper, supplementary).
 enum class VirtualEdges { off, on };
 
 /// What may happen to the connectivity.
