@@ -44,6 +44,7 @@ Settings fast() {
     s.carry = Settings::Carry::memoryless;
     s.link = LinkCondition::by_size;
     s.least_turn = 0.3;
+    s.least_fold = -0.9;
     return s;
 }
 

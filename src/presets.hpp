@@ -15,9 +15,10 @@ struct Settings {
     Carry carry = Carry::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;
-    bool relax = false;     ///< move the vertices closer to the original in the end
-    double least_turn = 0;  ///< flip veto: smallest cosine between old and new normal
-    double diagonal = 1;    ///< the model is scaled to this diagonal: the paper's terms have different units
+    bool relax = false;      ///< move the vertices closer to the original in the end
+    double least_fold = -1;  ///< edges whose faces have a smaller cosine are folds; -1: as many as may come
+    double least_turn = 0;   ///< flip veto: smallest cosine between old and new normal
+    double diagonal = 1;     ///< the model is scaled to this diagonal: the paper's terms have different units
     Weld weld = Weld::by_position;
     double weld_distance = 0;  ///< model units
     std::optional<Length> prune = {};

@@ -16,9 +16,9 @@ constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem"
 constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
                                                         "reached_max_error", "cancelled"};
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
-    "flip", "degenerate", "link", "locked", "seam", "group", "zero_length", "last_faces"};
+    "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
-    "reseed", "tiny_components", "without_link", "flip_zero", "flip_half", "flip_any", "any_component"};
+    "reseed", "tiny_components", "without_link", "fold", "flip_zero", "flip_half", "flip_any", "any_component"};
 
 std::uint64_t peak_rss_bytes() {
     rusage usage{};

@@ -27,26 +27,28 @@ enum class Refusal {
     flip,         ///< a face would turn over
     degenerate,   ///< a face would lose its area
     link,         ///< the link condition would be violated
+    fold,         ///< the surface would fold: two faces at an edge would look away from each other
     locked,       ///< both ends are locked, or the new point would move a locked one
     seam,         ///< a kept UV seam would be torn
     group,        ///< a kept border between groups would be damaged
     zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
     last_faces,   ///< nothing at all would be left
 };
-inline constexpr std::size_t refusal_kinds = 8;
+inline constexpr std::size_t refusal_kinds = 9;
 
 /// Steps taken when no collapse was legal above the target, in this order. With LinkCondition::by_size the
-/// link condition is lifted pair by pair, and each collapse against it counts.
+/// link condition is lifted pair by pair, and so is the rule against folds; each collapse against one counts.
 enum class Rung {
     reseed,           ///< all pairs evaluated anew
     tiny_components,  ///< whole tiny components deleted
     without_link,     ///< link condition lifted
+    fold,             ///< folds allowed
     flip_zero,        ///< flips allowed down to dot = 0, where the preset asks for more
     flip_half,        ///< flips allowed down to dot = -0.5
     flip_any,         ///< flips allowed
     any_component,    ///< whole components deleted, smallest first
 };
-inline constexpr std::size_t rung_kinds = 7;
+inline constexpr std::size_t rung_kinds = 8;
 
 /// Wall-clock seconds of the phases. `simplify` runs from flat arrays to flat arrays and includes `weld`.
 struct PhaseSeconds {

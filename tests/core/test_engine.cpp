@@ -277,6 +277,39 @@ TEST_CASE(
     CHECK(order_of_neck(0.5, LinkCondition::on) == 4);
 }
 
+TEST_CASE("by size, a fold is put off until collapses cost more than the pair's length to the fourth") {
+    //     2
+    //    / \     Joining 3 and 4 lays the flap 0 1 3 nearly upon the face 0 1 2. Beside it the squares of
+    //   0---1    the test above.
+    //    \ / \ .
+    //     3---4
+    const auto order_of_flap = [](double length, LinkCondition link) {
+        const TriangleMesh flap = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
+                                             {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});
+        Script script;
+        script.offers[{3, 4}] = {0.5 * length, length, 0.1 * length};
+        TriangleMesh mesh = test::scaled(flap, length);
+        for (Index i = 0; i < 4; ++i) {
+            const Index first = 5 + 4 * i;
+            mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
+            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+        }
+        Play<Script> play(mesh, script);
+        play.run(6, {link, -1, 0, -0.9});
+        const CollapseHistory history = play.recorder.take();
+        std::size_t at = 0;
+        while (at < history.collapses.size() &&
+               std::max(history.collapses[at].first, history.collapses[at].second) > 4)
+            ++at;
+        CHECK(taken(play.result, Rung::fold) == 1);
+        return at;
+    };
+    CHECK(order_of_flap(0.5, LinkCondition::by_size) == 0);
+    CHECK(order_of_flap(1.1, LinkCondition::off) == 1);
+    CHECK(order_of_flap(1.3, LinkCondition::by_size) == 2);
+    CHECK(order_of_flap(0.5, LinkCondition::on) == 4);
+}
+
 TEST_CASE("a strict link condition is kept on every rung") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
     Script script;

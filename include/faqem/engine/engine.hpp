@@ -76,7 +76,7 @@ public:
           curves_(curves),
           legality_(complex),
           has_vetoed_(complex.vertex_slots(), 0),
-          is_lifted_(pairs.size(), 0) {}
+          lifted_(pairs.size(), 0) {}
 
     /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
     LoopResult run(const LoopOptions& options) {
@@ -156,7 +156,7 @@ private:
     }
 
     void evaluate(Index pair) {
-        is_lifted_[pair] = 0;
+        lifted_[pair] = 0;
         if (const auto found = candidate(pair)) {
             queue_.set(pair, found->cost);
         } else {
@@ -177,8 +177,8 @@ private:
         if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces), false;
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules(pair))) {
             refuse(*refusal);
-            const bool may_lift = *refusal == Refusal::link && rules_.link == LinkCondition::by_size;
-            if (may_lift) lift(pair, found->cost);
+            const bool may_lift = is_lifted_by_size(*refusal);
+            if (may_lift) lift(pair, found->cost, *refusal);
             return may_lift;
         }
         if constexpr (RefiningMetric<Metric>) {
@@ -189,25 +189,35 @@ private:
         const bool swap =
             locked_[u] != locked_[v] ? locked_[v] != 0 : complex_.degree(v) > complex_.degree(u);
         if (swap) std::swap(u, v);
-        if (is_lifted_[pair]) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
+        if (lifted_[pair] & link_bit) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
+        if (lifted_[pair] & fold_bit) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
         collapse(u, v, *found);
         return true;
     }
 
     Rules rules(Index pair) const {
         Rules rules = rules_;
-        if (is_lifted_[pair]) rules.link = LinkCondition::off;
+        if (lifted_[pair] & link_bit) rules.link = LinkCondition::off;
+        if (lifted_[pair] & fold_bit) rules.least_fold = -1;
         return rules;
     }
 
-    // What the link condition protects at a pair is about as large as the pair: against it the surface moves
-    // by its length, over an area of its length squared. Where all other collapses cost more, it is lifted.
-    void lift(Index pair, double cost) {
+    bool is_lifted_by_size(Refusal refusal) const {
+        const bool by_size = rules_.link == LinkCondition::by_size;
+        return refusal == Refusal::link
+                   ? by_size
+                   : refusal == Refusal::fold && (by_size || rules_.link == LinkCondition::off);
+    }
+
+    // What the link condition or the rule against folds protects at a pair is about as large as the pair:
+    // against it the surface moves by its length, over an area of its length squared. Where all other
+    // collapses cost more, it is lifted.
+    void lift(Index pair, double cost, Refusal refusal) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
         const double area = (complex_.position(u) - complex_.position(v)).squaredNorm();
         double price = area * area;
         if constexpr (WeighingMetric<Metric>) price *= metric_.weight(u, v);
-        is_lifted_[pair] = 1;
+        lifted_[pair] |= refusal == Refusal::link ? link_bit : fold_bit;
         queue_.set(pair, std::max(cost, price));
         veto(pair);
     }
@@ -242,7 +252,7 @@ private:
             if (staleness == Staleness::lazily && !std::exchange(has_vetoed, std::uint8_t{0})) continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
                 if (n.vertex == survivor) return;
-                const bool was_refused = is_lifted_[n.pair] || !queue_.contains(n.pair);
+                const bool was_refused = lifted_[n.pair] || !queue_.contains(n.pair);
                 if (staleness == Staleness::now || was_refused) evaluate(n.pair);
             });
         }
@@ -268,6 +278,8 @@ private:
                 if (rules_.link != LinkCondition::on && rules_.link != LinkCondition::by_size) return false;
                 rules_.link = LinkCondition::off;
                 return true;
+            case Rung::fold:
+                return std::exchange(rules_.least_fold, -1) > -1;
             case Rung::flip_zero:
                 return relax_turn(0);
             case Rung::flip_half:
@@ -336,6 +348,7 @@ private:
     }
 
     static constexpr std::uint64_t steps_between_polls = 1024;
+    static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
 
     Complex& complex_;
     PairTable& pairs_;
@@ -347,7 +360,7 @@ private:
     Legality legality_;
     Queue queue_;
     std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may have been refused
-    std::vector<std::uint8_t> is_lifted_;   // of a pair: the link condition no longer holds it
+    std::vector<std::uint8_t> lifted_;      // of a pair: bits of the rules that no longer hold it
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/folds.hpp"
 #include "faqem/engine/pairs.hpp"
 #include "faqem/report.hpp"
 
@@ -20,6 +21,8 @@ struct Rules {
     double least_turn = 0;
     /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
     double least_length = 0;
+    /// Edges whose faces have a cosine below this are folds, of which there may not be more; -1: no test.
+    double least_fold = -1;
 };
 
 /// Height over longest edge below which a face counts as degenerate.
@@ -28,7 +31,7 @@ inline constexpr double degenerate_aspect = 1e-9;
 /// Tests collapses; holds scratch memory only.
 class Legality {
 public:
-    explicit Legality(const Complex& complex) : mark_(complex.vertex_slots(), 0) {}
+    explicit Legality(const Complex& complex) : folds_(complex), mark_(complex.vertex_slots(), 0) {}
 
     /// \pre u != v, both alive
     /// \return why (u, v) may not become one vertex at p, or nothing. O(valence of u and v)
@@ -39,6 +42,7 @@ public:
         if (rules.link != LinkCondition::off && !link_condition(complex, pairs, u, v, pair, rules.link)) {
             return Refusal::link;
         }
+        if (rules.least_fold > -1 && folds_.adds(complex, u, v, p, rules.least_fold)) return Refusal::fold;
         return std::nullopt;
     }
 
@@ -132,6 +136,7 @@ private:
         });
     }
 
+    Folds folds_;
     std::vector<std::uint32_t> mark_;  // faces of the edge from u, while checking
 };
 

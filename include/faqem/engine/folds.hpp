@@ -1,0 +1,116 @@
+#pragma once
+/// \file
+/// Would a collapse fold the surface? A fold is an edge with two faces that look away from each other.
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+
+namespace faqem::engine {
+
+/// Counts folds; holds scratch memory only.
+class Folds {
+public:
+    explicit Folds(const Complex& complex) : mark_(complex.vertex_slots(), 0) {}
+
+    /// Are there more folds after (u, v) has become one vertex at p than there are?
+    /// \param least  cosine between the faces of an edge below which it is a fold, in (-1, 0)
+    /// O(valence squared), O(valence) typically
+    bool adds(const Complex& complex, Index u, Index v, const Vector3& p, double least) {
+        std::uint32_t before = 0, after = 0;
+        moved_.clear();
+        complex.for_each_face_around(u, v, [&](Index f, unsigned corner) {
+            if (complex.has_corner(f, u) && complex.has_corner(f, v)) return;
+            const Triangle& t = complex.triangle(f);
+            const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
+            const Vector3 normal = unit(area_vector(p, complex.position(a), complex.position(b)));
+            moved_.push_back({a, b, normal});
+            if (const Index g = across(complex, f, a, b); g != no_index) {
+                const Vector3 other = unit(complex.area_vector(g));
+                before += unit(complex.area_vector(f)).dot(other) < least;
+                after += normal.dot(other) < least;
+            }
+        });
+        after += folds_between(moved_, least);
+        if (after <= before) return false;
+        return after > before + folds_at(complex, u, no_index, least) + folds_at(complex, v, u, least);
+    }
+
+private:
+    struct Side {
+        Index a, b;  ///< the corners besides the vertex in hand
+        Vector3 normal;
+    };
+
+    static Vector3 unit(const Vector3& n) {
+        const double length = n.norm();
+        return length > 0 ? Vector3(n / length) : Vector3(Vector3::Zero());
+    }
+
+    // The other face of edge (a, b) of face f; no_index where there is not exactly one.
+    static Index across(const Complex& complex, Index f, Index a, Index b) {
+        Index other = no_index;
+        std::uint32_t others = 0;
+        complex.for_each_face(a, [&](Index g, unsigned) {
+            if (g != f && complex.has_corner(g, b)) other = g, ++others;
+        });
+        return others == 1 ? other : no_index;
+    }
+
+    // Folds at w, but for its edge to `except`.
+    std::uint32_t folds_at(const Complex& complex, Index w, Index except, double least) {
+        moved_.clear();
+        complex.for_each_face(w, [&](Index f, unsigned corner) {
+            const Triangle& t = complex.triangle(f);
+            const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
+            moved_.push_back(
+                {a == except ? no_index : a, b == except ? no_index : b, unit(complex.area_vector(f))});
+        });
+        return folds_between(moved_, least);
+    }
+
+    // Folds among the edges from the vertex in hand to corners of exactly two of its faces.
+    std::uint32_t folds_between(const std::vector<Side>& sides, double least) {
+        if (are_within_one_cone(sides, least)) return 0;
+        ends_.clear();
+        for (std::uint32_t i = 0; i < sides.size(); ++i) {
+            for (const Index end : {sides[i].a, sides[i].b}) {
+                if (end == no_index) continue;
+                std::uint32_t& at = mark_[end];
+                if (at == 0) ends_.push_back({end, i, 0, 0}), at = static_cast<std::uint32_t>(ends_.size());
+                End& known = ends_[at - 1];
+                known.last = i;
+                ++known.faces;
+            }
+        }
+        std::uint32_t folds = 0;
+        for (const End& end : ends_) {
+            mark_[end.vertex] = 0;
+            folds += end.faces == 2 && sides[end.first].normal.dot(sides[end.last].normal) < least;
+        }
+        return folds;
+    }
+
+    // Two normals at angles below x from a third are less than 2 x apart: cos 2x = 2 cos^2 x - 1.
+    static bool are_within_one_cone(const std::vector<Side>& sides, double least) {
+        Vector3 sum = Vector3::Zero();
+        for (const Side& side : sides) sum += side.normal;
+        const double limit = std::sqrt(0.5 * (1 + least)) * sum.norm();
+        for (const Side& side : sides) {
+            if (!(side.normal.dot(sum) > limit)) return false;
+        }
+        return true;
+    }
+
+    struct End {
+        Index vertex;
+        std::uint32_t first, last, faces;
+    };
+    std::vector<Side> moved_;
+    std::vector<End> ends_;
+    std::vector<std::uint32_t> mark_;  // 1 + place in ends_, while counting; else 0
+};
+
+}  // namespace faqem::engine
