@@ -15,10 +15,12 @@ namespace {
 
 using engine::Vector3;
 
-constexpr int steps = 3;
+constexpr int steps = 4;
 /// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
 constexpr double power = 0.5;
-constexpr std::size_t points_per_face = 8, least_points = 5000, most_points = 2'000'000;
+constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
+/// The original has more that could be missed: so many times as many points there.
+constexpr std::size_t more_back = 2;
 /// Points that end farther away than this share of the farthest at the start go back.
 constexpr double put_back_from = 0.9;
 /// Added to each point's distance between the normals: a fraction of a degree does not matter.
@@ -32,9 +34,10 @@ constexpr int halvings = 6;
 /// Times that far points are put back before all of them are.
 constexpr int most_rounds = 6;
 /// Times that the farthest points are drawn in; they are those beyond this share of the farthest one; the
-/// power of their distance by which they count; and the squared distance that counts as nearer.
-constexpr int most_draws = 20;
-constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998;
+/// power of their distance by which they count; the squared distance that counts as nearer; and how much of a
+/// factor gained there the sums may lose, as a power of it.
+constexpr int most_draws = 40;
+constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange = 0.15;
 
 Vector3 area_vector(std::span<const Vector3> x, const Triangle& t) {
     return engine::area_vector(x[t[0]], x[t[1]], x[t[2]]);
@@ -109,10 +112,10 @@ private:
         bool is_worse_than(const Fit& other) const {
             return turn > other.turn && distance * turn * turn > other.distance * other.turn * other.turn;
         }
-        /// Is the farthest nearer, and does the gain make up for what the sums lose, twice over?
+        /// Is the farthest nearer, and do the sums lose less than it gains?
         bool is_drawn_in_from(const Fit& other) const {
             if (!(farthest < least_draw * other.farthest)) return false;
-            const double gain = std::sqrt(other.farthest / farthest);
+            const double gain = std::pow(other.farthest / farthest, exchange);
             const double lost_turn = turn / other.turn;
             return distance <= gain * other.distance && lost_turn * lost_turn <= gain;
         }
@@ -150,7 +153,7 @@ private:
 
     std::vector<OrientedPoint> even_points() const {
         std::vector<OrientedPoint> points;
-        for (const Spot& spot : evenly_spread(original_.mesh, point_count(light_))) {
+        for (const Spot& spot : evenly_spread(original_.mesh, more_back * point_count(light_))) {
             points.push_back(
                 {spot.on(original_.mesh.positions, original_.mesh.triangles), original_.normals[spot.face]});
         }

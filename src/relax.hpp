@@ -14,12 +14,15 @@ namespace faqem::detail {
 /// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
 /// allows, where a point would be nearly as far away as the farthest was before, and where the normals lose
 /// more than the distances gain; if the farthest is farther in the end, nothing moves. Then the vertices
-/// around the farthest points move on, as long as these come nearer for less than the rest loses. \param
-/// original    finite \param light       finite, in the same units \param fixed       one per vertex of
-/// light: nonzero must not move. Open borders do not move either. \param least_turn  cosine between old and
-/// new normal of a face, at least \param threads     0: all; the result does not depend on it \return the
-/// positions of all vertices of light Complexity: O(points log faces) a step; about ten points per face of
-/// the light mesh on either side.
+/// around the farthest points move on, as long as these come nearer for less than the rest loses.
+/// \param original    finite
+/// \param light       finite, in the same units
+/// \param fixed       one per vertex of light: nonzero must not move. Open borders do not move either.
+/// \param least_turn  cosine between old and new normal of a face, at least
+/// \param threads     0: all; the result does not depend on it
+/// \return the positions of all vertices of light
+/// Complexity: O(points log faces) a step; ten points per face of the light mesh on it, twice as many on the
+/// original.
 std::vector<engine::Vector3> relax(const Patchwork& original, const Patchwork& light,
                                    std::span<const std::uint8_t> fixed, double least_turn,
                                    std::uint32_t threads);
