@@ -64,6 +64,20 @@ TEST_CASE("folds: those that are there already may stay") {
     CHECK_FALSE(counter.adds(complex, 0, 1, complex.position(0), -0.9));
 }
 
+TEST_CASE("folds: where windings disagree, the surface folds where it did before they did") {
+    // The flap of the first test, its faces wound against its neighbour.
+    const std::vector<Triangle> flap = {{0, 1, 2}, {0, 1, 3}, {3, 1, 4}};
+    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}}, flap);
+    Folds counter(complex);
+    CHECK(counter.adds(complex, 3, 4, {0.5, 1, 0.1}, -0.9));
+    CHECK_FALSE(counter.adds(complex, 3, 4, {0.5, -1, 0.1}, -0.9));
+    // And a fan of four around vertex 4, every other face turned over: flat before, flat after.
+    const Complex fan({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 0}},
+                      {{0, 1, 4}, {2, 1, 4}, {2, 3, 4}, {0, 3, 4}});
+    Folds of_fan(fan);
+    CHECK_FALSE(of_fan.adds(fan, 4, 0, {0.5, 0, 0}, -0.9));
+}
+
 TEST_CASE("folds: the answer is that of counting them all, before and after") {
     test::Random random(3);
     int added = 0, not_added = 0;

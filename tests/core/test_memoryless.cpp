@@ -85,6 +85,18 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
     CHECK(cost(10, 0.2) == cost(10, 0));
 }
 
+TEST_CASE("memoryless: where windings disagree, a flat edge is no rim") {
+    // Two triangles over the edge (0, 1), wound against each other, flat.
+    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{1, 0, 2}, {1, 0, 3}});
+    const PairTable pairs(complex, {});
+    const auto cost = [&](double fold) {
+        MemorylessMetric metric({0, 0, fold});
+        metric.initialise(complex, pairs);
+        return metric.evaluate(complex, pairs, 0, 2, Freedom::at_second)->cost;
+    };
+    CHECK(cost(0.2) == cost(0));
+}
+
 TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where sheets pass through it") {
     // Around the edge (0, 1), from above: a sheet 2 - 3, and a fin to 4 that may go on to 5.
     const std::vector<Vector3> p = {{0, 0, 0},    {1, 0, 0},   {0.5, 1, 0},

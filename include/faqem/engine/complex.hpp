@@ -82,6 +82,12 @@ public:
         return t[0] == v || t[1] == v || t[2] == v;
     }
 
+    /// Does f go along its edge from a to b, not from b to a? Faces of one winding disagree about it.
+    bool goes_from(Index f, Index a, Index b) const {
+        const Triangle& t = triangle(f);
+        return t[0] == a ? t[1] == b : t[1] == a ? t[2] == b : t[2] == a && t[0] == b;
+    }
+
     /// Twice the area of f, along its normal.
     Vector3 area_vector(Index f) const {
         const Triangle& t = triangle(f);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Would a collapse fold the surface? A fold is an edge with two faces that look away from each other.
+/// Would a collapse fold the surface? A fold is an edge with two faces that look away from each other, if
+/// both are wound the same way.
 
 #include <cmath>
 #include <cstdint>
@@ -28,7 +29,7 @@ public:
             const Vector3 normal = unit(area_vector(p, complex.position(a), complex.position(b)));
             moved_.push_back({a, b, normal});
             if (const Index g = across(complex, f, a, b); g != no_index) {
-                const Vector3 other = unit(complex.area_vector(g));
+                const Vector3 other = (complex.goes_from(g, a, b) ? -1 : 1) * unit(complex.area_vector(g));
                 before += unit(complex.area_vector(f)).dot(other) < least;
                 after += normal.dot(other) < least;
             }
@@ -75,25 +76,33 @@ private:
     std::uint32_t folds_between(const std::vector<Side>& sides, double least) {
         if (are_within_one_cone(sides, least)) return 0;
         ends_.clear();
-        for (std::uint32_t i = 0; i < sides.size(); ++i) {
-            for (const Index end : {sides[i].a, sides[i].b}) {
-                if (end == no_index) continue;
-                std::uint32_t& at = mark_[end];
-                if (at == 0) ends_.push_back({end, i, 0, 0}), at = static_cast<std::uint32_t>(ends_.size());
-                End& known = ends_[at - 1];
-                known.last = i;
-                ++known.faces;
-            }
+        for (const Side& side : sides) {
+            // Faces of one winding have an edge at different places.
+            add_end(side.a, side.normal);
+            add_end(side.b, -side.normal);
         }
         std::uint32_t folds = 0;
         for (const End& end : ends_) {
             mark_[end.vertex] = 0;
-            folds += end.faces == 2 && sides[end.first].normal.dot(sides[end.last].normal) < least;
+            folds += end.faces == 2 && -end.first.dot(end.last) < least;
         }
         return folds;
     }
 
-    // Two normals at angles below x from a third are less than 2 x apart: cos 2x = 2 cos^2 x - 1.
+    void add_end(Index vertex, const Vector3& normal) {
+        if (vertex == no_index) return;
+        std::uint32_t& at = mark_[vertex];
+        if (at == 0) {
+            ends_.push_back({vertex, 0, normal, normal});
+            at = static_cast<std::uint32_t>(ends_.size());
+        }
+        End& end = ends_[at - 1];
+        end.last = normal;
+        ++end.faces;
+    }
+
+    // Two normals at angles below x from a third are less than 2 x apart: cos 2x = 2 cos^2 x - 1. Only
+    // windings that disagree could make a fold of such.
     static bool are_within_one_cone(const std::vector<Side>& sides, double least) {
         Vector3 sum = Vector3::Zero();
         for (const Side& side : sides) sum += side.normal;
@@ -106,7 +115,8 @@ private:
 
     struct End {
         Index vertex;
-        std::uint32_t first, last, faces;
+        std::uint32_t faces;
+        Vector3 first, last;  ///< normals of its faces, turned over where the vertex in hand comes after it
     };
     std::vector<Side> moved_;
     std::vector<End> ends_;

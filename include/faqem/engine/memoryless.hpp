@@ -229,8 +229,10 @@ private:
         if (faces > 2) return weights_.nonmanifold_edge * std::min(1.0, imbalance(complex, u, v));
         if (faces != 2) return 0;
         if (curves_ && curves_->differ(first, last)) return weights_.group_edge;
-        const bool folds = facets_[first].normal.dot(facets_[last].normal) < -0.5;
-        return folds ? weights_.fold_edge : 0;
+        // Windings may disagree: then opposite normals mean that the surface goes straight on.
+        const bool agree = complex.goes_from(first, u, v) != complex.goes_from(last, u, v);
+        const double cosine = (agree ? 1 : -1) * facets_[first].normal.dot(facets_[last].normal);
+        return cosine < -0.5 ? weights_.fold_edge : 0;
     }
 
     // Squared length of the sum of unit vectors from the edge (u, v) into its faces: 0 where each face has
