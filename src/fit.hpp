@@ -22,10 +22,12 @@ struct Pull {
 
 /// The step of each vertex that would bring the points closest to their counterparts, if the surfaces were
 /// their tangent planes: nine tenths point to plane, one tenth point to point, weighted by their distance d
-/// to a power. Damped, so that what the pulls say little about stays. \param triangles  a triangle with
-/// no_index corners is none \param power      p: what gets smaller is the sum of d^(2 + p); >= 0 \param fixed
-/// one per vertex: nonzero stays \return one step per vertex; not finite where the system cannot be solved
-/// Complexity: O(pulls + faces) and at most 60 steps of conjugate gradients.
+/// to a power. Damped, so that what the pulls say little about stays.
+/// \param triangles  a triangle with no_index corners is none
+/// \param fixed      one per vertex: nonzero stays
+/// \param power      p: what gets smaller is the sum of d^(2 + p); >= 0
+/// \return one step per vertex; not finite where the system cannot be solved
+/// O(pulls + faces), and at most 60 steps of conjugate gradients
 std::vector<engine::Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
                                           std::span<const std::uint8_t> fixed, double power);
 

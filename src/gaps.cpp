@@ -13,12 +13,6 @@ using engine::Vector3;
 
 constexpr std::size_t block = 1024;
 
-Vector3 unit_normal(std::span<const Vector3> x, const Triangle& t) {
-    const Vector3 n = engine::area_vector(x[t[0]], x[t[1]], x[t[2]]);
-    const double length = n.norm();
-    return length > 0 ? Vector3(n / length) : Vector3(Vector3::Zero());
-}
-
 /// The point of a mesh closest to p.
 /// \param last  the face where it was not long ago, or no_index
 Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index last) {
@@ -45,7 +39,8 @@ std::vector<Vector3> unit_normals(const Patchwork& mesh) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-        normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero()) : unit_normal(mesh.positions, t));
+        normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
+                                           : area_vector(mesh.positions, t).normalized());
     }
     return normals;
 }
@@ -66,7 +61,9 @@ void GapsThere::measure(std::size_t i) {
     gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, -1};
 }
 
-Vector3 GapsThere::normal(std::size_t i) const { return unit_normal(positions_, triangles_[spots_[i].face]); }
+Vector3 GapsThere::normal(std::size_t i) const {
+    return area_vector(positions_, triangles_[spots_[i].face]).normalized();
+}
 
 Pull GapsThere::pull(std::size_t i) const { return {spots_[i], gaps_[i].gap, normal(i)}; }
 
@@ -88,12 +85,11 @@ void GapsThere::measure_turns(double tolerance, std::uint32_t threads) {
 
 void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads) {
     const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
-    const bool is_first = positions_.empty();
     positions_.assign(positions.begin(), positions.end());
-    if (is_first) {
-        tree_ = Bvh(positions_, triangles_);
+    if (tree_) {
+        tree_->refit(positions_, triangles_);
     } else {
-        tree_.refit(positions_, triangles_);
+        tree_.emplace(positions_, triangles_);
     }
     std::vector<Triangle> those_moved(triangles_.begin(), triangles_.end());
     for (std::size_t f = 0; f < moved.size(); ++f) {
@@ -106,7 +102,7 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
             const Index last = gaps_[i].spot.face;
             Bvh::Hit hit;
             if (last == no_index || moved[last]) {
-                hit = nearest(tree_, {positions_, triangles_}, p, last);
+                hit = nearest(*tree_, {positions_, triangles_}, p, last);
             } else {  // what has not moved is as far away as it was
                 const double distance = gaps_[i].gap.squaredNorm();
                 hit = moved_tree.closest(engine::to_array(p), distance);

@@ -3,6 +3,7 @@
 /// How far points of two surfaces are from the other one, kept up while the vertices of one of them move.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -95,7 +96,7 @@ private:
     std::vector<OrientedPoint> points_;
     std::vector<Gap> gaps_;
     std::vector<engine::Vector3> positions_;
-    Bvh tree_{std::span<const engine::Vector3>(), {}};
+    std::optional<Bvh> tree_;
 };
 
 }  // namespace faqem::detail

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
+#include "disjoint_sets.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/error.hpp"
@@ -84,20 +84,12 @@ std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) 
 }
 
 std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
-    std::vector<Index> parent(used.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    detail::DisjointSets joined(used.size());
     for (const Triangle& t : faces) {
-        for (const Index v : {t[1], t[2]}) {
-            const Index r = root(t[0]), s = root(v);
-            parent[std::max(r, s)] = std::min(r, s);
-        }
+        for (const Index v : {t[1], t[2]}) joined.join(t[0], v);
     }
     std::uint64_t count = 0;
-    for (std::size_t v = 0; v < used.size(); ++v) count += used[v] && parent[v] == v;
+    for (Index v = 0; v < used.size(); ++v) count += used[v] && joined.root(v) == v;
     return count;
 }
 

@@ -33,6 +33,7 @@ struct Prepared {
 Prepared prepare(const MeshView& mesh, const Settings& settings);
 
 /// The input's faces less those that are pruned.
+/// \throws InputError  see simplify()
 std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options);
 
 /// One per welded vertex: nonzero where a locked vertex went into it.

@@ -39,10 +39,6 @@ constexpr int most_rounds = 6;
 constexpr int most_draws = 40;
 constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange = 0.15;
 
-Vector3 area_vector(std::span<const Vector3> x, const Triangle& t) {
-    return engine::area_vector(x[t[0]], x[t[1]], x[t[2]]);
-}
-
 /// Vertices on edges with one face.
 std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices) {
     std::vector<std::pair<Index, Index>> edges;

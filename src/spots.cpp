@@ -10,10 +10,6 @@ namespace {
 
 using engine::Vector3;
 
-Vector3 area_vector(const Patchwork& mesh, const Triangle& t) {
-    return engine::area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-}
-
 /// The k-th point of a sequence that fills the triangle evenly.
 Vec3 even_weight(std::size_t k) {
     const auto fraction = [&](double step) {
@@ -31,7 +27,7 @@ std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count) {
     std::vector<double> area_up_to;
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
-        if (t[0] != no_index) area += area_vector(mesh, t).norm();
+        if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
         area_up_to.push_back(area);
     }
     std::vector<Spot> spots;
@@ -68,7 +64,7 @@ std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh) {
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : mesh.triangles) {
         if (t[0] == no_index) continue;
-        const Vector3 n = area_vector(mesh, t);
+        const Vector3 n = area_vector(mesh.positions, t);
         for (const Index v : t) normal[v] += n, used[v] = 1;
     }
     std::vector<OrientedPoint> points;

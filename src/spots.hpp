@@ -17,6 +17,11 @@ struct Patchwork {
     std::span<const Triangle> triangles;
 };
 
+/// Twice the area of a triangle, along its normal.
+inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, const Triangle& t) {
+    return engine::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+}
+
 /// A point of a face.
 struct Spot {
     Index face = no_index;

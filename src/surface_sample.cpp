@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "faqem/engine/scrambled.hpp"
+
 namespace faqem::detail {
 
 namespace {
 
-/// A number in [0, 1) that depends on its arguments only (the finaliser is that of SplitMix64, Steele et al.
-/// 2014).
+/// A number in [0, 1) that depends on its arguments only.
 double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
-    const auto mix = [](std::uint64_t x) {
-        x += 0x9e3779b97f4a7c15u;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-        return x ^ (x >> 31);
-    };
+    const auto mix = [](std::uint64_t x) { return engine::scrambled(x + 0x9e3779b97f4a7c15u); };
     return static_cast<double>(mix(mix(mix(seed) + dimension) + sample) >> 11) * 0x1p-53;
 }
 

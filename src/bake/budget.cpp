@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "disjoint_sets.hpp"
 #include "faqem/engine/weld.hpp"
 #include "target.hpp"
 
@@ -16,22 +17,14 @@ std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[
 // The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
 std::uint64_t faces_of_components(const Part& part) {
     const std::vector<Index> welded = engine::weld_exact(part.positions);
-    std::vector<Index> parent(welded.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    DisjointSets joined(welded.size());
     for (const Triangle& t : part.triangles) {
-        for (const Index v : {t[1], t[2]}) {
-            const Index r = root(welded[t[0]]), s = root(welded[v]);
-            parent[std::max(r, s)] = std::min(r, s);
-        }
+        for (const Index v : {t[1], t[2]}) joined.join(welded[t[0]], welded[v]);
     }
     std::vector<std::uint8_t> counted(welded.size(), 0);
     std::uint64_t sum = 0;
     for (const Triangle& t : part.triangles) {
-        std::uint8_t& count = counted[root(welded[t[0]])];
+        std::uint8_t& count = counted[joined.root(welded[t[0]])];
         if (count == 4) continue;
         ++count;
         ++sum;

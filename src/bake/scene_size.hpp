@@ -26,11 +26,13 @@ struct SceneSize {
     }
 };
 
-/// What a part is simplified with: lengths in its own units.
-Options part_options(const Options& options, const SceneSize& size, const PartScale& scale);
-
+/// How large the scene is, and how large it shows its parts.
 /// \throws InputError  an index is out of range
 /// O(faces log faces)
 SceneSize scene_size(const Asset& source);
+
+/// What a part is simplified with: Topology::prune in the part's own units, at its largest scale; unset where
+/// the scene shrinks the part to nothing. \param size   of the scene \param scale  the part's
+Options part_options(const Options& options, const SceneSize& size, const PartScale& scale);
 
 }  // namespace faqem::detail

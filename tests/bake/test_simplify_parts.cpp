@@ -13,6 +13,15 @@ Part bumpy(Index n) {
     return sheet(n, [](double x, double y) { return Vec3{x, y, std::sin(x * 0.9) * std::cos(y * 0.7)}; });
 }
 
+// With a triangle of side 1 at (x, 0, 0), without materials.
+Part with_speck(Part part, double x) {
+    const auto first = static_cast<Index>(part.positions.size());
+    for (const Vec3& p : {Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}) part.positions.push_back(p);
+    part.triangles.push_back({first, first + 1, first + 2});
+    part.face_material.clear();
+    return part;
+}
+
 }  // namespace
 
 TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
@@ -143,11 +152,7 @@ TEST_CASE("the counts of the report are sums over the parts") {
 
 TEST_CASE("components are pruned from every part, which keeps its largest") {
     // Two sheets of side 20 with a speck of side 1 each; the second one is ten times as large.
-    Part dusty = bumpy(20);
-    const auto first = static_cast<Index>(dusty.positions.size());
-    for (const Vec3& p : {Vec3{30, 0, 0}, {31, 0, 0}, {30, 1, 0}}) dusty.positions.push_back(p);
-    dusty.triangles.push_back({first, first + 1, first + 2});
-    dusty.face_material.clear();
+    const Part dusty = with_speck(bumpy(20), 30);
     Part speck;
     speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     speck.triangles = {{0, 1, 2}};
@@ -168,11 +173,7 @@ TEST_CASE("components are pruned from every part, which keeps its largest") {
 }
 
 TEST_CASE("an error does not count what is pruned from a scene") {
-    Part dusty = bumpy(20);
-    const auto first = static_cast<Index>(dusty.positions.size());
-    for (const Vec3& p : {Vec3{60, 0, 0}, {61, 0, 0}, {60, 1, 0}}) dusty.positions.push_back(p);
-    dusty.triangles.push_back({first, first + 1, first + 2});
-    dusty.face_material.clear();
+    const Part dusty = with_speck(bumpy(20), 60);
     Asset asset;
     asset.parts = {dusty};
     Options options;

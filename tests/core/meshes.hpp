@@ -40,6 +40,13 @@ inline TriangleMesh make(std::vector<Vec3> positions, std::vector<Triangle> tria
     return mesh;
 }
 
+/// The positions of a mesh.
+inline std::vector<engine::Vector3> vectors(const TriangleMesh& mesh) {
+    std::vector<engine::Vector3> all;
+    for (const Vec3& p : mesh.positions) all.push_back(engine::to_eigen(p));
+    return all;
+}
+
 /// The corner of the unit cube cut off; four faces seen from outside.
 inline TriangleMesh tetrahedron() {
     return make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});

@@ -1,5 +1,6 @@
 #include "faqem/engine/engine.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -245,30 +246,38 @@ TEST_CASE("the ladder lifts the link condition before it allows flips") {
     CHECK(refused(result, Refusal::link) == 2);
 }
 
+namespace {
+
+// What the mesh of vertices 0 to 4 offers comes after so many collapses of the squares beside it, whose costs
+// are 1, 2, 3 and 4; its own is 0.
+std::size_t squares_before(TriangleMesh mesh, Script script, std::size_t target, const Rules& rules,
+                           Rung rung) {
+    for (Index i = 0; i < 4; ++i) {
+        const Index first = 5 + 4 * i;
+        mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
+        script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+    }
+    Play<Script> play(mesh, script);
+    play.run(target, rules);
+    const CollapseHistory history = play.recorder.take();
+    const auto is_own = [](const Collapse& c) { return std::max(c.first, c.second) <= 4; };
+    const auto found = std::find_if(history.collapses.begin(), history.collapses.end(), is_own);
+    CHECK(taken(play.result, rung) == 1);
+    return static_cast<std::size_t>(found - history.collapses.begin());
+}
+
+}  // namespace
+
 TEST_CASE(
     "by size, the link condition holds a pair until collapses cost more than its length to the fourth") {
-    // Two tetrahedra on one triangle 0 1 2: joining two of its corners would leave double faces. Beside them
-    // squares that offer collapses at costs 1, 2, 3 ...; the pair 0 1 has cost 0.
+    // Two tetrahedra on one triangle 0 1 2: joining two of its corners would leave double faces.
     const auto order_of_neck = [](double length, LinkCondition link) {
-        TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 1}, {0.5, 0.4, -1}},
-                                       {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
-        mesh = test::scaled(mesh, length);
+        const TriangleMesh neck =
+            test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 1}, {0.5, 0.4, -1}},
+                       {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
         Script script;
         script.offers[{0, 1}] = {0.5 * length, 0, 0};
-        for (Index i = 0; i < 4; ++i) {
-            const Index first = 5 + 4 * i;
-            mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
-            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
-        }
-        Play<Script> play(mesh, script);
-        play.run(8, {link, -1, 0});
-        const CollapseHistory history = play.recorder.take();
-        std::size_t at = 0;
-        while (at < history.collapses.size() &&
-               std::max(history.collapses[at].first, history.collapses[at].second) > 4)
-            ++at;
-        CHECK(taken(play.result, Rung::without_link) == 1);
-        return at;
+        return squares_before(test::scaled(neck, length), script, 8, {link, -1, 0}, Rung::without_link);
     };
     // 0.5^4 < 1 < 1.1^4 < 2 < 1.3^4 < 3
     CHECK(order_of_neck(0.5, LinkCondition::by_size) == 0);
@@ -279,30 +288,16 @@ TEST_CASE(
 
 TEST_CASE("by size, a fold is put off until collapses cost more than the pair's length to the fourth") {
     //     2
-    //    / \     Joining 3 and 4 lays the flap 0 1 3 nearly upon the face 0 1 2. Beside it the squares of
-    //   0---1    the test above.
-    //    \ / \ .
+    //    / \     Joining 3 and 4 lays the flap 0 1 3
+    //   0---1
+    //    \ / \    nearly upon the face 0 1 2.
     //     3---4
     const auto order_of_flap = [](double length, LinkCondition link) {
         const TriangleMesh flap = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
                                              {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});
         Script script;
         script.offers[{3, 4}] = {0.5 * length, length, 0.1 * length};
-        TriangleMesh mesh = test::scaled(flap, length);
-        for (Index i = 0; i < 4; ++i) {
-            const Index first = 5 + 4 * i;
-            mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
-            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
-        }
-        Play<Script> play(mesh, script);
-        play.run(6, {link, -1, 0, -0.9});
-        const CollapseHistory history = play.recorder.take();
-        std::size_t at = 0;
-        while (at < history.collapses.size() &&
-               std::max(history.collapses[at].first, history.collapses[at].second) > 4)
-            ++at;
-        CHECK(taken(play.result, Rung::fold) == 1);
-        return at;
+        return squares_before(test::scaled(flap, length), script, 6, {link, -1, 0, -0.9}, Rung::fold);
     };
     CHECK(order_of_flap(0.5, LinkCondition::by_size) == 0);
     CHECK(order_of_flap(1.1, LinkCondition::off) == 1);

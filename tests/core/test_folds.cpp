@@ -33,9 +33,9 @@ int folds(const Complex& complex, double least) {
 
 TEST_CASE("folds: a flap may turn over its neighbour down to the limit") {
     //     2
-    //    / \     Vertex 3 is joined with 4 and turned about the edge 0 1, towards vertex 2.
+    //    / \     Vertex 3 is joined with 4 and turned
     //   0---1
-    //    \ / \ .
+    //    \ / \    about the edge 0 1, towards vertex 2.
     //     3---4
     const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
                                          {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});

@@ -13,12 +13,6 @@ using engine::Vector3;
 
 namespace {
 
-std::vector<Vector3> vectors(const TriangleMesh& mesh) {
-    std::vector<Vector3> all;
-    for (const Vec3& p : mesh.positions) all.push_back(engine::to_eigen(p));
-    return all;
-}
-
 // The unit square in the plane z = 0 as two triangles.
 const std::vector<Vector3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
@@ -65,10 +59,10 @@ TEST_CASE("gaps: turns are distances between unit normals, at an edge to the nea
 
 TEST_CASE("gaps: kept up over many moves they are what they would be measured anew") {
     const TriangleMesh sphere = test::icosphere(3), light = test::icosphere(1);
-    const std::vector<Vector3> fixed_points = vectors(sphere);
+    const std::vector<Vector3> fixed_points = test::vectors(sphere);
     const StillSurface original({fixed_points, sphere.triangles});
     std::vector<detail::OrientedPoint> points = detail::oriented_vertices(original.mesh);
-    std::vector<Vector3> positions = vectors(light);
+    std::vector<Vector3> positions = test::vectors(light);
     const auto spots = detail::corners_and_middles(light.triangles);
     GapsThere there(original, light.triangles, spots);
     GapsBack back(points, light.triangles);

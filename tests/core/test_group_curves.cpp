@@ -42,6 +42,13 @@ std::vector<Index> squares(Index n, const std::function<Index(Index x, Index y)>
     return groups;
 }
 
+// Face `f` of `faces` against all others.
+std::vector<Index> one_of(std::size_t faces, std::size_t f) {
+    std::vector<Index> groups(faces, 0);
+    groups[f] = 1;
+    return groups;
+}
+
 // Ends of the edges where groups meet, by their places.
 using Curves = std::set<std::pair<Vec3, Vec3>>;
 
@@ -158,11 +165,7 @@ TEST_CASE("two curves are not joined, nor is one shortcut") {
 
 TEST_CASE("the last triangle of a group stays") {
     // The lower right triangle of the middle square of 3 x 3.
-    Map map(test::grid(3), [] {
-        std::vector<Index> groups(18, 0);
-        groups[8] = 1;
-        return groups;
-    }());
+    Map map(test::grid(3), one_of(18, 8));
     for (const auto& [u, v] : {std::pair<Index, Index>{5, 6}, {6, 10}, {5, 10}}) {
         CHECK(map.freedom(u, v) == Freedom::nowhere);
         CHECK(map.freedom(v, u) == Freedom::nowhere);
@@ -173,11 +176,7 @@ TEST_CASE("the last triangle of a group stays") {
 TEST_CASE("a triangle in the angle between a curve and an open border stays") {
     // The triangle 0 1 5 of grid(3) against all others: collapsing its inner edge would end the curve
     // elsewhere.
-    Map map(test::grid(3), [] {
-        std::vector<Index> groups(18, 0);
-        groups[0] = 1;
-        return groups;
-    }());
+    Map map(test::grid(3), one_of(18, 0));
     CHECK(map.freedom(0, 1) == Freedom::nowhere);
     CHECK(map.freedom(1, 5) == Freedom::nowhere);
     CHECK(map.freedom(0, 5) == Freedom::nowhere);

@@ -57,6 +57,21 @@ struct Globe {
     std::vector<float> weights;
 };
 
+// Calls visit(u, v, without, with) for every pair: what it costs without weights and with them.
+template <class Metric, class Visit>
+void for_each_pair(const Complex& complex, const PairTable& pairs, Metric& plain,
+                   ImportanceMetric<Metric>& weighted, Visit&& visit) {
+    plain.initialise(complex, pairs);
+    weighted.initialise(complex, pairs);
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        const auto a = plain.evaluate(complex, pairs, u, v, Freedom::anywhere);
+        const auto b = weighted.evaluate(complex, pairs, u, v, Freedom::anywhere);
+        REQUIRE((a && b));
+        visit(u, v, *a, *b);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing") {
@@ -68,18 +83,13 @@ TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing")
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) weights.push_back(random.between(0.1, 10));
     MemorylessMetric plain;
     ImportanceMetric weighted(MemorylessMetric(), weights);
-    plain.initialise(complex, pairs);
-    weighted.initialise(complex, pairs);
-    for (Index pair = 0; pair < pairs.size(); ++pair) {
-        const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto a = plain.evaluate(complex, pairs, u, v, Freedom::anywhere);
-        const auto b = weighted.evaluate(complex, pairs, u, v, Freedom::anywhere);
-        REQUIRE((a && b));
-        CHECK(a->point == b->point);
-        CHECK(weighted.weight(u, v) == std::max(weights[u], weights[v]));
-        CHECK(b->cost == Approx(a->cost * weighted.weight(u, v)));
-        CHECK(!weighted.evaluate(complex, pairs, u, v, Freedom::nowhere));
-    }
+    for_each_pair(complex, pairs, plain, weighted,
+                  [&](Index u, Index v, const Candidate& a, const Candidate& b) {
+                      CHECK(a.point == b.point);
+                      CHECK(weighted.weight(u, v) == std::max(weights[u], weights[v]));
+                      CHECK(b.cost == Approx(a.cost * weighted.weight(u, v)));
+                      CHECK(!weighted.evaluate(complex, pairs, u, v, Freedom::nowhere));
+                  });
 }
 
 TEST_CASE("what refining finds is multiplied too and never falls below the first cost") {
@@ -89,17 +99,12 @@ TEST_CASE("what refining finds is multiplied too and never falls below the first
     const std::vector<double> weights(mesh.positions.size(), 3);
     TrackedMetric plain({}, 80);
     ImportanceMetric weighted(TrackedMetric({}, 80), weights);
-    plain.initialise(complex, pairs);
-    weighted.initialise(complex, pairs);
-    for (Index pair = 0; pair < pairs.size(); ++pair) {
-        const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto a = plain.evaluate(complex, pairs, u, v, Freedom::anywhere);
-        const auto b = weighted.evaluate(complex, pairs, u, v, Freedom::anywhere);
-        REQUIRE((a && b));
-        const double refined = weighted.refine(complex, u, v, *b);
-        CHECK(refined == Approx(3 * plain.refine(complex, u, v, *a)));
-        CHECK(refined >= b->cost);
-    }
+    for_each_pair(complex, pairs, plain, weighted,
+                  [&](Index u, Index v, const Candidate& a, const Candidate& b) {
+                      const double refined = weighted.refine(complex, u, v, b);
+                      CHECK(refined == Approx(3 * plain.refine(complex, u, v, a)));
+                      CHECK(refined >= b.cost);
+                  });
 }
 
 TEST_CASE("the new vertex has the weight of its place on the edge") {

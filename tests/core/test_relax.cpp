@@ -11,16 +11,10 @@ using engine::Vector3;
 
 namespace {
 
-std::vector<Vector3> vectors(const TriangleMesh& mesh) {
-    std::vector<Vector3> all;
-    for (const Vec3& p : mesh.positions) all.push_back(engine::to_eigen(p));
-    return all;
-}
-
 TriangleMesh relaxed(const TriangleMesh& original, const TriangleMesh& light,
                      std::vector<std::uint8_t> fixed = {}, std::uint32_t threads = 1) {
     fixed.resize(light.positions.size(), 0);
-    const std::vector<Vector3> from = vectors(original), to = vectors(light);
+    const std::vector<Vector3> from = test::vectors(original), to = test::vectors(light);
     TriangleMesh result = light;
     const auto moved = detail::relax({from, original.triangles}, {to, light.triangles}, fixed, 0.3, threads);
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);

@@ -203,10 +203,9 @@ private:
     }
 
     bool is_lifted_by_size(Refusal refusal) const {
-        const bool by_size = rules_.link == LinkCondition::by_size;
-        return refusal == Refusal::link
-                   ? by_size
-                   : refusal == Refusal::fold && (by_size || rules_.link == LinkCondition::off);
+        if (rules_.link == LinkCondition::by_size)
+            return refusal == Refusal::link || refusal == Refusal::fold;
+        return refusal == Refusal::fold && rules_.link == LinkCondition::off;
     }
 
     // What the link condition or the rule against folds protects at a pair is about as large as the pair:

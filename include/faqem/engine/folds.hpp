@@ -26,11 +26,12 @@ public:
             if (complex.has_corner(f, u) && complex.has_corner(f, v)) return;
             const Triangle& t = complex.triangle(f);
             const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            const Vector3 normal = unit(area_vector(p, complex.position(a), complex.position(b)));
+            const Vector3 normal = area_vector(p, complex.position(a), complex.position(b)).normalized();
             moved_.push_back({a, b, normal});
             if (const Index g = across(complex, f, a, b); g != no_index) {
-                const Vector3 other = (complex.goes_from(g, a, b) ? -1 : 1) * unit(complex.area_vector(g));
-                before += unit(complex.area_vector(f)).dot(other) < least;
+                const Vector3 other =
+                    (complex.goes_from(g, a, b) ? -1 : 1) * complex.area_vector(g).normalized();
+                before += complex.area_vector(f).normalized().dot(other) < least;
                 after += normal.dot(other) < least;
             }
         });
@@ -44,11 +45,6 @@ private:
         Index a, b;  ///< the corners besides the vertex in hand
         Vector3 normal;
     };
-
-    static Vector3 unit(const Vector3& n) {
-        const double length = n.norm();
-        return length > 0 ? Vector3(n / length) : Vector3(Vector3::Zero());
-    }
 
     // The other face of edge (a, b) of face f; no_index where there is not exactly one.
     static Index across(const Complex& complex, Index f, Index a, Index b) {
@@ -66,8 +62,8 @@ private:
         complex.for_each_face(w, [&](Index f, unsigned corner) {
             const Triangle& t = complex.triangle(f);
             const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            moved_.push_back(
-                {a == except ? no_index : a, b == except ? no_index : b, unit(complex.area_vector(f))});
+            moved_.push_back({a == except ? no_index : a, b == except ? no_index : b,
+                              complex.area_vector(f).normalized()});
         });
         return folds_between(moved_, least);
     }

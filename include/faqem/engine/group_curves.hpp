@@ -14,6 +14,7 @@
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/pairs.hpp"
 #include "faqem/engine/placement.hpp"
+#include "faqem/engine/scrambled.hpp"
 
 namespace faqem::engine {
 
@@ -87,24 +88,16 @@ private:
         Index vertex, group;       ///< the group of one of its faces
         std::uint32_t faces = 0;   ///< it has
         bool has_others = false;   ///< groups
-        std::uint64_t parity = 0;  ///< 0 where each group has an even number of faces
+        std::uint64_t parity = 0;  ///< 0 where each group has an even number of faces, and else but by chance
         void add(Index other) {
             ++faces;
             has_others |= other != group;
-            parity ^= scrambled(other);
+            parity ^= scrambled((std::uint64_t{other} + 1) * 0x9e3779b97f4a7c15u);
         }
         /// Where all groups go on, as in sheets that lie back to back, none has a border.
         bool is_on_curve() const { return has_others && parity != 0; }
         bool is_in_graph() const { return faces == 1 || is_on_curve(); }
     };
-
-    // Sums (by bits) of different groups differ, but for chance (finaliser of SplitMix64).
-    static std::uint64_t scrambled(Index group) {
-        std::uint64_t x = (std::uint64_t{group} + 1) * 0x9e3779b97f4a7c15ull;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-        return x ^ (x >> 31);
-    }
 
     bool same_group(const Complex& complex, Index u, Index v) const {
         const auto group = [&](Index w) {

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Which vertices belong together, as pairs of them are joined.
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// Disjoint sets of 0 .. size - 1, each known by its smallest member.
+class DisjointSets {
+public:
+    /// Every member is a set of its own.
+    explicit DisjointSets(std::size_t size) : parent_(size) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
+    }
+
+    /// The smallest member of v's set. O(log size) amortised
+    Index root(Index v) {
+        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+        return v;
+    }
+
+    /// The sets of a and b become one.
+    void join(Index a, Index b) {
+        a = root(a), b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<Index> parent_;
+};
+
+}  // namespace faqem::detail
