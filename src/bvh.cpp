@@ -1,6 +1,8 @@
 #include "bvh.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <utility>
 
 namespace faqem::detail {
@@ -9,8 +11,11 @@ namespace {
 
 using engine::Vector3;
 
-constexpr std::uint32_t leaf_size = 4;
 constexpr int bins = 16;
+/// Ranges up to this long are halved, so that the last nodes are full.
+constexpr std::uint32_t short_range = 16;
+/// Beyond that lengths in the frame would overflow, or their squares would be lost.
+constexpr double largest_scale = 1e90;
 
 struct Box {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
@@ -43,8 +48,12 @@ struct Bvh::Build {
     };
     struct Range {
         std::uint32_t begin, end;
-        std::uint32_t parent;  ///< whose right child this is; no_index: the root or a left child
-        int depth;
+        std::size_t depth;  ///< splits so far
+        std::uint32_t size() const { return end - begin; }
+    };
+    struct Todo {
+        Range range;
+        std::uint32_t node;
     };
 
     std::vector<Item> items;
@@ -92,22 +101,44 @@ struct Bvh::Build {
         return static_cast<std::uint32_t>(middle - items.begin());
     }
 
-    std::uint32_t split(const Range& range) {
-        Box centres;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) centres.add(items[i].centre);
-        int axis = 0;
-        (centres.high - centres.low).maxCoeff(&axis);
-        if (range.depth < sah_levels) {
-            const std::uint32_t middle = split_by_area(range, centres, axis);
-            if (middle != range.begin) return middle;
-        }
-        const std::uint32_t middle = range.begin + (range.end - range.begin) / 2;
+    /// Halves, of which the first has a multiple of four where it can.
+    std::uint32_t halve(const Range& range, int axis) {
+        const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
+        const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
         std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                          [axis](const Item& a, const Item& b) {
                              return std::pair(a.centre[axis], a.triangle) <
                                     std::pair(b.centre[axis], b.triangle);
                          });
         return middle;
+    }
+
+    std::uint32_t split(const Range& range) {
+        Box centres;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) centres.add(items[i].centre);
+        int axis = 0;
+        (centres.high - centres.low).maxCoeff(&axis);
+        if (range.size() > short_range && range.depth < sah_levels) {
+            const std::uint32_t middle = split_by_area(range, centres, axis);
+            if (middle != range.begin) return middle;
+        }
+        return halve(range, axis);
+    }
+
+    /// Up to four parts of a range: the longest one is split first.
+    std::vector<Range> parts(const Range& range) {
+        std::vector<Range> all = {range};
+        while (all.size() < width) {
+            const auto longest = std::max_element(
+                all.begin(), all.end(), [](const Range& a, const Range& b) { return a.size() < b.size(); });
+            if (longest->size() == 1) break;
+            const std::uint32_t middle = split(*longest);
+            const std::size_t depth = longest->depth + 1;
+            const Range rest{middle, longest->end, depth};
+            *longest = {longest->begin, middle, depth};
+            all.insert(longest + 1, rest);
+        }
+        return all;
     }
 
     Box bounds(const Range& range) const {
@@ -136,46 +167,70 @@ Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles)
 Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles)
     : Bvh(corners(positions, triangles)) {}
 
-Bvh::Bvh(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
-    if (triangles_.empty()) return;
+namespace {
+
+float below(double x) {
+    const auto rounded = static_cast<float>(x);
+    return rounded > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
+}
+
+float above(double x) { return -below(-x); }
+
+}  // namespace
+
+Bvh::Query::Query(const Vector3& p, const Frame& frame) {
+    const Vector3 local = frame(p);
+    for (int i = 0; i < 3; ++i) {
+        const auto x = static_cast<float>(local[i]);
+        const float error =
+            1.5e-7f * std::abs(x) + 1e-15f;  // of single precision here, of double in the frame
+        low[static_cast<std::size_t>(i)] = x - error;
+        high[static_cast<std::size_t>(i)] = x + error;
+    }
+}
+
+float Bvh::limit_in_frame(double distance_squared) const {
+    return static_cast<float>(distance_squared * frame_.scale * frame_.scale * (1 + 1e-6)) +
+           std::numeric_limits<float>::min();
+}
+
+Bvh::Bvh(std::vector<Corners> triangles) {
+    if (triangles.empty()) return;
+    assert(triangles.size() < leaf_bit);
     Build build;
-    build.items.reserve(triangles_.size());
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    build.items.reserve(triangles.size());
+    Box whole;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         Build::Item item;
-        for (const Vector3& p : {triangles_[i].a, triangles_[i].b, triangles_[i].c}) item.box.add(p);
+        for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
         item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
         item.triangle = i;
+        whole.add(item.box);
         build.items.push_back(item);
     }
+    frame_.centre = 0.5 * whole.low + 0.5 * whole.high;
+    const double half_width = (0.5 * whole.high - 0.5 * whole.low).maxCoeff();
+    if (half_width > 0) frame_.scale = std::min(1 / half_width, largest_scale);
 
-    nodes_.reserve(build.items.size());
-    std::vector<Build::Range> todo = {{0, static_cast<std::uint32_t>(build.items.size()), no_index, 0}};
+    triangles_.reserve(triangles.size());
+    nodes_.resize(1);
+    std::vector<Build::Todo> todo = {{{0, static_cast<std::uint32_t>(triangles.size()), 0}, 0}};
     while (!todo.empty()) {
-        const Build::Range range = todo.back();
+        const auto [range, at] = todo.back();
         todo.pop_back();
-        const auto node = static_cast<std::uint32_t>(nodes_.size());
-        if (range.parent != no_index) nodes_[range.parent].first = node;
-        const Box box = build.bounds(range);
-        nodes_.push_back({box.low, box.high, 0, 0});
-        if (range.end - range.begin <= leaf_size) {
-            nodes_[node].first = range.begin;
-            nodes_[node].count = range.end - range.begin;
-            continue;
+        for (const Build::Range& part : build.parts(range)) {
+            const std::uint32_t k = nodes_[at].count++;
+            if (part.size() == 1) {
+                nodes_[at].child[k] = static_cast<std::uint32_t>(triangles_.size()) | leaf_bit;
+                triangles_.push_back(triangles[build.items[part.begin].triangle]);
+            } else {
+                nodes_[at].child[k] = static_cast<std::uint32_t>(nodes_.size());
+                todo.push_back({part, nodes_[at].child[k]});
+                nodes_.emplace_back();
+            }
         }
-        const std::uint32_t middle = build.split(range);
-        // The left child is taken next, so it follows its parent.
-        todo.push_back({middle, range.end, node, range.depth + 1});
-        todo.push_back({range.begin, middle, no_index, range.depth + 1});
     }
-
-    std::vector<Corners> in_order;
-    in_order.reserve(triangles_.size());
-    for (const Build::Item& item : build.items) in_order.push_back(triangles_[item.triangle]);
-    triangles_ = std::move(in_order);
-    for (const Node& node : nodes_) {  // the order inside a leaf must not depend on std::partition
-        std::sort(triangles_.begin() + node.first, triangles_.begin() + node.first + node.count,
-                  [](const Corners& a, const Corners& b) { return a.face < b.face; });
-    }
+    refit_nodes();
 }
 
 void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
@@ -183,17 +238,31 @@ void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> tr
         const auto [a, b, c] = triangles[t.face];
         t.a = positions[a], t.b = positions[b], t.c = positions[c];
     }
-    for (std::size_t i = nodes_.size(); i-- > 0;) {  // children come after their parents
-        Node& node = nodes_[i];
-        Box box;
-        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-            for (const Vector3& p : {triangles_[k].a, triangles_[k].b, triangles_[k].c}) box.add(p);
+    refit_nodes();
+}
+
+void Bvh::refit_nodes() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
+        Node& node = nodes_[n];
+        for (std::size_t i = 0; i < 3; ++i) node.low[i].fill(infinity), node.high[i].fill(-infinity);
+        for (std::uint32_t k = 0; k < node.count; ++k) {
+            if (node.child[k] & leaf_bit) {
+                const Corners& t = triangles_[node.child[k] & ~leaf_bit];
+                Box box;
+                for (const Vector3& p : {t.a, t.b, t.c}) box.add(frame_(p));
+                for (int i = 0; i < 3; ++i) {
+                    node.low[static_cast<std::size_t>(i)][k] = below(box.low[i]);
+                    node.high[static_cast<std::size_t>(i)][k] = above(box.high[i]);
+                }
+            } else {
+                const Node& child = nodes_[node.child[k]];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    node.low[i][k] = child.low[i].minCoeff();
+                    node.high[i][k] = child.high[i].maxCoeff();
+                }
+            }
         }
-        if (node.count == 0) {
-            for (const Node& child : {nodes_[i + 1], nodes_[node.first]}) box.add(Box{child.low, child.high});
-        }
-        node.low = box.low;
-        node.high = box.high;
     }
 }
 

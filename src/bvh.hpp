@@ -15,13 +15,15 @@
 
 namespace faqem::detail {
 
-/// Binary tree of axis-aligned boxes over triangles, in double. Queries may come from several threads at
-/// once. Depends on nothing but the mesh: same input, same tree.
+/// Tree of axis-aligned boxes over triangles, four children to a node. The boxes are in single precision and
+/// only ever too large; distances are in double, so that answers are exact but for double's rounding. Queries
+/// may come from several threads at once. Depends on nothing but the mesh: same input, same tree.
 class Bvh {
 public:
     /// \param positions  finite
     /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without
     ///                   area count as the segment or point that they are.
+    /// \pre fewer than 2^31 triangles
     /// Keeps copies. O(n log n) time, about 140 bytes per face.
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
@@ -74,58 +76,94 @@ public:
 
 private:
     using Vector3 = engine::Vector3;
+    static constexpr int width = 4;
+    using Lanes = Eigen::Array<float, width, 1>;
+
+    /// Where single precision is good enough: the whole mesh is about [-1, 1]^3. Both steps are monotone.
+    struct Frame {
+        Vector3 centre = Vector3::Zero();
+        double scale = 1;
+        Vector3 operator()(const Vector3& p) const { return (p - centre) * scale; }
+    };
+
+    /// A query in the frame, as an interval that has it for certain.
+    struct Query {
+        Query(const Vector3& p, const Frame& frame);
+        std::array<float, 3> low, high;
+    };
+
+    /// The boxes of up to four children, rounded outwards.
     struct Node {
-        Vector3 low, high;
-        std::uint32_t first = 0;  ///< leaf: first of `triangles_`; inner: right child (the left one is next)
-        std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
-        double distance_squared(const Vector3& p) const {
-            return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+        std::array<Lanes, 3> low, high;
+        std::array<std::uint32_t, width> child = {};  ///< a node, or with `leaf_bit` one of `triangles_`
+        std::uint32_t count = 0;                      ///< of children
+        /// Of the children's boxes from p; less by rounding, but never more.
+        Lanes distance_squared(const Query& p) const {
+            Lanes sum = Lanes::Zero();
+            for (std::size_t i = 0; i < 3; ++i) {
+                sum += (low[i] - p.high[i]).max(p.low[i] - high[i]).max(0.0f).square();
+            }
+            return sum * (1 - 1e-6f);
         }
     };
     struct Corners {
         Vector3 a, b, c;
         Index face = no_index;
     };
+    struct Pending {
+        std::uint32_t child;
+        float distance_squared;
+    };
+    static constexpr std::uint32_t leaf_bit = 1u << 31;
+    /// Splits halve the range from `sah_levels` on, so that no tree is deeper.
+    static constexpr std::size_t sah_levels = 48, max_depth = sah_levels + 32;
+
     template <class Positions>
     static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles);
-    struct Pending {
-        std::uint32_t node;
-        double distance_squared;
-    };
-    /// Splits halve the range from `sah_levels` on, so that no tree over 2^32 faces is deeper.
-    static constexpr int sah_levels = 48, max_depth = sah_levels + 34;
 
     struct Build;
 
     explicit Bvh(std::vector<Corners> triangles);
+    void refit_nodes();
 
-    /// Visits leaves' triangles, nearest box first, while their box is within limit() of p.
+    /// A squared distance in the frame, rounded up.
+    float limit_in_frame(double distance_squared) const;
+
+    /// Visits triangles, nearest box first, while their box is within limit() of p.
     template <class Limit, class Leaf>
     void traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const;
 
-    std::vector<Corners> triangles_;  ///< in leaf order
+    Frame frame_;
+    std::vector<Corners> triangles_;  ///< those of a node lie together
     std::vector<Node> nodes_;
 };
 
 template <class Limit, class Leaf>
 void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
     if (nodes_.empty()) return;
-    std::array<Pending, max_depth + 2> stack;
+    const Query query(p, frame_);
+    std::array<Pending, (width - 1) * max_depth + 1> stack;
     std::size_t size = 0;
-    stack[size++] = {0, nodes_[0].distance_squared(p)};
+    stack[size++] = {0, 0};
+    float bound = limit_in_frame(limit());
     while (size > 0) {
         const Pending top = stack[--size];
-        if (!(top.distance_squared <= limit())) continue;
-        const Node& node = nodes_[top.node];
-        if (node.count > 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) leaf(triangles_[i]);
+        if (!(top.distance_squared <= bound)) continue;
+        if (top.child & leaf_bit) {
+            leaf(triangles_[top.child & ~leaf_bit]);
+            bound = limit_in_frame(limit());
             continue;
         }
-        Pending near{top.node + 1, nodes_[top.node + 1].distance_squared(p)};
-        Pending far{node.first, nodes_[node.first].distance_squared(p)};
-        if (far.distance_squared < near.distance_squared) std::swap(near, far);
-        if (far.distance_squared <= limit()) stack[size++] = far;
-        if (near.distance_squared <= limit()) stack[size++] = near;
+        const Node& node = nodes_[top.child];
+        const Lanes distances = node.distance_squared(query);
+        const std::size_t first = size;
+        for (std::uint32_t k = 0; k < node.count; ++k) {
+            const float distance = distances[k];
+            if (!(distance <= bound)) continue;
+            std::size_t at = size++;
+            for (; at > first && stack[at - 1].distance_squared < distance; --at) stack[at] = stack[at - 1];
+            stack[at] = {node.child[k], distance};
+        }
     }
 }
 
