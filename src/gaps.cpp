@@ -35,16 +35,6 @@ std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, s
 
 }  // namespace
 
-std::vector<Vector3> unit_normals(const Patchwork& mesh) {
-    std::vector<Vector3> normals;
-    normals.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
-                                           : area_vector(mesh.positions, t).normalized());
-    }
-    return normals;
-}
-
 void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t threads) {
     const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     positions_.assign(positions.begin(), positions.end());

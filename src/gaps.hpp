@@ -14,9 +14,6 @@
 
 namespace faqem::detail {
 
-/// Unit normal of each triangle; zero where it has no area, or is none.
-std::vector<engine::Vector3> unit_normals(const Patchwork& mesh);
-
 /// A surface that stays, with what is asked of it again and again. Refers to its arguments.
 struct StillSurface {
     explicit StillSurface(const Patchwork& surface)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit.hpp"
+#include "fold_guard.hpp"
 #include "gaps.hpp"
 #include "spots.hpp"
 
@@ -29,6 +30,8 @@ constexpr double least_turn_counted = 0.005;
 constexpr double tie_tolerance = 1e-9;
 /// A face may not shrink below this share of its area.
 constexpr double least_area = 0.05;
+/// The relaxation may not fold the surface at an edge: cosine between the normals.
+constexpr double least_fold = -0.9;
 /// Times that a step is halved where faces turn too far, before it is left out there.
 constexpr int halvings = 6;
 /// Times that far points are put back before all of them are.
@@ -67,6 +70,7 @@ public:
           original_(original),
           start_(light.positions.begin(), light.positions.end()),
           positions_(start_),
+          guard_(light, least_fold),
           fixed_(on_border(light.triangles, start_.size())),
           there_(original_, light.triangles, spots(light)),
           back_(even_points(), light.triangles),
@@ -188,27 +192,39 @@ private:
         }
     }
 
-    /// Takes the steps, shorter where a face would turn too far from where it was at the start.
+    /// Takes the steps, shorter where a face would turn too far from where it was at the start, or the
+    /// surface would fold.
     void move(std::vector<Vector3> step) {
         for (std::size_t v = 0; v < step.size(); ++v) {
             if (fixed_[v] || !step[v].allFinite()) step[v] = Vector3::Zero();
         }
+        std::vector<Vector3> to(positions_.size());
         bool all_good = false;
         for (int round = 0; !all_good; ++round) {
+            for (std::size_t v = 0; v < step.size(); ++v) to[v] = positions_[v] + step[v];
             all_good = true;
-            for (const Triangle& t : light_.triangles) {
-                if (t[0] == no_index || keeps_its_side(t, step)) continue;
-                all_good = false;
-                for (const Index v : t) step[v] *= round < halvings ? 0.5 : 0.0;
-            }
+            for_each_bad_face(to, [&](const Triangle& t) {
+                for (const Index v : t) {
+                    if (step[v].isZero(0)) continue;
+                    step[v] *= round < halvings ? 0.5 : 0.0;
+                    all_good = false;
+                }
+            });
         }
-        for (std::size_t v = 0; v < step.size(); ++v) positions_[v] += step[v];
+        positions_ = std::move(to);
     }
 
-    bool keeps_its_side(const Triangle& t, std::span<const Vector3> step) const {
-        const Vector3 before = area_vector(start_, t);
-        const Vector3 after = engine::area_vector(
-            positions_[t[0]] + step[t[0]], positions_[t[1]] + step[t[1]], positions_[t[2]] + step[t[2]]);
+    /// Faces that have turned too far, or look away from a neighbour that they did not look away from.
+    template <class Visit>
+    void for_each_bad_face(std::span<const Vector3> positions, Visit&& visit) const {
+        for (const Triangle& t : light_.triangles) {
+            if (t[0] != no_index && !keeps_its_side(t, positions)) visit(t);
+        }
+        guard_.for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
+    }
+
+    bool keeps_its_side(const Triangle& t, std::span<const Vector3> positions) const {
+        const Vector3 before = area_vector(start_, t), after = area_vector(positions, t);
         const double old_norm = before.norm(), new_norm = after.norm();
         return new_norm >= least_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
     }
@@ -276,12 +292,9 @@ private:
             if (around[v].is_worse_than(before_around[v])) any |= put_back(v);
         }
         // A face with some of its corners back may have turned: then all of them go back.
-        const std::vector<Vector3> nowhere(positions_.size(), Vector3::Zero());
         for (bool turned = any; turned;) {
             turned = false;
-            for (const Triangle& t : light_.triangles) {
-                if (t[0] != no_index && !keeps_its_side(t, nowhere)) turned |= put_back(t);
-            }
+            for_each_bad_face(positions_, [&](const Triangle& t) { turned |= put_back(t); });
         }
         return any;
     }
@@ -303,6 +316,7 @@ private:
     std::uint32_t threads_;
     StillSurface original_;
     std::vector<Vector3> start_, positions_;
+    FoldGuard guard_;
     std::vector<std::uint8_t> fixed_;
     GapsThere there_;
     GapsBack back_;          // from points spread by area: they pull, and say how well the faces fit

@@ -23,6 +23,16 @@ Vec3 even_weight(std::size_t k) {
 
 }  // namespace
 
+std::vector<Vector3> unit_normals(const Patchwork& mesh) {
+    std::vector<Vector3> normals;
+    normals.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
+                                           : area_vector(mesh.positions, t).normalized());
+    }
+    return normals;
+}
+
 std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count) {
     std::vector<double> area_up_to;
     double area = 0;

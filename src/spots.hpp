@@ -22,6 +22,9 @@ inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, c
     return engine::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
+/// Unit normal of each triangle; zero where it has no area, or is none.
+std::vector<engine::Vector3> unit_normals(const Patchwork& mesh);
+
 /// A point of a face.
 struct Spot {
     Index face = no_index;
