@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "disjoint_sets.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/engine/disjoint_sets.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/error.hpp"
 
@@ -84,7 +84,7 @@ std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) 
 }
 
 std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
-    detail::DisjointSets joined(used.size());
+    engine::DisjointSets joined(used.size());
     for (const Triangle& t : faces) {
         for (const Index v : {t[1], t[2]}) joined.join(t[0], v);
     }

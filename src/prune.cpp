@@ -1,6 +1,6 @@
 #include "prune.hpp"
 
-#include "disjoint_sets.hpp"
+#include "faqem/engine/disjoint_sets.hpp"
 #include "faqem/engine/vector.hpp"
 
 namespace faqem::detail {
@@ -18,7 +18,7 @@ double half_diagonal(const Box& box) { return (0.5 * box.max() - 0.5 * box.min()
 
 Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
              std::vector<Triangle>& triangles) {
-    DisjointSets joined(positions.size());
+    engine::DisjointSets joined(positions.size());
     Box all;
     for (const Triangle& t : triangles) {
         if (t == no_face) continue;

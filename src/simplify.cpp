@@ -201,6 +201,9 @@ private:
                      detail::faces_wanted(options_.target, static_cast<double>(mesh_.triangles.size())));
         loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
         loop.rules = {settings_.link, settings_.least_turn, least_length, settings_.least_fold};
+        loop.distance_weight = settings_.carry == detail::Settings::Carry::memory
+                                   ? 0
+                                   : complex.area() / static_cast<double>(loop.target_faces);
         loop.tiny_component = 0.02 * settings_.diagonal;
         if (options_.progress) {
             loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };

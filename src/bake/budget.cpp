@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "disjoint_sets.hpp"
+#include "faqem/engine/disjoint_sets.hpp"
 #include "faqem/engine/weld.hpp"
 #include "target.hpp"
 
@@ -17,7 +17,7 @@ std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[
 // The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
 std::uint64_t faces_of_components(const Part& part) {
     const std::vector<Index> welded = engine::weld_exact(part.positions);
-    DisjointSets joined(welded.size());
+    engine::DisjointSets joined(welded.size());
     for (const Triangle& t : part.triangles) {
         for (const Index v : {t[1], t[2]}) joined.join(welded[t[0]], welded[v]);
     }

@@ -1,9 +1,9 @@
-#include "disjoint_sets.hpp"
+#include "faqem/engine/disjoint_sets.hpp"
 
 #include <catch2/catch.hpp>
 
 using faqem::Index;
-using faqem::detail::DisjointSets;
+using faqem::engine::DisjointSets;
 
 TEST_CASE("disjoint sets: each starts alone and is known by its smallest member") {
     DisjointSets sets(5);

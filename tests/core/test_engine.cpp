@@ -52,11 +52,13 @@ struct Play {
           metric(std::move(m)),
           recorder(complex) {}
 
-    const LoopResult& run(std::size_t target, const Rules& rules, double tiny = 0) {
+    const LoopResult& run(std::size_t target, const Rules& rules, double tiny = 0,
+                          double distance_weight = 0) {
         LoopOptions options;
         options.target_faces = target;
         options.rules = rules;
         options.tiny_component = tiny;
+        options.distance_weight = distance_weight;
         Engine<Metric, HeapQueue, HistoryRecorder> engine(complex, pairs, wedges, locked, metric, recorder);
         return result = engine.run(options);
     }
@@ -185,7 +187,7 @@ namespace {
 // As Script, but some pairs turn out dearer when it comes to it.
 struct Surprise : Script {
     std::map<Ends, double> real;
-    double refine(const Complex&, Index u, Index v, const Candidate& candidate) {
+    double refine(const Complex&, const PairTable&, Index u, Index v, const Candidate& candidate) {
         const auto at = real.find(ends(u, v));
         return at == real.end() ? candidate.cost : at->second;
     }
@@ -251,14 +253,14 @@ namespace {
 // What the mesh of vertices 0 to 4 offers comes after so many collapses of the squares beside it, whose costs
 // are 1, 2, 3 and 4; its own is 0.
 std::size_t squares_before(TriangleMesh mesh, Script script, std::size_t target, const Rules& rules,
-                           Rung rung) {
+                           Rung rung, double distance_weight = 0) {
     for (Index i = 0; i < 4; ++i) {
         const Index first = 5 + 4 * i;
         mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
         script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
     }
     Play<Script> play(mesh, script);
-    play.run(target, rules);
+    play.run(target, rules, 0, distance_weight);
     const CollapseHistory history = play.recorder.take();
     const auto is_own = [](const Collapse& c) { return std::max(c.first, c.second) <= 4; };
     const auto found = std::find_if(history.collapses.begin(), history.collapses.end(), is_own);
@@ -292,17 +294,22 @@ TEST_CASE("by size, a fold is put off until collapses cost more than the pair's 
     //   0---1
     //    \ / \    nearly upon the face 0 1 2.
     //     3---4
-    const auto order_of_flap = [](double length, LinkCondition link) {
+    const auto order_of_flap = [](double length, LinkCondition link, double distance_weight = 0) {
         const TriangleMesh flap = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
                                              {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});
         Script script;
         script.offers[{3, 4}] = {0.5 * length, length, 0.1 * length};
-        return squares_before(test::scaled(flap, length), script, 6, {link, -1, 0, -0.9}, Rung::fold);
+        return squares_before(test::scaled(flap, length), script, 6, {link, -1, 0, -0.9}, Rung::fold,
+                              distance_weight);
     };
     CHECK(order_of_flap(0.5, LinkCondition::by_size) == 0);
     CHECK(order_of_flap(1.1, LinkCondition::off) == 1);
     CHECK(order_of_flap(1.3, LinkCondition::by_size) == 2);
     CHECK(order_of_flap(0.5, LinkCondition::on) == 4);
+    // The weight of distances, w, makes it wait for 2 w l^2, where that is more.
+    CHECK(order_of_flap(0.5, LinkCondition::by_size, 3) == 1);
+    CHECK(order_of_flap(0.5, LinkCondition::by_size, 5) == 2);
+    CHECK(order_of_flap(1.1, LinkCondition::by_size, 0.1) == 1);
 }
 
 TEST_CASE("a strict link condition is kept on every rung") {
@@ -399,4 +406,34 @@ TEST_CASE("the last faces are not collapsed away") {
     CHECK(result.stop == StopReason::no_legal_collapse);
     CHECK(play.complex.face_count() > 0);
     CHECK(refused(result, Refusal::last_faces) > 0);
+}
+
+TEST_CASE("the end of a border waits for its distance to the next one") {
+    // A ring between a triangle of side 4 and a hole 3 4 5 of side 1; squares beside it cost 0, 1 and 2.
+    //
+    //     5 is at (0, 0.5), 3 at (-0.5, -0.5), 4 at (0.5, -0.5); the outer corner nearest to 3 is sqrt(4.5)
+    //     away.
+    const TriangleMesh ring =
+        test::make({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}},
+                   {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
+    const auto order_of_hole = [&](double distance_weight) {
+        Script script;
+        script.offers[{3, 4}] = {0.1, -0.5, 0};
+        TriangleMesh mesh = ring;
+        for (Index i = 0; i < 3; ++i) {
+            const Index first = 6 + 4 * i;
+            mesh = test::both(mesh, test::moved(test::quad(), {100, 10.0 * i, 0}));
+            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+        }
+        Play<Script> play(mesh, script);
+        play.run(9, {LinkCondition::off, -1, 0, -1}, 0, distance_weight);
+        const CollapseHistory history = play.recorder.take();
+        std::size_t at = 0;
+        while (at < history.collapses.size() && history.collapses[at].first > 5) ++at;
+        return at;
+    };
+    // The script's costs are 0 for the hole, then 1, 2 and 3.
+    CHECK(order_of_hole(0) == 0);
+    CHECK(order_of_hole(1.5 / 4.5) == 1);
+    CHECK(order_of_hole(2.5 / 4.5) == 2);
 }

@@ -101,8 +101,8 @@ TEST_CASE("what refining finds is multiplied too and never falls below the first
     ImportanceMetric weighted(TrackedMetric({}, 80), weights);
     for_each_pair(complex, pairs, plain, weighted,
                   [&](Index u, Index v, const Candidate& a, const Candidate& b) {
-                      const double refined = weighted.refine(complex, u, v, b);
-                      CHECK(refined == Approx(3 * plain.refine(complex, u, v, a)));
+                      const double refined = weighted.refine(complex, pairs, u, v, b);
+                      CHECK(refined == Approx(3 * plain.refine(complex, pairs, u, v, a)));
                       CHECK(refined >= b.cost);
                   });
 }

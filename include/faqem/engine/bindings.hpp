@@ -34,6 +34,14 @@ public:
     /// The vertex `gone` of today becomes `survivor`. Before begin() only.
     void merge(Index survivor, Index gone) { into_[gone] = survivor; }
 
+    /// The vertex of today that v has gone into; shortens the way for the next one. Before begin() only.
+    Index into(Index v) {
+        Index today = v;
+        while (into_[today] != today) today = into_[today];
+        while (into_[v] != today) v = std::exchange(into_[v], today);
+        return today;
+    }
+
     /// Binds every original vertex to a face near it, as far as its lineage has faces. O(vertices), typically
     void begin(const Complex& complex) {
         first_.assign(complex.face_slots(), no_index);
@@ -72,14 +80,6 @@ public:
     }
 
 private:
-    // The vertex of today that v has gone into; shortens the way for the next one.
-    Index into(Index v) {
-        Index today = v;
-        while (into_[today] != today) today = into_[today];
-        while (into_[v] != today) v = std::exchange(into_[v], today);
-        return today;
-    }
-
     // Goes from the faces around `today` to nearer and nearer ones.
     static Index near_face(const Complex& complex, const Vector3& p, Index today) {
         Index best = no_index;

@@ -94,6 +94,15 @@ public:
         return engine::area_vector(position(t[0]), position(t[1]), position(t[2]));
     }
 
+    /// Area of all faces. O(faces)
+    double area() const {
+        double sum = 0;
+        for (Index f = 0; f < face_slots(); ++f) {
+            if (alive(f)) sum += 0.5 * area_vector(f).norm();
+        }
+        return sum;
+    }
+
     /// Moves `survivor` to `p` and gives it the faces of `gone`; faces with both vanish.
     /// \return number of faces that vanished
     std::size_t collapse(Index survivor, Index gone, const Vector3& p) {

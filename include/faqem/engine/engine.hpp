@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/border_loops.hpp"
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/components.hpp"
 #include "faqem/engine/group_curves.hpp"
@@ -37,6 +38,9 @@ namespace faqem::engine {
 struct LoopOptions {
     std::size_t target_faces = 4;
     Rules rules;
+    /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
+    /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
+    double distance_weight = 0;
     /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
     double tiny_component = 0;
     /// Called every few thousand steps with the share of faces removed; may be empty.
@@ -81,6 +85,8 @@ public:
     /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
+        distance_weight_ = options.distance_weight;
+        if (distance_weight_ > 0) borders_.emplace(complex_, pairs_);
         first_count_ = complex_.face_count();
         queue_.reserve(pairs_.size());
         metric_.initialise(complex_, pairs_);
@@ -171,8 +177,9 @@ private:
     // False: it may not be done. It need not be done yet, either.
     bool try_collapse(Index pair) {
         Index u = pairs_.first(pair), v = pairs_.second(pair);
-        const auto found = candidate(pair);
+        auto found = candidate(pair);
         if (!found) return false;
+        found->cost += border_cost(pair);
         if (postpone(pair, found->cost)) return true;
         if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces), false;
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules(pair))) {
@@ -182,7 +189,7 @@ private:
             return may_lift;
         }
         if constexpr (RefiningMetric<Metric>) {
-            if (postpone(pair, metric_.refine(complex_, u, v, *found))) return true;
+            if (postpone(pair, metric_.refine(complex_, pairs_, u, v, *found))) return true;
         }
         // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
         // a hub.
@@ -191,8 +198,22 @@ private:
         if (swap) std::swap(u, v);
         if (lifted_[pair] & link_bit) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
         if (lifted_[pair] & fold_bit) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
-        collapse(u, v, *found);
+        collapse(u, v, pair, *found);
         return true;
+    }
+
+    double border_cost(Index pair) {
+        if (!borders_) return 0;
+        const Index u = pairs_.first(pair), v = pairs_.second(pair);
+        return distance_weight_ * weight(u, v) * borders_->squared_distance(complex_, pairs_, u, v, pair);
+    }
+
+    double weight(Index u, Index v) const {
+        if constexpr (WeighingMetric<Metric>) {
+            return metric_.weight(u, v);
+        } else {
+            return 1;
+        }
     }
 
     Rules rules(Index pair) const {
@@ -209,15 +230,15 @@ private:
     }
 
     // What the link condition or the rule against folds protects at a pair is about as large as the pair:
-    // against it the surface moves by its length, over an area of its length squared. Where all other
-    // collapses cost more, it is lifted.
+    // against it the surface moves by its length, over an area of its length squared; a fold is seen beyond
+    // that. Where all other collapses cost more, it is lifted.
     void lift(Index pair, double cost, Refusal refusal) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
-        const double area = (complex_.position(u) - complex_.position(v)).squaredNorm();
-        double price = area * area;
-        if constexpr (WeighingMetric<Metric>) price *= metric_.weight(u, v);
+        const double square = (complex_.position(u) - complex_.position(v)).squaredNorm();
+        double area = square;
+        if (refusal == Refusal::fold) area = std::max(area, fold_factor * distance_weight_);
         lifted_[pair] |= refusal == Refusal::link ? link_bit : fold_bit;
-        queue_.set(pair, std::max(cost, price));
+        queue_.set(pair, std::max(cost, square * area * weight(u, v)));
         veto(pair);
     }
 
@@ -228,17 +249,19 @@ private:
         return true;
     }
 
-    void collapse(Index survivor, Index gone, const Candidate& to) {
+    void collapse(Index survivor, Index gone, Index pair, const Candidate& to) {
         const Vector3& p = to.point;
         recorder_.collapsing(complex_, survivor, gone, to);
         metric_.collapsing(complex_, pairs_, survivor, gone, p);
         wedges_.collapsing(complex_, survivor, gone, p);
         if (curves_) curves_->collapsing(survivor, gone);
+        if (borders_) borders_->collapsing(pairs_, survivor, gone, pair);
         complex_.collapse(survivor, gone, p);
         locked_[survivor] |= locked_[gone];
         killed_.clear();
         pairs_.merge(complex_, survivor, gone, killed_, changes_);
-        for (const Index pair : killed_) queue_.erase(pair);
+        for (const Index killed : killed_) queue_.erase(killed);
+        if (borders_) borders_->collapsed(complex_, pairs_, survivor);
         metric_.collapsed(complex_, pairs_, survivor, changes_);
         ++result_.collapses;
         for (const PairTable::Change& change : changes_) {
@@ -348,6 +371,7 @@ private:
 
     static constexpr std::uint64_t steps_between_polls = 1024;
     static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
+    static constexpr double fold_factor = 2;
 
     Complex& complex_;
     PairTable& pairs_;
@@ -357,6 +381,8 @@ private:
     Recorder& recorder_;
     GroupCurves* curves_;
     Legality legality_;
+    std::optional<BorderLoops> borders_;
+    double distance_weight_ = 0;
     Queue queue_;
     std::vector<std::uint8_t> has_vetoed_;  // of a vertex: some of its pairs may have been refused
     std::vector<std::uint8_t> lifted_;      // of a pair: bits of the rules that no longer hold it

@@ -34,10 +34,10 @@ public:
         return found;
     }
 
-    double refine(const Complex& complex, Index u, Index v,
+    double refine(const Complex& complex, const PairTable& pairs, Index u, Index v,
                   const Candidate& candidate) requires RefiningMetric<Inner> {
         const double w = weight(u, v);
-        const double cost = w * inner_.refine(complex, u, v, {candidate.point, candidate.cost / w});
+        const double cost = w * inner_.refine(complex, pairs, u, v, {candidate.point, candidate.cost / w});
         return std::max(candidate.cost, cost);
     }
 

@@ -45,9 +45,10 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Complex
 /// A metric whose costs come in two steps: evaluate() tells at least, refine() what it really is.
 template <class M>
 concept RefiningMetric = CollapseMetric<M> &&
-    requires(M metric, const Complex& complex, Index u, Index v, const Candidate& candidate) {
+    requires(M metric, const Complex& complex, const PairTable& pairs, Index u, Index v,
+             const Candidate& candidate) {
     // Cost of a candidate of evaluate(): not below candidate.cost.
-    { metric.refine(complex, u, v, candidate) } -> std::same_as<double>;
+    { metric.refine(complex, pairs, u, v, candidate) } -> std::same_as<double>;
 };
 
 /// A metric that counts the same error more in one place than in another.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "faqem/engine/bindings.hpp"
+#include "faqem/engine/border_bindings.hpp"
 #include "faqem/engine/distance.hpp"
 #include "faqem/engine/memoryless.hpp"
 
@@ -27,6 +28,9 @@ public:
     /// Tracking begins at this many times the target. At all sizes it costs four times as much, and gains
     /// next to nothing (docs/quality.md).
     static constexpr std::size_t begins_at = 4;
+    /// Squared distances of borders count so many times: outlines are seen first, and what is measured at the
+    /// original's border vertices is less than what is between them.
+    static constexpr double border_factor = 2;
 
     /// \param target_faces  the result's, > 0
     /// \param curves        as MemorylessMetric's
@@ -36,14 +40,11 @@ public:
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         planes_.initialise(complex, pairs);
-        double area = 0;
-        for (Index f = 0; f < complex.face_slots(); ++f) {
-            if (complex.alive(f)) area += 0.5 * complex.area_vector(f).norm();
-        }
-        weight_ = area / static_cast<double>(target_faces_);
+        weight_ = complex.area() / static_cast<double>(target_faces_);
         bindings_.emplace(complex);
+        border_.emplace(complex, pairs);
         is_tracking_ = false;
-        begin_if_time(complex);
+        begin_if_time(complex, pairs);
     }
 
     /// What the memoryless metric says: less than the cost will be.
@@ -53,17 +54,21 @@ public:
     }
 
     /// The whole cost. O(bound vertices times valence) at worst, one distance per bound vertex typically.
-    double refine(const Complex& complex, Index u, Index v, const Candidate& candidate) {
+    double refine(const Complex& complex, const PairTable& pairs, Index u, Index v,
+                  const Candidate& candidate) {
         if (!is_tracking_) return candidate.cost;
         look_ahead(complex, u, v, candidate.point);
         if (after_.empty()) return candidate.cost;
-        return candidate.cost + weight_ * std::max(forward(), backward(candidate.point));
+        const double border =
+            border_factor * border_->squared_distance(complex, pairs, u, v, candidate.point);
+        return candidate.cost + weight_ * std::max({forward(), backward(candidate.point), border});
     }
 
     void collapsing(const Complex& complex, const PairTable& pairs, Index survivor, Index gone,
                     const Vector3& p) {
         planes_.collapsing(complex, pairs, survivor, gone, p);
         if (!is_tracking_) return bindings_->merge(survivor, gone);
+        border_->collapsing(pairs, survivor, gone);
         bound_.clear();
         complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
@@ -74,7 +79,8 @@ public:
     void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
                    std::span<const PairTable::Change> around) {
         planes_.collapsed(complex, pairs, survivor, around);
-        if (!is_tracking_) return begin_if_time(complex);
+        if (!is_tracking_) return begin_if_time(complex, pairs);
+        border_->collapsed(complex, pairs, survivor, around);
         after_.clear();
         faces_.clear();
         complex.for_each_face(survivor, [&](Index f, unsigned) {
@@ -89,9 +95,10 @@ public:
     Staleness staleness(const PairTable::Change& change) const { return planes_.staleness(change); }
 
 private:
-    void begin_if_time(const Complex& complex) {
+    void begin_if_time(const Complex& complex, const PairTable& pairs) {
         if (complex.face_count() / begins_at > target_faces_) return;
         is_tracking_ = true;
+        border_->begin(complex, pairs, [&](Index v) { return bindings_->into(v); });
         bindings_->begin(complex);
     }
 
@@ -149,6 +156,7 @@ private:
 
     MemorylessMetric planes_;
     std::optional<Bindings> bindings_;
+    std::optional<BorderBindings> border_;
     std::size_t target_faces_;
     bool is_tracking_ = false;
     double weight_ = 0;

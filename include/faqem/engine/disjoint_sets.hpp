@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which vertices belong together, as pairs of them are joined.
+/// Which elements belong together, as pairs of them are joined.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,14 +9,20 @@
 
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+namespace faqem::engine {
 
 /// Disjoint sets of 0 .. size - 1, each known by its smallest member.
 class DisjointSets {
 public:
     /// Every member is a set of its own.
-    explicit DisjointSets(std::size_t size) : parent_(size) {
+    explicit DisjointSets(std::size_t size = 0) : parent_(size) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
+    }
+
+    /// One more, alone; returns it.
+    Index add() {
+        parent_.push_back(static_cast<Index>(parent_.size()));
+        return parent_.back();
     }
 
     /// The smallest member of v's set. O(log size) amortised
@@ -35,4 +41,4 @@ private:
     std::vector<Index> parent_;
 };
 
-}  // namespace faqem::detail
+}  // namespace faqem::engine

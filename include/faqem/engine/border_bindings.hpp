@@ -1,0 +1,174 @@
+#pragma once
+/// \file
+/// Which part of the original's border each open edge of today stands for.
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/complex.hpp"
+#include "faqem/engine/distance.hpp"
+#include "faqem/engine/open_edges.hpp"
+#include "faqem/engine/pairs.hpp"
+
+namespace faqem::engine {
+
+/// The vertices of the original's border, each bound to an open edge of today near it; those of a border that
+/// has come to its end are bound to none. Nothing is kept for a surface without border.
+class BorderBindings {
+public:
+    /// Remembers the border as it is now as the original's. O(vertices)
+    BorderBindings(const Complex& complex, const PairTable& pairs) {
+        for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            if (pairs.boundary_degree(v) == 0) continue;
+            Point point{complex.position(v), v, segments_.size()};
+            pairs.for_each_pair(v, [&](Neighbour n) {
+                if (pairs.face_count(n.pair) == 1) segments_.push_back(complex.position(n.vertex));
+            });
+            points_.push_back(point);
+        }
+    }
+
+    /// Binds every point to an open edge near it.
+    /// \param into  vertex of today that a vertex has gone into
+    /// O(vertices), typically
+    template <class Into>
+    void begin(const Complex& complex, const PairTable& pairs, Into&& into) {
+        if (points_.empty()) return;
+        first_.assign(pairs.size(), no_index);
+        next_.assign(points_.size(), no_index);
+        for (Index i = 0; i < points_.size(); ++i) {
+            const Index pair = near_edge(complex, pairs, points_[i].position, into(points_[i].vertex));
+            if (pair != no_index) bind(i, pair);
+        }
+    }
+
+    /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
+    /// distance of what is bound around the pair from the open edges there would be, and of p from the
+    /// original border there. 0 where there is no border, or it comes to its end.
+    /// O(bound points times valence)
+    double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v,
+                            const Vector3& p) {
+        if (pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0) return 0;
+        gather(pairs, u, v);
+        edges_.clear();
+        for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
+            const Vector3& end = complex.position(edge.vertex);
+            edges_.emplace_back(p, end, end);
+        });
+        if (edges_.empty() || bound_.empty()) return 0;
+        double worst = 0, nearest_point = std::numeric_limits<double>::infinity();
+        Index nearest = no_index;
+        for (const Index i : bound_) {
+            worst = std::max(worst, edges_[nearest_edge(points_[i].position)](points_[i].position));
+            const double d = (points_[i].position - p).squaredNorm();
+            if (d < nearest_point) nearest_point = d, nearest = i;
+        }
+        return std::max(worst, squared_distance_around(nearest, p));
+    }
+
+    /// u and v are about to become one.
+    void collapsing(const PairTable& pairs, Index u, Index v) {
+        bound_.clear();
+        if (pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0) return;
+        gather(pairs, u, v);
+        for (const Index a : {u, v}) {
+            pairs.for_each_pair(a, [&](Neighbour n) {
+                if (pairs.face_count(n.pair) == 1) first_[n.pair] = no_index;
+            });
+        }
+    }
+
+    /// They have.
+    void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
+                   std::span<const PairTable::Change> around) {
+        if (bound_.empty()) return;
+        edges_.clear();
+        edge_pairs_.clear();
+        for (const PairTable::Change& change : around) {
+            const auto [n, pair] = change.neighbour;
+            if (pair == no_index || pairs.face_count(pair) != 1) continue;
+            edges_.emplace_back(complex.position(survivor), complex.position(n), complex.position(n));
+            edge_pairs_.push_back(pair);
+        }
+        if (edges_.empty()) return;
+        for (const Index i : bound_) bind(i, edge_pairs_[nearest_edge(points_[i].position)]);
+    }
+
+private:
+    struct Point {
+        Vector3 position;
+        Index vertex;
+        std::size_t first_segment;  ///< of the far ends of its original open edges
+    };
+
+    void bind(Index point, Index pair) {
+        next_[point] = first_[pair];
+        first_[pair] = point;
+    }
+
+    // What is bound to the open edges of u and v.
+    void gather(const PairTable& pairs, Index u, Index v) {
+        bound_.clear();
+        for (const Index a : {u, v}) {
+            pairs.for_each_pair(a, [&](Neighbour n) {
+                if (pairs.face_count(n.pair) != 1 || (a == v && n.vertex == u)) return;
+                for (Index i = first_[n.pair]; i != no_index; i = next_[i]) bound_.push_back(i);
+            });
+        }
+    }
+
+    std::size_t nearest_edge(const Vector3& x) const {
+        std::size_t at = 0;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < edges_.size(); ++k) {
+            const double d = edges_[k](x);
+            if (d < nearest) nearest = d, at = k;
+        }
+        return at;
+    }
+
+    double squared_distance_around(Index point, const Vector3& p) const {
+        const Vector3& x = points_[point].position;
+        const std::size_t end =
+            point + 1 < points_.size() ? points_[point + 1].first_segment : segments_.size();
+        double nearest = (x - p).squaredNorm();
+        for (std::size_t k = points_[point].first_segment; k < end; ++k) {
+            nearest = std::min(nearest, TriangleDistance(x, segments_[k], segments_[k])(p));
+        }
+        return nearest;
+    }
+
+    // Goes from the open edges at `today` to nearer and nearer ones; no_index where it has none.
+    static Index near_edge(const Complex& complex, const PairTable& pairs, const Vector3& x, Index today) {
+        Index best = no_index;
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto look_around = [&](Index v) {
+            const Index before = best;
+            pairs.for_each_pair(v, [&](Neighbour n) {
+                if (pairs.face_count(n.pair) != 1) return;
+                const double d = TriangleDistance(complex.position(v), complex.position(n.vertex),
+                                                  complex.position(n.vertex))(x);
+                if (d < nearest) nearest = d, best = n.pair;
+            });
+            return best != before;
+        };
+        for (bool nearer = look_around(today); nearer && nearest > 0;) {
+            const Index first = pairs.first(best), second = pairs.second(best);
+            nearer = look_around(first);
+            nearer |= look_around(second);
+        }
+        return best;
+    }
+
+    std::vector<Point> points_;
+    std::vector<Vector3> segments_;
+    std::vector<Index> first_, next_;      // lists of points bound to each pair
+    std::vector<Index> bound_;             // points around the pair in hand
+    std::vector<TriangleDistance> edges_;  // open edges there would be, or are
+    std::vector<Index> edge_pairs_;        // their pairs
+};
+
+}  // namespace faqem::engine

@@ -1,0 +1,90 @@
+#include "faqem/engine/border_bindings.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/meshes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+struct Bench {
+    explicit Bench(const TriangleMesh& mesh)
+        : complex(test::complex_of(mesh)), pairs(complex, {}), border(complex, pairs) {
+        border.begin(complex, pairs, [](Index v) { return v; });
+    }
+    double squared_distance(Index u, Index v, const Vector3& p) {
+        return border.squared_distance(complex, pairs, u, v, p);
+    }
+    void collapse(Index u, Index v, const Vector3& p) {
+        border.collapsing(pairs, u, v);
+        complex.collapse(u, v, p);
+        std::vector<Index> killed;
+        std::vector<PairTable::Change> changes;
+        pairs.merge(complex, u, v, killed, changes);
+        border.collapsed(complex, pairs, u, changes);
+    }
+
+    Complex complex;
+    PairTable pairs;
+    BorderBindings border;
+};
+
+// The unit square with its middle.
+//
+//     3---2
+//     | 4 |
+//     0---1
+const TriangleMesh square = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+
+}  // namespace
+
+TEST_CASE("border bindings: corners that are cut off are as far away as the cut") {
+    Bench bench(square);
+    CHECK(bench.squared_distance(0, 1, {0.5, 0, 0}) == Approx(0.2));  // of 0 from the side 3 (0.5, 0)
+    CHECK(bench.squared_distance(4, 0, {0.1, 0.1, 0}) == Approx(0.02));
+    CHECK(bench.squared_distance(4, 0, {0, 0, 0}) == 0);
+}
+
+TEST_CASE("border bindings: the new vertex may be far from the original border") {
+    Bench bench(square);
+    CHECK(bench.squared_distance(0, 1, {0.5, -2, 0}) == Approx(4));
+}
+
+TEST_CASE("border bindings: what is bound goes with the border from collapse to collapse") {
+    // The rim of a disc of 16 triangles; vertices 1, 2, 3 ... go into 1 one after the other.
+    Bench bench(test::fan(16));
+    double last = 0;
+    for (Index next = 2; next < 8; ++next) {
+        const Vector3 p = bench.complex.position(1);
+        const double distance = bench.squared_distance(1, next, p);
+        // The chord from 1 to next + 1 stands for an arc of `next` sides: it is farthest from its middle.
+        const double half = test::pi * next / 16;
+        const double height = 1 - std::cos(half);
+        CHECK(distance <= height * height * 1.0001);
+        CHECK(distance >= 0.7 * height * height);
+        CHECK(distance > last);
+        last = distance;
+        bench.collapse(1, next, p);
+    }
+}
+
+TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {
+    Bench inside(test::icosphere(1));
+    CHECK(inside.squared_distance(0, 12, {5, 5, 5}) == 0);
+    Bench triangle(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    CHECK(triangle.squared_distance(0, 1, {0.5, 0, 0}) == 0);
+}
+
+TEST_CASE("border bindings: a simplified disc keeps its rim as a polygon of equal sides would") {
+    const TriangleMesh disc = test::fan(128);
+    Options options;
+    options.target = faces(16);
+    const SimplifyResult result = simplify(disc.view(), options);
+    const double side_height = 1 - std::cos(test::pi / 16);
+    CHECK(compare(disc.view(), result.mesh.view()).hausdorff <= 2 * side_height);
+}
