@@ -31,7 +31,8 @@ struct LightAsset {
 /// the units of the scene: a part that the scene shows several times counts at its largest scale, one that it
 /// does not show as it is.
 ///
-/// \throws as simplify(const MeshView&, ...)
+/// \throws as simplify(const MeshView&, ...), and InputError naming the part or material where the asset's
+///         arrays and indices do not fit each other or a number is not finite
 SmallParts simplify_parts(const Asset& source, const Options& options);
 
 /// Stage two: gives the small parts normals, UVs, materials and images.

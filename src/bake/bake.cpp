@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "bake/check_asset.hpp"
 #include "bake/job.hpp"
 #include "faqem/error.hpp"
 
@@ -77,6 +78,7 @@ void bake_kind(BakeJob& job) {
 
 LightAsset bake_without_histories(const Asset& source, const SmallParts& small, const Options& options) {
     validate(options);
+    check_asset(source);
     check(source, small);
     BakeJob job{source, options, {}, {}, {}};
     job.result.report = small.report;

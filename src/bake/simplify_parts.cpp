@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bake/budget.hpp"
+#include "bake/check_asset.hpp"
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
 #include "bake/parts_within_error.hpp"
@@ -173,6 +174,7 @@ private:
 
 SmallParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
+    detail::check_asset(source);
     if (options.max_error) return detail::simplify_parts_within(source, options);
     return PartsRun(source, options)();
 }

@@ -284,3 +284,39 @@ TEST_CASE("the result of the whole way shows the source's colours") {
     CHECK(error / count < (options.bake.mapping == Mapping::projection ? 2.5 : 7.5));
     CHECK(light.report.seconds.bake > 0);
 }
+
+TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
+    const Asset good = test::textured_square(test::ramp(4));
+    REQUIRE_NOTHROW(simplify(good, {}));
+    const auto refused = [&](const std::function<void(Asset&, Part&)>& spoil, const std::string& why) {
+        Asset asset = good;
+        spoil(asset, asset.parts[0]);
+        for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
+            Options options;
+            options.bake.kind = kind;
+            CHECK_THROWS_WITH(simplify(asset, options), why);
+        }
+    };
+    const std::string part = "part 'square': ";
+    const float nan = std::nanf("");
+    refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range");
+    refused([](Asset&, Part& p) { p.uvs[0].pop_back(); }, part + "uvs 0: 3 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.normals.resize(5); },
+            part + "normals: 5 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.joints.resize(1); }, part + "joints: 1 entries, there are 4 vertices");
+    refused(
+        [](Asset&, Part& p) {
+            p.morph_targets.push_back({{{0, 0, 0}}, {}});
+        },
+        part + "positions of a morph target: 1 entries, there are 4 vertices");
+    refused([&](Asset&, Part& p) { p.uvs[0][2][1] = nan; }, part + "uvs 0, vertex 2: is not finite");
+    refused([&](Asset&, Part& p) { p.positions[3][0] = nan; }, part + "positions, vertex 3: is not finite");
+    refused([](Asset&, Part& p) { p.face_material.pop_back(); },
+            part + "face_material: needs one entry per face or none");
+    refused([](Asset&, Part& p) { p.face_material[1] = 7; }, part + "face 1: material index out of range");
+    refused([](Asset& a, Part&) { a.images.clear(); }, "material 'paint': image index out of range");
+    refused([&](Asset& a, Part&) { a.materials[0].base_color_texture.rotation = nan; },
+            "material 'paint': the transform of a texture is not finite");
+    refused([&](Asset& a, Part&) { a.materials[0].roughness = nan; },
+            "material 'paint': a factor is not finite");
+}
