@@ -41,7 +41,7 @@ Vec3f transformed_normal(const std::array<Vec3, 3>& cofactor, double sign, const
     for (std::size_t r = 0; r < 3; ++r)
         q[r] = sign * (cofactor[r][0] * n[0] + cofactor[r][1] * n[1] + cofactor[r][2] * n[2]);
     const double length = std::hypot(q[0], q[1], q[2]);
-    if (!(length > 0)) return {0, 0, 0};
+    if (!(length > 0 && std::isfinite(length))) return {0, 0, 0};
     return {static_cast<float>(q[0] / length), static_cast<float>(q[1] / length),
             static_cast<float>(q[2] / length)};
 }

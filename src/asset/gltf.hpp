@@ -2,7 +2,9 @@
 /// \file
 /// glTF 2.0: .glb and .gltf.
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@ namespace faqem::detail {
 /// Reads a GLB or a JSON glTF, told apart by content. One part per mesh, in the meshes' order.
 /// \throws ReadError, InputError, UnsupportedError
 Asset read_gltf(const std::filesystem::path& file);
+
+/// The same for bytes in memory. \param file  for messages; its folder is searched for buffers and images
+Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Writes a GLB, or for names that end in .gltf the JSON with NAME.bin and NAME_0.png ... beside it.
 /// The same asset gives the same bytes. \return what could not be kept, one sentence each

@@ -197,11 +197,10 @@ Json parse_json(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-LoadedGltf load_gltf(const fs::path& file) {
+LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) {
     LoadedGltf loaded;
     loaded.file = file.string();
     loaded.source = std::make_shared<SourceDocument>();
-    const std::vector<std::uint8_t> bytes = read_file(file);
     const GltfFrame frame = split_gltf(bytes, loaded.file, loaded.warnings);
     loaded.source->document = parse_json(frame.json, loaded.file);
     const Json& document = loaded.source->document;

@@ -5,8 +5,10 @@
 
 #include <tiny_gltf.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,9 @@ struct LoadedGltf {
     std::vector<std::string> warnings;
 };
 
+/// \param bytes  of the file
+/// \param file   for messages; its folder is searched for buffers and images
 /// \throws ReadError, InputError, UnsupportedError
-LoadedGltf load_gltf(const std::filesystem::path& file);
+LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

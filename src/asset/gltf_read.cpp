@@ -1,5 +1,9 @@
 #include "asset/gltf_read.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "asset/file.hpp"
 #include "asset/gltf.hpp"
 #include "faqem/error.hpp"
 
@@ -37,10 +41,31 @@ void share_images(Asset& asset, const SourceDocument& source) {
             if (*ref) ref->image = shared[ref->image];
 }
 
+/// Everything in the scene must be at a place that doubles can say, so that it can be flattened and measured.
+void check_places(const Asset& asset, const std::string& file) {
+    std::vector<double> reach(asset.parts.size(), 0);  // largest coordinate of each part
+    for (std::size_t p = 0; p < reach.size(); ++p)
+        for (const Vec3& position : asset.parts[p].positions)
+            for (const double x : position) reach[p] = std::max(reach[p], std::abs(x));
+    for (const Instance& instance : instances(asset)) {
+        const auto& m = instance.transform;
+        for (std::size_t r = 0; r < 3; ++r) {
+            const double farthest = (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) *
+                                        std::max(reach[instance.part], 1.0) +
+                                    std::abs(m[12 + r]);
+            if (!std::isfinite(farthest))
+                throw InputError(file, step("/meshes", asset.parts[instance.part].source),
+                                 "a node places it beyond the range of numbers");
+        }
+    }
+}
+
 }  // namespace
 
-Asset read_gltf(const std::filesystem::path& file) {
-    LoadedGltf loaded = load_gltf(file);
+Asset read_gltf(const std::filesystem::path& file) { return read_gltf(read_file(file), file); }
+
+Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
+    LoadedGltf loaded = load_gltf(bytes, file);
     Asset asset;
     loaded.source->materials = read_materials(loaded);
     asset.materials = loaded.source->materials;
@@ -55,6 +80,7 @@ Asset read_gltf(const std::filesystem::path& file) {
         throw InputError(loaded.file, "/meshes", "all faces have a position that is not finite");
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
+    check_places(asset, loaded.file);
     return asset;
 }
 

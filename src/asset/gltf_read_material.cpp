@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "asset/gltf_read.hpp"
+#include "asset/repair.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -83,6 +85,29 @@ Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
     return material;
 }
 
+/// Numbers too large for a float become what they are where nothing is said. \return how many
+std::uint64_t reset_infinite(Material& material) {
+    const Material standard;
+    std::uint64_t count = 0;
+    const auto reset = [&count](float& value, float fallback) {
+        if (std::isfinite(value)) return;
+        value = fallback;
+        ++count;
+    };
+    for (std::size_t i = 0; i < 4; ++i) reset(material.base_color[i], standard.base_color[i]);
+    for (std::size_t i = 0; i < 3; ++i) reset(material.emissive[i], standard.emissive[i]);
+    reset(material.metallic, standard.metallic);
+    reset(material.roughness, standard.roughness);
+    reset(material.normal_scale, standard.normal_scale);
+    reset(material.occlusion_strength, standard.occlusion_strength);
+    reset(material.alpha_cutoff, standard.alpha_cutoff);
+    for (TextureRef* ref : texture_slots(material)) {
+        for (std::size_t i = 0; i < 2; ++i) reset(ref->offset[i], 0), reset(ref->scale[i], 1);
+        reset(ref->rotation, 0);
+    }
+    return count;
+}
+
 }  // namespace
 
 std::vector<Material> read_materials(LoadedGltf& loaded) {
@@ -90,6 +115,9 @@ std::vector<Material> read_materials(LoadedGltf& loaded) {
     for (const tinygltf::Material& from : loaded.model.materials) {
         Material material = read_material(loaded, from);
         material.source = static_cast<Index>(materials.size());
+        if (const std::uint64_t count = reset_infinite(material); count != 0)
+            loaded.warnings.push_back(step("/materials", materials.size()) + ": " + counted(count, "number") +
+                                      " too large for a float: reset");
         if (from.extensions.count("KHR_materials_pbrSpecularGlossiness") != 0)
             loaded.warnings.push_back(
                 step("/materials", materials.size()) +

@@ -314,3 +314,20 @@ TEST_CASE("meshes of points and lines are parts without triangles") {
     CHECK(only_part(asset).triangles.empty());
     CHECK(asset.warnings.empty());
 }
+
+TEST_CASE("numbers of materials that are too large for a float are reset and counted") {
+    GltfBuilder builder = square_gltf();
+    const auto view = builder.view(small_png().encoded);
+    builder.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+    builder.json["textures"] = Json::parse(R"([{"source":0}])");
+    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorFactor":[1e39,0.5,1,1],
+        "baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":
+        {"offset":[0,-1e39],"scale":[2,2]}}}},"emissiveFactor":[0,1e300,0]}])");
+    const Asset asset = load_glb(builder);
+    CHECK(any_contains(asset.warnings, "/materials/0: 3 numbers too large for a float: reset"));
+    const Material& material = asset.materials.at(0);
+    CHECK(material.base_color == Vec4f{1, 0.5f, 1, 1});
+    CHECK(material.emissive == Vec3f{0, 0, 0});
+    CHECK(material.base_color_texture.offset == Vec2f{0, 0});
+    CHECK(material.base_color_texture.scale == Vec2f{2, 2});
+}
