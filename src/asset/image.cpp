@@ -36,8 +36,10 @@ constexpr std::uint64_t max_decoded_bytes = std::uint64_t{1} << 30;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+std::string title(const Image& image) { return image.name.empty() ? "image" : "image '" + image.name + "'"; }
+
 [[noreturn]] void fail(const Image& image, const std::string& what) {
-    throw InputError(image.uri, "image '" + image.name + "'", what);
+    throw InputError(image.uri, title(image), what);
 }
 
 void check_size(const Image& image, const OIIO::ImageSpec& spec) {
@@ -47,6 +49,17 @@ void check_size(const Image& image, const OIIO::ImageSpec& spec) {
     if (!positive || width > max_side || height > max_side || width * height * 4 > max_decoded_bytes)
         fail(image, "is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
                         " pixels, at most 16384 x 16384 are read");
+}
+
+/// Deflate makes at most 1032 bytes of one (zlib, "Technical Details"). A PNG too short for its pixels is
+/// found out before there is memory for them.
+void check_png_length(const Image& image, const OIIO::ImageSpec& spec) {
+    const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    if (pixels * bits / 8 / 1032 > image.encoded.size())
+        fail(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
+                        std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
 }
 
 /// Spreads 1 to 4 channels to RGBA from the last pixel to the first, in place.
@@ -86,7 +99,7 @@ Pixels decode(const Image& image) {
     const std::string type = detail::sniff_mime_type(image.encoded);
     if (type != "image/png" && type != "image/jpeg")
         throw UnsupportedError(
-            image.uri, "image '" + image.name + "'",
+            image.uri, detail::title(image),
             type.empty() ? "is neither PNG nor JPEG" : type + " is not supported, only PNG and JPEG are");
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::string format = type.substr(6);
@@ -98,6 +111,7 @@ Pixels decode(const Image& image) {
     if (!input->open("memory." + format, spec, config))
         detail::fail(image, detail::first_line(input->geterror()));
     detail::check_size(image, spec);
+    if (format == "png") detail::check_png_length(image, spec);
 
     Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(spec.width);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bake/job.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/error.hpp"
 
@@ -30,6 +31,17 @@ double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t) {
 template <class V>
 double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std::size_t k) {
     return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];
+}
+
+/// The error says which material the image is for: images need not have names.
+Pixels decode_for(const Asset& asset, Index image, Index material) {
+    try {
+        return decode(asset.images[image]);
+    } catch (const UnsupportedError& error) {
+        throw UnsupportedError("", material_title(asset, material), error.what());
+    } catch (const InputError& error) {
+        throw InputError("", material_title(asset, material), error.what());
+    }
 }
 
 }  // namespace
@@ -67,7 +79,7 @@ SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding
     if (!use) return {};
     auto& image = images_[{use.image, encoding}];
     if (!image) {
-        Pixels pixels = decode(asset_.images[use.image]);
+        Pixels pixels = decode_for(asset_, use.image, material);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "its image has no pixels");
         }

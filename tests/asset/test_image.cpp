@@ -169,6 +169,13 @@ TEST_CASE("a PNG that claims to be huge is refused before its pixels are taken")
     CHECK(contains(message_of<InputError>([] { decode(image_of(png(16385, 1, 8, 0, ""))); }), "16385 x 1"));
 }
 
+TEST_CASE("a PNG too short for its pixels is refused before there is memory for them") {
+    const std::string message =
+        message_of<InputError>([] { decode(image_of(png(16384, 16384, 8, 6, std::string(1000, 'x')))); });
+    CHECK(contains(message, "image 'x'"));
+    CHECK(contains(message, "cannot hold 16384 x 16384 pixels"));
+}
+
 TEST_CASE("damaged images are errors") {
     const Image whole = encode_png(Pixels{64, 64, Bytes(64 * 64 * 4, 77), true}, "x");
     for (const std::size_t size : {std::size_t{8}, std::size_t{20}, whole.encoded.size() / 2}) {
