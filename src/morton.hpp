@@ -2,6 +2,7 @@
 /// \file
 /// A curve through space along which neighbours are near each other.
 
+#include <algorithm>
 #include <cstdint>
 
 #include "faqem/engine/vector.hpp"
@@ -22,11 +23,12 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
 template <int bits>
 std::uint64_t morton(const engine::Vector3& unit) {
     static_assert(0 < bits && bits <= 21);
-    constexpr double last = (1 << bits) - 1;
-    const engine::Vector3 cell = (unit * last).cwiseMax(0.0).cwiseMin(last);
-    return spread_bits(static_cast<std::uint64_t>(cell.x())) << 2 |
-           spread_bits(static_cast<std::uint64_t>(cell.y())) << 1 |
-           spread_bits(static_cast<std::uint64_t>(cell.z()));
+    static constexpr double last = (1 << bits) - 1;
+    // What is no number is where 0 is.
+    const auto cell = [](double x) {
+        return spread_bits(x > 0 ? static_cast<std::uint64_t>(std::min(x * last, last)) : 0);
+    };
+    return cell(unit.x()) << 2 | cell(unit.y()) << 1 | cell(unit.z());
 }
 
 }  // namespace faqem::detail

@@ -163,7 +163,8 @@ void drop_doubles(std::span<const Index> groups, Prepared& out) {
     }
 }
 
-// Box of the used vertices; halves are taken first, so that 1e308 does not overflow.
+// Box of the used vertices; quarters are taken first, so that not even the diagonal of the largest box
+// overflows.
 void find_scale(double wanted_diagonal, Prepared& out) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::infinity());
@@ -178,13 +179,13 @@ void find_scale(double wanted_diagonal, Prepared& out) {
         }
     }
     if (!(low[0] <= high[0])) return;
-    double half[3];
+    double quarter[3];
     for (std::size_t i = 0; i < 3; ++i) {
         out.centre[i] = 0.5 * low[i] + 0.5 * high[i];
-        half[i] = 0.5 * high[i] - 0.5 * low[i];
+        quarter[i] = 0.25 * high[i] - 0.25 * low[i];
     }
-    const double half_diagonal = std::hypot(half[0], half[1], half[2]);
-    const double scale = 0.5 * wanted_diagonal / half_diagonal;
+    const double quarter_diagonal = std::hypot(quarter[0], quarter[1], quarter[2]);
+    const double scale = 0.25 * wanted_diagonal / quarter_diagonal;
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
 

@@ -1,6 +1,8 @@
 #include "morton.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 
 using faqem::detail::morton;
 using faqem::detail::spread_bits;
@@ -24,4 +26,10 @@ TEST_CASE("morton: what lies outside the cube is drawn to its sides") {
     CHECK(morton<16>({-1, -1e300, -0.0}) == 0);
     CHECK(morton<16>({2, 1e300, 1}) == (std::uint64_t{1} << 48) - 1);
     CHECK(morton<21>({1, 1, 1}) == (std::uint64_t{1} << 63) - 1);
+}
+
+TEST_CASE("morton: what is no number is where 0 is") {
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    CHECK(morton<16>({nan, -nan, -infinity}) == 0);
+    CHECK(morton<16>({nan, 1, infinity}) == morton<16>({0, 1, 1}));
 }

@@ -85,6 +85,13 @@ TEST_CASE("a model without extent, and one near the largest double, have a scale
     const Prepared huge = prepare(test::moved(test::scaled(test::cube(), 1e308), {5e307, 0, 0}).view());
     CHECK(huge.centre == Vec3{1e308, 5e307, 5e307});
     CHECK(huge.scale == Approx(1 / (std::sqrt(3.0) * 1e308)));
+    // The diagonal of the largest box is above the largest double.
+    TriangleMesh largest = test::cube();
+    for (Vec3& p : largest.positions)
+        for (double& x : p)
+            x = x > 0 ? std::numeric_limits<double>::max() : -std::numeric_limits<double>::max();
+    for (const engine::Vector3& p : prepare(largest.view()).engine_positions())
+        CHECK(p.cwiseAbs().maxCoeff() == Approx(0.5 / std::sqrt(3.0)));
     CHECK(prepare({}).positions.empty());
 }
 
