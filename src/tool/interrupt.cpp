@@ -28,6 +28,9 @@ void handle_interrupts() {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    // A file above the limit of the shell (ulimit -f) is then a write that fails, not the end.
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &action, nullptr);
 }
 
 bool interrupted() { return signals != 0; }

@@ -5,7 +5,8 @@
 namespace faqem::tool {
 
 /// From now on a signal is noted, to be asked for with interrupted(). While nobody asks (see Unattended), or
-/// when it comes a second time, it removes temporary files and ends the process with exit code 8.
+/// when it comes a second time, it removes temporary files and ends the process with exit code 8. A file that
+/// grows above the shell's limit becomes a failed write.
 void handle_interrupts();
 
 bool interrupted();

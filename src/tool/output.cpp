@@ -25,6 +25,8 @@ void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Ove
     if (!fs::is_directory(folder, error))
         throw WriteError(file.string() + ": there is no folder " + folder.string());
     if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a folder");
+    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+        throw WriteError(file.string() + ": is not a regular file");
     if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
         throw WriteError(file.string() + ": exists; --force replaces it");
     }

@@ -11,7 +11,8 @@
 namespace faqem::tool {
 
 /// Makes sure that a file may be written: its folder is there and can be written to, it is none of the inputs
-/// (by inode, so that links do not hide it), and it does not exist unless that is allowed.
+/// (by inode, so that links do not hide it), it is no device or pipe, and it does not exist unless that is
+/// allowed.
 /// \throws OptionError  it is an input
 /// \throws WriteError   otherwise
 void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,

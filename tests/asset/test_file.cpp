@@ -185,6 +185,32 @@ TEST_CASE("a signal handler can remove the temporary file of a write under way",
     CHECK(WEXITSTATUS(status) == 0);
 }
 
+TEST_CASE("a process killed in the middle of a write leaves the old file whole", "[file]") {
+    const TemporaryFolder folder;
+    put(folder / "a", "old");
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        // The write is larger than the limit: the signal comes when a part of the file is written.
+        std::signal(SIGXFSZ, [](int) { ::kill(::getpid(), SIGKILL); });
+        const struct rlimit limit = {1000, 1000};
+        if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(2);
+        try {
+            write_file(folder / "a", bytes_of(std::string(5000, 'x')), Overwrite::yes);
+        } catch (...) {
+        }
+        ::_exit(3);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFSIGNALED(status));
+    CHECK(get(folder / "a") == "old");
+    // What is left of the new one has another name, and does not stand in the way of the next write.
+    CHECK(files_in(folder) == 2);
+    write_file(folder / "a", bytes_of("new"), Overwrite::yes);
+    CHECK(get(folder / "a") == "new");
+}
+
 TEST_CASE("references are found inside the folder", "[file]") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "sub dir");
