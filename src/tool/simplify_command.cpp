@@ -18,6 +18,7 @@
 #include "tool/interrupt.hpp"
 #include "tool/output.hpp"
 #include "tool/progress_bar.hpp"
+#include "tool/strict.hpp"
 
 namespace faqem::tool {
 
@@ -70,7 +71,7 @@ struct Arguments {
     std::optional<double> ratio;
     std::uint64_t faces = 0;
     bool link = false, lock_border = false, keep_groups = false;
-    bool strict_target = false, force = false, quiet = false;
+    bool strict = false, strict_target = false, force = false, quiet = false;
     Options options;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -156,15 +157,28 @@ void print_summary(const Arguments& arguments, const Report& report) {
     std::cout << out.str();
 }
 
-Asset load_input(const std::string& file, PhaseSeconds& seconds) {
+Asset load_input(const Arguments& arguments, PhaseSeconds& seconds) {
     const Unattended unattended;
     const Stopwatch watch;
+    const std::string& file = arguments.in;
     Asset asset = load(file);
     seconds.load = watch.seconds();
     std::uint64_t faces = 0;
     for (const Part& part : asset.parts) faces += part.triangles.size();
     if (faces == 0) throw InputError(file, "", "has no triangles");
+    if (arguments.strict) require_clean(asset, file);
     return asset;
+}
+
+/// What is wrong with an asset is said with the name of its file.
+LightAsset simplify_input(const Asset& source, const Arguments& arguments, const Options& options) {
+    try {
+        return simplify(source, options);
+    } catch (const UnsupportedError& error) {
+        throw UnsupportedError(arguments.in, "", error.what());
+    } catch (const InputError& error) {
+        throw InputError(arguments.in, "", error.what());
+    }
 }
 
 int cancelled() {
@@ -215,8 +229,8 @@ int run(const Arguments& arguments) {
         };
         PhaseSeconds seconds;
         bar.show(Phase::load, 0);
-        const Asset source = load_input(arguments.in, seconds);
-        light = simplify(source, options);
+        const Asset source = load_input(arguments, seconds);
+        light = simplify_input(source, arguments, options);
         light.report.seconds.load = seconds.load;
         light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
                                      source.warnings.end());
@@ -294,6 +308,9 @@ void add_run_options(CLI::App& command, Arguments& a) {
         ->check(CLI::Range(0, 1024));
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
+    command.add_flag("--strict", a.strict,
+                     "Exit with 3 where the input would be repaired: nothing left out, every face with area "
+                     "and once");
     command.add_flag("--strict-target", a.strict_target,
                      "Exit with 5, and write no model, when the target is missed");
     command.add_flag("--force", a.force, "Replace files that exist");

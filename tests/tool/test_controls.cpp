@@ -120,3 +120,27 @@ TEST_CASE("kept borders that do not allow the target end with 5 where that was a
     CHECK(!fs::exists(folder / "out.glb"));
     CHECK(run(folder, "simplify in.glb out.glb --bake none --strict-target").code == 0);
 }
+
+TEST_CASE("with --strict a repair is an error that says what was wrong") {
+    const Folder folder;
+    const auto refused = [&](const std::string& text, const std::string& why) {
+        write(folder / "in.obj", text);
+        const Outcome lenient = run(folder, "simplify in.obj out.ply --quiet --force");
+        CHECK(lenient.code == 0);
+        fs::remove(folder / "out.ply");
+        const Outcome strict = run(folder, "simplify in.obj out.ply --quiet --strict");
+        INFO(strict.err);
+        CHECK(strict.code == 3);
+        CHECK(strict.err.find("faqem: in.obj: ") == 0);
+        CHECK(strict.err.find(why) != std::string::npos);
+        CHECK(!fs::exists(folder / "out.ply"));
+    };
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n";
+    refused(square + "v nan 0 0\nf 1 2 3\nf 1 3 4\nf 1 2 6\n", "not finite");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 1 2 5\n", "part 'in': face 2: has no area");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 4 1 3\n", "face 2: is face 1 again");
+    refused("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "none.mtl");
+    // Faces back to back and vertices no face uses are no repairs.
+    write(folder / "in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 7 7 7\nf 1 2 3\nf 1 3 2\n");
+    CHECK(run(folder, "simplify in.obj out.ply --quiet --strict").code == 0);
+}
