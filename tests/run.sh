@@ -7,7 +7,7 @@ preset=${1:-release}
 
 echo "== packages"
 case $preset in
-    clang) cmake/install-packages.sh clang ;;
+    clang | fuzz) cmake/install-packages.sh clang ;;
     *) cmake/install-packages.sh ;;
 esac
 echo "== configure ($preset)"

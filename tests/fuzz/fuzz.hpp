@@ -1,0 +1,246 @@
+#pragma once
+/// \file
+/// What the fuzz targets share. Each defines LLVMFuzzerTestOneInput(); libFuzzer calls it, or replay.cpp.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/meshes.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
+#include "faqem/simplify.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace faqem::fuzz {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// Ends the process, which is what libFuzzer looks for.
+inline void expect(bool good, const char* what) {
+    if (good) return;
+    std::fprintf(stderr, "expected: %s\n", what);
+    std::abort();
+}
+
+/// Takes numbers from the front of the bytes; zeros where none are left.
+class Input {
+public:
+    explicit Input(Bytes bytes) : left_(bytes) {}
+
+    bool empty() const { return left_.empty(); }
+
+    template <class T>
+    T raw() {
+        T value = {};
+        const std::size_t size = std::min(left_.size(), sizeof value);
+        if (size > 0) std::memcpy(&value, left_.data(), size);
+        left_ = left_.subspan(size);
+        return value;
+    }
+
+    std::uint8_t byte() { return raw<std::uint8_t>(); }
+    bool flag() { return byte() & 1; }
+    /// In [0, size).
+    Index below(std::size_t size) { return static_cast<Index>(byte() % size); }
+
+    /// Mostly a point of a small grid, so that places meet; now and then the worst numbers there are.
+    double real() {
+        using Limits = std::numeric_limits<double>;
+        static constexpr double worst[] = {Limits::quiet_NaN(),
+                                           Limits::infinity(),
+                                           -Limits::infinity(),
+                                           Limits::max(),
+                                           Limits::lowest(),
+                                           Limits::denorm_min(),
+                                           Limits::min(),
+                                           1e38,
+                                           -1e38,
+                                           1e30,
+                                           1e-30,
+                                           1e-38,
+                                           1e7,
+                                           -0.0,
+                                           1e-300,
+                                           1e150};
+        const std::uint8_t kind = byte();
+        if (kind < 192) return (kind % 16) - 8.0;
+        if (kind < 224) return (kind - 208.0) / 16;
+        if (kind < 240) return worst[kind - 224];
+        return kind < 248 ? static_cast<double>(raw<float>()) : raw<double>();
+    }
+
+private:
+    Bytes left_;
+};
+
+/// Options of every kind; now and then out of range.
+inline Options options_of(Input& in) {
+    Options o;
+    o.preset = all_presets[in.below(16) / 3];  // seldom the slow one, which is the last
+    const std::uint8_t wanted = in.byte();
+    o.target = wanted < 128   ? ratio((wanted + 1) / 128.0)
+               : wanted < 250 ? faces(wanted - 127)
+                              : Target{wanted < 253 ? Target::Kind::ratio : Target::Kind::faces, in.real()};
+    const std::uint8_t bits = in.byte(), more = in.byte();
+    o.topology.link = static_cast<LinkCondition>(bits % 5);
+    if (bits & 32) o.topology.weld = Weld::none;
+    if (bits & 64) o.topology.virtual_edges = VirtualEdges::on, o.topology.virtual_edge_distance = 0.5;
+    if (bits & 128) o.topology.border = Border::locked;
+    if (more & 1) o.topology.group_borders = GroupBorders::kept;
+    if (more & 2) o.topology.weld_distance = std::abs(in.real());
+    if (more & 4) o.topology.prune = of_diagonal(0.25);
+    if (more & 8) {
+        o.weights = {in.real(), in.real(), in.real(), in.real(), in.real()};
+    }
+    if (more % 64 >= 56) {  // seldom: it makes a dozen runs
+        o.max_error = Length{in.real() / 64, in.flag() ? Length::Unit::model : Length::Unit::diagonal};
+        if (in.flag()) o.target = {};
+    }
+    o.history = Recording::on;
+    o.threads = 1;
+    return o;
+}
+
+/// A grid, a sphere, a tube or nothing, and then vertices and faces of any kind.
+inline TriangleMesh mesh_of(Input& in) {
+    TriangleMesh mesh;
+    switch (in.byte() % 8) {
+        case 0:
+            mesh = test::grid(1 + in.below(6));
+            break;
+        case 1:
+            mesh = test::icosphere(1);
+            break;
+        case 2:
+            mesh = test::cylinder(3 + in.below(6), 1 + in.below(5), 2);
+            break;
+        case 3:
+            mesh = test::both(test::cube(), test::moved(test::cube(), {1.001, 0, 0}));
+            break;
+        case 4:
+            mesh = test::fan(3 + in.below(40));
+            break;
+        default:
+            break;
+    }
+    const std::size_t old = mesh.positions.size(), moved = in.byte() % 8, vertices = in.byte() % 48;
+    for (std::size_t i = 0; i < moved && old > 0; ++i)
+        mesh.positions[in.below(old)] = {in.real(), in.real(), in.real()};
+    for (std::size_t i = 0; i < vertices; ++i) mesh.positions.push_back({in.real(), in.real(), in.real()});
+    if (mesh.positions.empty()) mesh.positions.push_back({0, 0, 0});
+    const std::size_t faces = in.byte() % 64;
+    for (std::size_t i = 0; i < faces && !in.empty(); ++i) {
+        const auto corner = [&] { return in.below(mesh.positions.size()); };
+        mesh.triangles.push_back({corner(), corner(), corner()});
+    }
+    return mesh;
+}
+
+inline bool is_finite(const Vec3& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+/// Is a per-vertex array absent or complete?
+template <class T>
+bool fits(const std::vector<T>& values, const Part& part) {
+    return values.empty() || values.size() == part.positions.size();
+}
+
+/// Aborts unless everything in the asset is in range and what load() promises is so.
+inline void expect_sound(const Asset& asset) {
+    for (const Part& part : asset.parts) {
+        for (const Vec3& p : part.positions) expect(is_finite(p), "finite positions");
+        for (const Triangle& t : part.triangles)
+            for (const Index v : t) expect(v < part.positions.size(), "vertex indices in range");
+        expect(part.face_material.size() == part.triangles.size(), "a material for every face");
+        for (const Index m : part.face_material)
+            expect(m == no_index || m < asset.materials.size(), "material indices in range");
+        for (const auto& set : part.uvs) expect(set.size() == part.positions.size(), "UVs for every vertex");
+        expect(fits(part.normals, part) && fits(part.tangents, part) && fits(part.colors, part) &&
+                   fits(part.joints, part) && fits(part.weights, part),
+               "attributes for every vertex");
+        for (const MorphTarget& target : part.morph_targets)
+            expect(fits(target.positions, part) && fits(target.normals, part), "whole morph targets");
+    }
+    for (const Material& m : asset.materials) {
+        for (const float x : {m.base_color[0], m.base_color[3], m.metallic, m.normal_scale, m.emissive[0]})
+            expect(std::isfinite(x), "finite factors");
+        for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                                      &m.occlusion_texture, &m.emissive_texture})
+            expect(!*ref || ref->image < asset.images.size(), "image indices in range");
+    }
+    for (const Instance& instance : instances(asset))
+        expect(instance.part < asset.parts.size(), "instances of parts that exist");
+}
+
+/// What the call returns; nothing where it refuses its input with a message that starts with the file's name.
+template <class Call>
+auto refusable(const std::string& file, Call&& call) -> std::optional<decltype(call())> {
+    try {
+        return call();
+    } catch (const InputError& error) {
+        expect(std::string(error.what()).compare(0, file.size(), file) == 0, "the message names the file");
+    }
+    return {};
+}
+
+/// A file name in a folder of this process. TMPDIR should be in memory: the writers wait for the disk.
+inline std::string scratch_file(const std::string& name) {
+    static const struct Folder {
+        std::filesystem::path path =
+            std::filesystem::temp_directory_path() / ("faqem-fuzz-" + std::to_string(::getpid()));
+        Folder() { std::filesystem::create_directories(path); }
+        ~Folder() {
+            std::error_code ignored;
+            std::filesystem::remove_all(path, ignored);
+        }
+    } folder;
+    return (folder.path / name).string();
+}
+
+/// What can be written can be read. \return the asset read back, or nothing where it cannot be written
+inline std::optional<Asset> written_and_read(const Asset& asset, const std::string& name) {
+    const std::string file = scratch_file(name);
+    try {
+        save(asset, file, Overwrite::yes);
+    } catch (const WriteError&) {
+        return {};  // a position beyond a float's range
+    }
+    Asset back = load(file);
+    expect_sound(back);
+    return back;
+}
+
+inline std::uint64_t face_count(const Asset& asset) {
+    std::uint64_t faces = 0;
+    for (const Part& part : asset.parts) faces += part.triangles.size();
+    return faces;
+}
+
+/// Reads bytes as a file of one format; what is accepted must be sound and survive writing.
+/// \param read     bytes and name to an asset
+/// \param written  name of the file it is written to
+/// \return the asset, or nothing where the bytes were refused
+template <class Read>
+std::optional<Asset> read_sound(Bytes bytes, Read read, const std::string& written) {
+    const std::string file = "no-such-folder/a";
+    std::optional<Asset> asset = refusable(file, [&] { return read(bytes, file); });
+    if (!asset) return {};
+    expect_sound(*asset);
+    if (face_count(*asset) > 0) written_and_read(*asset, written);
+    return asset;
+}
+
+}  // namespace faqem::fuzz

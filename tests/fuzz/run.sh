@@ -1,0 +1,28 @@
+#!/bin/sh
+# Runs fuzz targets one after the other. Usage: tests/fuzz/run.sh SECONDS [TARGET...]; default: all of them.
+# Needs the preset `fuzz` built (tests/run.sh fuzz). What is found lies in build/fuzz/found, the corpora grow in
+# build/fuzz/corpus.
+set -eu
+cd "$(dirname "$0")/../.."
+seconds=${1:?usage: tests/fuzz/run.sh SECONDS [TARGET...]}
+shift
+build=build/fuzz
+[ $# -gt 0 ] || set -- bake glb gltf history image mtl obj off ply simplify stl
+"$build/tests/fuzz/fuzz_seeds" "$build/seeds"
+scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # files are written and read again: not on a disk
+trap 'rm -rf "$scratch"' EXIT
+export TMPDIR="$scratch"
+export LSAN_OPTIONS="suppressions=$PWD/tests/lsan-suppressions.txt:print_suppressions=0"
+mkdir -p "$build/found"
+for target in "$@"; do
+    mkdir -p "$build/corpus/$target"
+    dictionary=""
+    words=tests/fuzz/$target.dict
+    [ "$target" != glb ] || words=tests/fuzz/gltf.dict
+    [ ! -f "$words" ] || dictionary="-dict=$words"
+    echo "== $target, $seconds seconds"
+    # shellcheck disable=SC2086  # no dictionary is no argument
+    "$build/tests/fuzz/fuzz_$target" $dictionary -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 \
+        -max_len=8192 -print_funcs=0 -print_final_stats=1 -artifact_prefix="$build/found/$target-" \
+        "$build/corpus/$target" "$build/seeds/$target"
+done

@@ -1,0 +1,199 @@
+// Writes the inputs that fuzzing starts from: `fuzz_seeds FOLDER` fills FOLDER/NAME for every target.
+
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <sstream>
+#include <string_view>
+
+#include "asset/gltf_builder.hpp"
+#include "bake/scenes.hpp"
+#include "faqem/bake.hpp"
+
+using namespace faqem;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path root;
+
+void put(const std::string& target, const std::string& name, std::string_view content) {
+    fs::create_directories(root / target);
+    std::ofstream(root / target / name, std::ios::binary) << content;
+}
+
+Asset scene() {
+    Asset asset = test::textured_square(test::ramp(4));
+    asset.parts[0].colors.assign(4, {1, 0.5f, 0.25f, 1});
+    asset.parts[0].normals.assign(4, {0, 0, 1});
+    Part ball;
+    const TriangleMesh sphere = test::icosphere(1);
+    ball.positions = sphere.positions;
+    ball.triangles = sphere.triangles;
+    ball.face_material.assign(ball.triangles.size(), no_index);
+    asset.parts.push_back(ball);
+    return asset;
+}
+
+/// Everything a primitive can hold, a skin, an animation, morph targets, sparse data and images.
+testing::GltfBuilder rich_gltf() {
+    using namespace testing;
+    GltfBuilder b = square_gltf();
+    const std::vector<Vec2f> uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    const std::vector<std::array<std::uint8_t, 4>> joints(4), colours(4, {255, 128, 0, 255});
+    const std::vector<Vec4f> weights(4, {1, 0, 0, 0}), tangents(4, {1, 0, 0, 1});
+    Json& primitive = b.json["meshes"][0]["primitives"][0];
+    Json& attributes = primitive["attributes"];
+    attributes["TEXCOORD_0"] = b.accessor(uvs, f32, "VEC2");
+    attributes["NORMAL"] = b.accessor(std::vector<Vec3f>(4, {0, 0, 1}), f32, "VEC3");
+    attributes["TANGENT"] = b.accessor(tangents, f32, "VEC4");
+    attributes["JOINTS_0"] = b.accessor(joints, u8, "VEC4");
+    attributes["WEIGHTS_0"] = b.accessor(weights, f32, "VEC4");
+    attributes["COLOR_0"] = b.accessor(colours, u8, "VEC4");
+    b.json["accessors"][attributes["COLOR_0"].get<std::size_t>()]["normalized"] = true;
+    const auto target = b.accessor(square, f32, "VEC3");
+    primitive["targets"] = {{{"POSITION", target}}};
+    b.json["accessors"][target]["sparse"] = {
+        {"count", 1},
+        {"indices",
+         {{"bufferView", b.view(std::vector<std::uint16_t>{2})}, {"componentType", u16}, {"byteOffset", 0}}},
+        {"values", {{"bufferView", b.view(std::vector<Vec3f>{{0, 0, 2}})}}}};
+    const auto png = small_png();
+    const auto view = b.view(png.encoded);
+    b.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}},
+                        {{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
+    b.json["samplers"] = {{{"wrapS", 33071}, {"magFilter", 9728}}};
+    b.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+    b.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture",
+            {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}}}}}}},
+         {"normalTexture", {{"index", 1}, {"scale", 2}}},
+         {"alphaMode", "MASK"},
+         {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    primitive["material"] = 0;
+    b.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_unlit"};
+    b.json["nodes"][0]["children"] = {1};
+    b.json["nodes"][0]["skin"] = 0;
+    b.json["nodes"].push_back({{"rotation", {0, 0, 0, 1}}, {"scale", {1, -1, 1}}, {"camera", 0}});
+    b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    b.json["skins"] = {{{"joints", {1}}}};
+    const auto times = b.accessor(std::vector<float>{0, 1}, f32, "SCALAR");
+    const auto moves = b.accessor(std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}}, f32, "VEC3");
+    b.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", moves}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
+    return b;
+}
+
+void gltf_seeds() {
+    const auto write = [](const std::string& name, const testing::GltfBuilder& b) {
+        put("glb", name + ".glb", b.glb());
+        put("glb", name + ".gltf", b.text());
+        put("gltf", name, b.text() + std::string(1, '\0') + b.bin);
+    };
+    write("square", testing::square_gltf());
+    write("rich", rich_gltf());
+    testing::GltfBuilder strip = testing::square_gltf();
+    strip.json["meshes"][0]["primitives"][0]["mode"] = 5;
+    strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
+    strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+    write("strip", strip);
+}
+
+/// Files of the other formats, as we write them and as others do.
+void text_seeds() {
+    const fs::path folder = root / "out";
+    fs::create_directories(folder);
+    for (const std::string format : {"obj", "ply", "stl"}) {
+        save(scene(), folder / ("a." + format), Overwrite::yes);
+        put(format, "written", testing::get(folder / ("a." + format)));
+    }
+    put("mtl", "written", testing::get(folder / "a.mtl"));
+    fs::remove_all(folder);
+    put("mtl", "all",
+        "newmtl a\nKd 1 .5 0\nd 0.5\nTr 0.1\nNs 10\nPr 0.5\nPm 1\nKe 1 1 1\nmap_Kd -s 1 2 3 -o 1 -clamp on a "
+        "b.png\n"
+        "map_d a b.png\nmap_Ke e.png\nnorm n.png\nbump -bm 1 b.png\nnewmtl b\nKa 0 0 0\nillum 2\nKd spectral "
+        "x\n");
+    put("obj", "all",
+        "\xEF\xBB\xBFmtllib a.mtl\r\no a\nv 0 0 0 1 0 0\nv 1e0 -0 +0\rv 1 1 \\\n 0\nv 0 nan 0\nvt 0 .5\nvn 0 "
+        "0 1\n"
+        "usemtl m\nf 1/1/1 2/1/1 3/1/1\nf -4//-1 2//1 3//1\nv 0 1 0\nf 1 2 3 5\nl 1 2\ns off\ng x\n");
+    put("obj", "concave", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\nf -1 -2 -3\n");
+    const std::string header =
+        " 1.0\ncomment x\nobj_info y\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty list uchar ushort l\nproperty uchar red\nproperty uchar "
+        "green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n";
+    put("ply", "ascii",
+        "ply\nformat ascii" + header +
+            "end_header\n0 0 0 0 1 2 3\n1.5 0 0 1 7 1 2 3\n1 1e1 nan 2 1 2 1 2 3\n3 0 1 2\n");
+    std::string binary = "ply\nformat binary_little_endian" + header +
+                         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    for (int v = 0; v < 3; ++v)
+        binary += std::string(12, static_cast<char>(v)) + std::string("\1\5\0\xFF\x80\0", 6);
+    binary +=
+        std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13) + std::string("\3\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0", 16);
+    put("ply", "binary", binary);
+    put("ply", "big-endian",
+        "ply\nformat binary_big_endian" + header + "end_header\n" + std::string(70, '\1'));
+    put("stl", "ascii",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
+        "endfacet\nendsolid a\n");
+    put("off", "all",
+        "STCNOFF # c\n3 1 3\n0 0 0 0 0 1 255 0 0 0.5 0\n1 0 0 0 0 1 0.5 0 0 1 1 0\n"
+        "1 1 0 0 0 1 0 0 0 1 1\n3 0 1 2 1 1 1\n");
+    put("off", "plain", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 nan\n4 0 1 2 3\n");
+}
+
+void history_seeds() {
+    std::uint32_t number = 0;
+    for (const TriangleMesh& mesh : {test::grid(3), test::icosphere(1), test::soup(1, 12, 30)})
+        for (const Preset preset : {Preset::paper, Preset::best}) {
+            Options options;
+            options.preset = preset;
+            options.target = ratio(0.3);
+            options.history = Recording::on;
+            std::ostringstream out;
+            write(simplify(mesh.view(), options).history, out);
+            put("history", std::to_string(number++), out.view());
+        }
+}
+
+void image_seeds() {
+    Pixels pixels = test::ramp(8);
+    const auto write = [](const char* name, const Image& image) {
+        put("image", name, {reinterpret_cast<const char*>(image.encoded.data()), image.encoded.size()});
+    };
+    write("opaque.png", encode_png(pixels, ""));
+    pixels.has_alpha = true;
+    write("alpha.png", encode_png(pixels, ""));
+}
+
+/// These targets take any bytes: the first says which preset, the rest is drawn.
+void drawn_seeds() {
+    std::mt19937 random(1);
+    for (const std::string target : {"simplify", "bake"})
+        for (char number = 0; number < 24; ++number) {
+            std::string bytes(1, number);
+            while (bytes.size() < 400) bytes.push_back(static_cast<char>(random() % 224));
+            put(target, std::to_string(number), bytes);
+        }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+    if (count != 2) throw std::runtime_error("usage: fuzz_seeds FOLDER");
+    root = arguments[1];
+    gltf_seeds();
+    text_seeds();
+    history_seeds();
+    image_seeds();
+    drawn_seeds();
+    return 0;
+} catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+}
