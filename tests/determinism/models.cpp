@@ -1,0 +1,47 @@
+// Writes small procedural models: `determinism_models FOLDER`.
+
+#include <iostream>
+
+#include "bake/scenes.hpp"
+#include "faqem/asset.hpp"
+
+using namespace faqem;
+
+namespace {
+
+Part part_of(const TriangleMesh& mesh, Index material) {
+    Part part;
+    part.positions = mesh.positions;
+    part.triangles = mesh.triangles;
+    part.face_material.assign(mesh.triangles.size(), material);
+    part.uvs.resize(1);
+    for (const Vec3& p : mesh.positions)
+        part.uvs[0].push_back({static_cast<float>(p[0] / 3 + p[2]), static_cast<float>(p[1] / 3)});
+    return part;
+}
+
+Asset asset_of(std::initializer_list<TriangleMesh> meshes) {
+    Asset asset = test::textured_square(test::ramp(32));
+    asset.parts.clear();
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[1].alpha_mode = AlphaMode::mask;
+    for (const TriangleMesh& mesh : meshes)
+        asset.parts.push_back(part_of(mesh, static_cast<Index>(asset.parts.size() % 2)));
+    return asset;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+    if (count != 2) throw std::runtime_error("usage: determinism_models FOLDER");
+    const std::filesystem::path folder = arguments[1];
+    save(asset_of({test::icosphere(4)}), folder / "ball.glb");
+    save(asset_of({test::shaken(test::torus(60, 30), 0.02, 1), test::shaken(test::grid(40), 0.3, 2)}),
+         folder / "two.glb");
+    save(asset_of({test::soup(3, 300, 2000)}), folder / "soup.glb");
+    save(asset_of({test::both(test::globe(24, 1), test::cylinder(30, 30, 4))}), folder / "open.glb");
+    return 0;
+} catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+}

@@ -1,0 +1,48 @@
+#!/bin/sh
+# Compares the SHA-256 of what the tool writes. Usage: run.sh MODELS_PROGRAM TOOL; the tools of the presets release,
+# debug and clang take part where they are built.
+set -eu
+models=$1
+tool=$2
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$models" "$work"
+
+# hash TOOL MODEL THREADS OPTION...: of the model, the history and the textures.
+hash() {
+    "$1" simplify "$2" "$work/out.glb" --force --quiet --threads "$3" --history "$work/out.hist" \
+        --texture-size 256 $4
+    cat "$work/out.glb" "$work/out.hist" | sha256sum | cut -d' ' -f1
+}
+
+runs=0
+same=0
+for model in "$work"/*.glb; do
+    case $model in */out.glb) continue ;; esac
+    for options in "--preset qem" "--preset paper" "--preset stmw" "--preset fast" "--preset balanced" \
+        "--preset best" "--bake vertex" "--bake keep" "--bake none" "--mapping lineage" "--virtual-edges=0.1" \
+        "--max-error 1% --bake none"; do
+        first=$(hash "$tool" "$model" 1 "$options")
+        for threads in 1 1 2 3 16; do
+            runs=$((runs + 1))
+            if [ "$(hash "$tool" "$model" $threads "$options")" = "$first" ]; then
+                same=$((same + 1))
+            else
+                echo "differs: $(basename "$model") $options, $threads threads"
+            fi
+        done
+        for preset in release debug clang; do
+            other=$root/build/$preset/src/tool/faqem
+            [ -x "$other" ] && [ "$other" != "$tool" ] || continue
+            runs=$((runs + 1))
+            if [ "$(hash "$other" "$model" 3 "$options")" = "$first" ]; then
+                same=$((same + 1))
+            else
+                echo "differs: $(basename "$model") $options, preset $preset"
+            fi
+        done
+    done
+done
+echo "$same of $runs outputs are the same"
+[ "$same" -eq "$runs" ]
