@@ -2,6 +2,9 @@
 /// \file
 /// How the command ends.
 
+#include <exception>
+#include <string>
+
 namespace faqem::tool {
 
 /// Exit codes, documented in docs/cli.md.
@@ -15,6 +18,13 @@ enum ExitCode : int {
     exit_error_exceeded = 6,
     exit_cannot_write = 7,
     exit_cancelled = 8,
+    exit_batch_incomplete = 9,
 };
+
+/// The exit code for an exception.
+ExitCode exit_code_of(const std::exception& error);
+
+/// What to tell about it.
+std::string message_of(const std::exception& error);
 
 }  // namespace faqem::tool

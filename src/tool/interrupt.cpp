@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+
 #include "asset/file.hpp"
 #include "tool/exit_code.hpp"
 
@@ -10,7 +12,9 @@ namespace faqem::tool {
 
 namespace {
 
-volatile sig_atomic_t signals = 0, unattended = 0;
+// Atomic: a batch asks on several threads.
+std::atomic<int> signals = 0, unattended = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
 void on_signal(int) {
     if (unattended == 0 && signals == 0) {

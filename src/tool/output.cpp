@@ -34,11 +34,16 @@ void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Ove
         throw WriteError(file.string() + ": the folder cannot be written to");
 }
 
-void check_ending(const fs::path& file, const std::vector<std::string_view>& endings) {
+std::string lower_ending(const fs::path& file) {
     std::string ending = file.extension().string();
     for (char& c : ending) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
+    return ending;
+}
+
+void check_ending(const fs::path& file, const std::vector<std::string_view>& endings) {
+    const std::string ending = lower_ending(file);
     if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
     std::string known;
     for (const std::string_view one : endings) known += (known.empty() ? "" : ", ") + std::string(one);

@@ -3,6 +3,7 @@
 /// What is checked about output files before any work is done, and how they are written.
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace faqem::tool {
 /// \throws WriteError   otherwise
 void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
                   Overwrite overwrite);
+
+/// The ending of the name with its dot, in lower case.
+std::string lower_ending(const std::filesystem::path& file);
 
 /// Makes sure that the name ends in one of the endings, in any case.
 /// \throws OptionError

@@ -6,8 +6,8 @@ using namespace tool_test;
 
 TEST_CASE("help and version go to stdout and are no errors") {
     const Folder folder;
-    for (const char* arguments :
-         {"--help", "--version", "simplify --help", "info --help", "compare --help", "render --help"}) {
+    for (const char* arguments : {"--help", "--version", "simplify --help", "batch --help", "info --help",
+                                  "compare --help", "render --help"}) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.code == 0);
         CHECK(!outcome.out.empty());

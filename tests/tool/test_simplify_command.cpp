@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "faqem/history.hpp"
 #include "tool_support.hpp"
@@ -164,26 +163,6 @@ TEST_CASE("the histories of all parts are written one after the other") {
     CHECK(in.peek() == std::ifstream::traits_type::eof());
 }
 
-namespace {
-
-/// Whether a process has become the command and has a handler of its own for a signal.
-bool handles(pid_t process, int number) {
-    std::ifstream name("/proc/" + std::to_string(process) + "/comm");
-    std::string running;
-    if (!(name >> running) || running != "faqem")
-        return false;  // still a copy of the test, with its handlers
-    std::ifstream status("/proc/" + std::to_string(process) + "/status");
-    std::string line;
-    while (std::getline(status, line)) {
-        if (line.rfind("SigCgt:", 0) == 0) {
-            return std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1;
-        }
-    }
-    return false;
-}
-
-}  // namespace
-
 TEST_CASE("SIGTERM and SIGINT end the work with 8 and leave nothing behind") {
     for (const int number : {SIGTERM, SIGINT}) {
         const Folder folder;
@@ -195,12 +174,7 @@ TEST_CASE("SIGTERM and SIGINT end the work with 8 and leave nothing behind") {
             execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--quiet", nullptr);
             _exit(99);
         }
-        int status = 0;
-        // A process that ended before its handler was there would make this wait for ever: ask for both.
-        while (!handles(process, number) && waitpid(process, &status, WNOHANG) == 0)
-            std::this_thread::yield();
-        kill(process, number);
-        waitpid(process, &status, 0);
+        const int status = signal_and_wait(process, number);
         REQUIRE(WIFEXITED(status));
         CHECK(WEXITSTATUS(status) == 8);
         CHECK(!fs::exists(folder / "out.glb"));

@@ -2,6 +2,7 @@
 /// \file
 /// Running the faqem command in a folder of its own, and small models to run it on.
 
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 
 #include "faqem/asset.hpp"
 
@@ -62,6 +64,32 @@ inline Outcome run(const Folder& folder, const std::string& arguments) {
                                 "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(streams / "out"), read(streams / "err")};
+}
+
+/// Whether a process has become the command and has a handler of its own for a signal.
+inline bool handles(pid_t process, int number) {
+    std::ifstream name("/proc/" + std::to_string(process) + "/comm");
+    std::string running;
+    if (!(name >> running) || running != "faqem")
+        return false;  // still a copy of the test, with its handlers
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    std::string line;
+    while (std::getline(status, line)) {
+        if (line.rfind("SigCgt:", 0) == 0) {
+            return std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1;
+        }
+    }
+    return false;
+}
+
+/// Sends a signal to a running command as soon as it has a handler for it. \return its status, as waitpid()
+inline int signal_and_wait(pid_t process, int number) {
+    int status = 0;
+    // A process that ended before its handler was there would make this wait for ever: ask for both.
+    while (!handles(process, number) && waitpid(process, &status, WNOHANG) == 0) std::this_thread::yield();
+    kill(process, number);
+    waitpid(process, &status, 0);
+    return status;
 }
 
 /// Left half red, right half blue.

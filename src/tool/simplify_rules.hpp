@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// What simplify and batch hold a model to.
+
+#include <filesystem>
+#include <string>
+
+#include "faqem/bake.hpp"
+#include "faqem/report.hpp"
+#include "tool/exit_code.hpp"
+
+namespace faqem::tool {
+
+/// Whether what load() repairs or leaves out is an error.
+enum class Strictness { lenient, strict };
+
+/// load(), and a model without triangles is an error. \throws ReadError, InputError, UnsupportedError
+Asset load_model(const std::filesystem::path& file, Strictness strictness);
+
+/// simplify(). What is wrong with an asset is said with the name of its file.
+LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options);
+
+/// Why the result is not to be written, or exit_ok.
+ExitCode why_refused(const Report& report, bool strict_target);
+
+/// One sentence about a result that was refused.
+std::string refusal_text(ExitCode refusal, const std::filesystem::path& out, const Report& report);
+
+}  // namespace faqem::tool

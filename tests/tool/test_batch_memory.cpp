@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+#include <vector>
+
+#include "tool/batch_memory.hpp"
+
+using namespace faqem::tool;
+
+TEST_CASE("what is at work at once fits into the memory, and what does not fit works alone") {
+    constexpr std::uint64_t limit = 10;
+    MemoryGate gate(limit);
+    std::atomic<std::uint64_t> used{0};
+    std::atomic<int> at_work{0};
+    std::atomic<bool> too_much{false};
+    const auto work = [&](std::uint64_t bytes) {
+        for (int i = 0; i < 200; ++i) {
+            gate.enter(bytes);
+            const std::uint64_t now = used += bytes;
+            const int count = ++at_work;
+            if (now > limit && count > 1) too_much = true;
+            std::this_thread::yield();
+            used -= bytes;
+            --at_work;
+            gate.leave(bytes);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (const std::uint64_t bytes : {3, 4, 9, 25}) threads.emplace_back(work, bytes);
+    for (std::thread& thread : threads) thread.join();
+    CHECK(!too_much);
+}
+
+TEST_CASE("the peak that is predicted grows with the file, the page and the preset") {
+    faqem::Options options;
+    const auto peak = [&](const char* file, std::uint64_t bytes) {
+        return predicted_peak(file, bytes, options);
+    };
+    CHECK(peak("a.glb", 2'000'000) > peak("a.glb", 1'000'000));
+    // A binary file of the same size has more faces.
+    CHECK(peak("a.PLY", 1'000'000) > peak("a.obj", 1'000'000));
+    const std::uint64_t balanced = peak("a.glb", 1'000'000);
+    options.preset = faqem::Preset::best;
+    CHECK(peak("a.glb", 1'000'000) > balanced);
+    options.bake.kind = faqem::Bake::none;
+    CHECK(peak("a.glb", 0) < 100'000'000);
+}
+
+TEST_CASE("the machine has memory") { CHECK(machine_memory() > 100'000'000); }
