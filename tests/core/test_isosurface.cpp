@@ -1,0 +1,65 @@
+// The benchmark's generator of large meshes.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "bench/isosurface.hpp"
+#include "faqem/compare.hpp"
+
+using namespace faqem;
+using namespace faqem::bench;
+
+TEST_CASE("a generated surface is a closed manifold that looks outwards") {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        CAPTURE(seed);
+        const TriangleMesh mesh = isosurface(40, seed);
+        const MeshInfo i = info(mesh.view());
+        CHECK(i.faces == mesh.triangles.size());
+        CHECK(i.vertices == mesh.positions.size());
+        CHECK(i.degenerate_faces == 0);
+        CHECK(i.boundary_edges == 0);
+        CHECK(i.nonmanifold_edges == 0);
+        CHECK(i.components < 5);  // the lump, and specks beside it
+        CHECK(i.diagonal < std::sqrt(3.0));
+        // Each edge once in each direction.
+        std::set<std::pair<Index, Index>> edges;
+        double volume = 0;
+        for (const Triangle& t : mesh.triangles) {
+            const Vec3 &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
+            volume += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+                      p[2] * (q[0] * r[1] - q[1] * r[0]);
+            for (std::size_t k = 0; k < 3; ++k) CHECK(edges.emplace(t[k], t[(k + 1) % 3]).second);
+        }
+        CHECK(volume > 0);
+        for (const auto& [a, b] : edges) CHECK(edges.contains({b, a}));
+    }
+}
+
+TEST_CASE("a generated surface is the same for the same seed only") {
+    const TriangleMesh a = isosurface(24, 7), b = isosurface(24, 7), c = isosurface(24, 8);
+    CHECK(a.positions == b.positions);
+    CHECK(a.triangles == b.triangles);
+    CHECK(a.positions != c.positions);
+}
+
+TEST_CASE("a generated surface has about as many faces as were asked for") {
+    for (const double faces : {20e3, 100e3}) {
+        const auto found =
+            static_cast<double>(isosurface_of(static_cast<std::size_t>(faces), 1).triangles.size());
+        CHECK(found == Approx(faces).epsilon(0.1));
+    }
+}
+
+TEST_CASE("shuffling numbers the vertices anew and moves nothing") {
+    const TriangleMesh mesh = isosurface(24, 1);
+    TriangleMesh other = mesh;
+    shuffle(other.positions, other.triangles, 5);
+    REQUIRE(other.triangles.size() == mesh.triangles.size());
+    CHECK(other.triangles != mesh.triangles);
+    bool same = true;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            same &= other.positions[other.triangles[f][k]] == mesh.positions[mesh.triangles[f][k]];
+        }
+    }
+    CHECK(same);
+}
