@@ -117,7 +117,8 @@ private:
         const std::size_t first = out_.corners.size();
         while (!in_.at_line_end()) out_.corners.push_back(corner());
         const std::size_t count = out_.corners.size() - first;
-        check_index_count(count, in_.file(), "line " + std::to_string(in_.line()) + ": corner");
+        if (count > max_index_count)  // the message is not made for every face
+            check_index_count(count, in_.file(), "line " + std::to_string(in_.line()) + ": corner");
         out_.sizes.push_back(static_cast<std::uint32_t>(count));
         out_.face_material.push_back(material_);
     }
@@ -338,7 +339,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     polygons.vertices.reserve(in.corners.size());
     for (const Corner& c : in.corners) {
         polygons.vertices.push_back(numbers.number(c));
-        check_index_count(numbers.count(), file.string(), "corner");
+        if (numbers.count() > max_index_count) check_index_count(numbers.count(), file.string(), "corner");
     }
     fill_vertices(part, in, numbers);
     SplitPolygons split = split_polygons(polygons, part.positions);

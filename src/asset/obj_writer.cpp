@@ -10,6 +10,7 @@
 #include "asset/number_text.hpp"
 #include "asset/obj.hpp"
 #include "asset/srgb.hpp"
+#include "asset/text_buffer.hpp"
 #include "asset/value_numbers.hpp"
 
 namespace faqem::detail {
@@ -46,12 +47,24 @@ using Row = std::array<double, N>;
 class Rows {
 public:
     Rows(const Asset& asset, const Part& part)
-        : asset_(asset), part_(part), position_(part.positions.size(), no_index), normal_(position_) {}
+        : asset_(asset), part_(part), position_(part.positions.size(), no_index), normal_(position_) {
+        positions_.reserve(part.positions.size());
+        if (!part.uvs.empty()) {
+            uvs_.reserve(part.positions.size());
+            uv_.resize(part.positions.size());
+        }
+        if (!part.normals.empty()) normals_.reserve(part.positions.size());
+    }
 
     /// 1-based numbers of v, vt and vn for a corner; 0 where there is none.
     std::array<std::uint64_t, 3> corner(Index vertex, Index material) {
         std::array<std::uint64_t, 3> numbers = {std::uint64_t{position(vertex)} + 1, 0, 0};
-        if (!part_.uvs.empty()) numbers[1] = std::uint64_t{uvs_.number(uv(vertex, material))} + 1;
+        if (!part_.uvs.empty()) {
+            KnownUv& known = uv_[vertex];
+            if (known.number == no_index || known.material != material)
+                known = {material, uvs_.number(uv(vertex, material))};
+            numbers[1] = std::uint64_t{known.number} + 1;
+        }
         if (!part_.normals.empty() && part_.normals[vertex] != Vec3f{0, 0, 0}) {
             if (normal_[vertex] == no_index) normal_[vertex] = normals_.number(part_.normals[vertex]);
             numbers[2] = std::uint64_t{normal_[vertex]} + 1;
@@ -68,18 +81,18 @@ public:
         return position_[vertex] = positions_.number(row);
     }
 
-    void write(std::string& text) const {
+    void write(TextBuffer& text) const {
         const bool floats = all_floats(part_.positions);
         for (const Row<6>& row : positions_.values()) {
-            text += "v";
+            text.put('v');
             for (std::size_t k = 0; k < (part_.colors.empty() ? 3 : 6); ++k) {
-                text += ' ';
+                text.put(' ');
                 if (floats && k < 3)
-                    append_number(text, static_cast<float>(row[k]));
+                    text.number(static_cast<float>(row[k]));
                 else
-                    append_number(text, row[k]);
+                    text.number(row[k]);
             }
-            text += '\n';
+            text.put('\n');
         }
         write_floats(text, "vt", uvs_.values());
         write_floats(text, "vn", normals_.values());
@@ -88,57 +101,65 @@ public:
 private:
     /// As the leading texture of the face's material sees it, with v pointing up.
     Vec2f uv(Index vertex, Index material) const {
-        const TextureRef none;
+        static const TextureRef none;
         const TextureRef& ref = material == no_index ? none : leading_texture(asset_.materials[material]);
         const Vec2f& uv = part_.uvs[ref.uv_set < part_.uvs.size() ? ref.uv_set : 0][vertex];
         const Vec2f scaled = {uv[0] * ref.scale[0], uv[1] * ref.scale[1]};
-        const float c = std::cos(ref.rotation), s = std::sin(ref.rotation);
-        const Vec2f turned =
-            ref.rotation == 0 ? scaled : Vec2f{c * scaled[0] + s * scaled[1], c * scaled[1] - s * scaled[0]};
+        Vec2f turned = scaled;
+        if (ref.rotation != 0) {
+            const float c = std::cos(ref.rotation), s = std::sin(ref.rotation);
+            turned = {c * scaled[0] + s * scaled[1], c * scaled[1] - s * scaled[0]};
+        }
         return {ref.offset[0] + turned[0], 1 - (ref.offset[1] + turned[1])};
     }
 
     template <class Values>
-    static void write_floats(std::string& text, const char* key, const Values& rows) {
+    static void write_floats(TextBuffer& text, std::string_view key, const Values& rows) {
         for (const auto& row : rows) {
-            text += key;
+            text.put(key);
             for (const float x : row) {
-                text += ' ';
-                append_number(text, x);
+                text.put(' ');
+                text.number(x);
             }
-            text += '\n';
+            text.put('\n');
         }
     }
 
+    /// Of the vertex as the last material saw it.
+    struct KnownUv {
+        Index material = no_index, number = no_index;
+    };
+
     const Asset& asset_;
     const Part& part_;
+    std::vector<KnownUv> uv_;
     std::vector<Index> position_, normal_;  // numbers by vertex, no_index: none yet
     ValueNumbers<Row<6>> positions_;
     ValueNumbers<Vec2f> uvs_;
     ValueNumbers<Vec3f> normals_;
 };
 
-void append_corner(std::string& text, const std::array<std::uint64_t, 3>& numbers) {
-    text += ' ';
-    append_number(text, numbers[0]);
-    if (numbers[1] || numbers[2]) text += '/';
-    if (numbers[1]) append_number(text, numbers[1]);
+void append_corner(TextBuffer& text, const std::array<std::uint64_t, 3>& numbers) {
+    text.put(' ');
+    text.number(numbers[0]);
+    if (numbers[1] || numbers[2]) text.put('/');
+    if (numbers[1]) text.number(numbers[1]);
     if (!numbers[2]) return;
-    text += '/';
-    append_number(text, numbers[2]);
+    text.put('/');
+    text.number(numbers[2]);
 }
 
-std::string faces_text(const Part& part, Rows& rows, const UsedMaterials& used, const MtlLibrary& library) {
-    std::string text;
+TextBuffer faces_text(const Part& part, Rows& rows, const UsedMaterials& used, const MtlLibrary& library) {
+    TextBuffer text;
     Index current = no_index;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         const Index material = part.face_material[f];
         const Index place = used.place_of(material);
-        if (!used.materials.empty() && place != current) text += "usemtl " + library.names[place] + "\n";
+        if (!used.materials.empty() && place != current) text.put("usemtl " + library.names[place] + "\n");
         current = place;
-        text += 'f';
+        text.put('f');
         for (const Index v : part.triangles[f]) append_corner(text, rows.corner(v, material));
-        text += '\n';
+        text.put('\n');
     }
     return text;
 }
@@ -160,20 +181,20 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
     Rows rows(asset, flat);
-    const std::string faces = faces_text(flat, rows, used, library);
+    const TextBuffer faces = faces_text(flat, rows, used, library);
     for (Index v = 0; v < flat.positions.size(); ++v) rows.position(v);
-    std::string text;
-    if (!used.materials.empty()) text += "mtllib " + stem + ".mtl\n";
-    text += "o " + statement_name(flat.name, stem) + "\n";
+    TextBuffer text;
+    if (!used.materials.empty()) text.put("mtllib " + stem + ".mtl\n");
+    text.put("o " + statement_name(flat.name, stem) + "\n");
     rows.write(text);
-    text += faces;
+    text.put(faces.view());
 
     std::vector<FileContent> files;
     for (const MtlImage& image : library.images)
         files.push_back({file.parent_path() / image.name, asset.images[image.image].encoded});
     if (!used.materials.empty())
         files.push_back({file.parent_path() / (stem + ".mtl"), bytes_of(library.text)});
-    files.push_back({file, bytes_of(text)});
+    files.push_back({file, text.bytes()});
     write_files(files, overwrite);
     return losses;
 }

@@ -229,12 +229,23 @@ void triangulate(std::span<const Vec3> ring, std::vector<Triangle>& triangles) {
 SplitPolygons split_polygons(const Polygons& polygons, std::span<const Vec3> positions) {
     SplitPolygons split;
     split.triangles.reserve(polygons.sizes.size());
+    split.polygon.reserve(polygons.sizes.size());
     std::vector<Vec3> ring;
     std::vector<Triangle> local;
     std::size_t first = 0;
     for (std::size_t p = 0; p < polygons.sizes.size(); ++p) {
         const std::span<const Index> corners(polygons.vertices.data() + first, polygons.sizes[p]);
         first += corners.size();
+        if (corners.size() == 3) {  // nearly all there are in large files
+            if (is_finite(positions[corners[0]]) && is_finite(positions[corners[1]]) &&
+                is_finite(positions[corners[2]])) {
+                split.triangles.push_back({corners[0], corners[1], corners[2]});
+                split.polygon.push_back(static_cast<Index>(p));
+            } else {
+                ++split.not_finite;
+            }
+            continue;
+        }
         ring.clear();
         for (const Index v : corners) ring.push_back(positions[v]);
         const bool finite = std::all_of(ring.begin(), ring.end(), is_finite);

@@ -2,6 +2,7 @@
 /// \file
 /// Numbers for different values, in the order in which they come first.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -20,13 +21,23 @@ class ValueNumbers {
 public:
     /// The number of a value, new or old. The caller sees to it that there are fewer than no_index.
     Index number(const Value& value) {
-        if (2 * (values_.size() + 1) > table_.size()) grow();
-        std::size_t slot = hash(value) & (table_.size() - 1);
-        for (; table_[slot] != no_index; slot = (slot + 1) & (table_.size() - 1))
-            if (bits(values_[table_[slot]]) == bits(value)) return table_[slot];
-        table_[slot] = static_cast<Index>(values_.size());
+        if (2 * (values_.size() + 1) > table_.size()) resize(table_.empty() ? 1024 : 2 * table_.size());
+        const std::uint64_t h = hash(value);
+        const auto tag = static_cast<std::uint32_t>(h >> 32);
+        std::size_t slot = h & (table_.size() - 1);
+        for (; table_[slot].number != no_index; slot = (slot + 1) & (table_.size() - 1)) {
+            if (table_[slot].tag == tag && bits(values_[table_[slot].number]) == bits(value))
+                return table_[slot].number;
+        }
+        table_[slot] = {static_cast<Index>(values_.size()), tag};
         values_.push_back(value);
-        return table_[slot];
+        return table_[slot].number;
+    }
+
+    /// Makes room for this many values.
+    void reserve(std::size_t count) {
+        values_.reserve(count);
+        if (2 * count > table_.size()) resize(std::bit_ceil(std::max<std::size_t>(2 * count, 1024)));
     }
 
     std::vector<Value>& values() { return values_; }
@@ -38,26 +49,33 @@ private:
 
     static Bits bits(const Value& value) { return std::bit_cast<Bits>(value); }
 
-    static std::size_t hash(const Value& value) {
+    static std::uint64_t hash(const Value& value) {
         std::uint64_t h = 0;
         for (const Word word : bits(value)) {
             h = (h ^ word) * 0x9E3779B97F4A7C15u;
             h ^= h >> 32;
         }
-        return static_cast<std::size_t>(h);
+        return h;
     }
 
-    void grow() {
-        table_.assign(table_.empty() ? 1024 : 2 * table_.size(), no_index);
+    void resize(std::size_t size) {
+        table_.assign(size, {});
         for (std::size_t i = 0; i < values_.size(); ++i) {
-            std::size_t slot = hash(values_[i]) & (table_.size() - 1);
-            while (table_[slot] != no_index) slot = (slot + 1) & (table_.size() - 1);
-            table_[slot] = static_cast<Index>(i);
+            const std::uint64_t h = hash(values_[i]);
+            std::size_t slot = h & (size - 1);
+            while (table_[slot].number != no_index) slot = (slot + 1) & (size - 1);
+            table_[slot] = {static_cast<Index>(i), static_cast<std::uint32_t>(h >> 32)};
         }
     }
 
+    struct Slot {
+        Index number = no_index;
+        std::uint32_t tag =
+            0;  ///< the hash's upper half: other values are told apart without looking at them
+    };
+
     std::vector<Value> values_;
-    std::vector<Index> table_;
+    std::vector<Slot> table_;
 };
 
 }  // namespace faqem::detail

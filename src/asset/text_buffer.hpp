@@ -1,0 +1,64 @@
+#pragma once
+/// \file
+/// A large text, written piece by piece.
+
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+#include <string_view>
+
+namespace faqem::detail {
+
+/// Numbers are written in place, and the block grows where it lies if the system can do that: as a
+/// std::string half of the time of writing a large OBJ file went into copies. \throws std::bad_alloc
+class TextBuffer {
+public:
+    void put(char c) {
+        need(1);
+        data_.get()[size_++] = c;
+    }
+
+    void put(std::string_view text) {
+        need(text.size());
+        if (!text.empty()) std::memcpy(data_.get() + size_, text.data(), text.size());
+        size_ += text.size();
+    }
+
+    /// The shortest text that reads back as the same value of its type; not by the locale.
+    template <class T>
+    void number(T value) {
+        need(longest_number);
+        char* at = data_.get() + size_;
+        size_ = static_cast<std::size_t>(std::to_chars(at, at + longest_number, value).ptr - data_.get());
+    }
+
+    std::string_view view() const { return {data_.get(), size_}; }
+    std::span<const std::uint8_t> bytes() const {
+        return {reinterpret_cast<const std::uint8_t*>(data_.get()), size_};
+    }
+
+private:
+    static constexpr std::size_t longest_number = 32;
+
+    void need(std::size_t more) {
+        if (more <= capacity_ - size_) return;
+        const std::size_t capacity = capacity_ + capacity_ / 2 + more + 4096;
+        auto* grown = static_cast<char*>(std::realloc(data_.get(), capacity));
+        if (!grown) throw std::bad_alloc();
+        (void)data_.release();
+        data_.reset(grown);
+        capacity_ = capacity;
+    }
+
+    struct Free {
+        void operator()(char* memory) const { std::free(memory); }
+    };
+    std::unique_ptr<char, Free> data_;
+    std::size_t size_ = 0, capacity_ = 0;
+};
+
+}  // namespace faqem::detail

@@ -1,0 +1,39 @@
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "asset/text_buffer.hpp"
+
+using faqem::detail::TextBuffer;
+
+TEST_CASE("a text buffer holds what was put in, however much it is") {
+    TextBuffer buffer;
+    CHECK(buffer.view().empty());
+    buffer.put("");
+    CHECK(buffer.bytes().empty());
+    std::string expected;
+    for (int i = 0; i < 20000; ++i) {
+        buffer.put('v');
+        buffer.number(i - 10000);
+        buffer.put(" word\n");
+        expected += 'v';
+        expected += std::to_string(i - 10000);
+        expected += " word\n";
+    }
+    CHECK(buffer.view() == expected);
+    CHECK(buffer.bytes().size() == expected.size());
+}
+
+TEST_CASE("numbers of a text buffer are the shortest that read back the same") {
+    const auto text = [](auto value) {
+        TextBuffer buffer;
+        buffer.number(value);
+        return std::string(buffer.view());
+    };
+    CHECK(text(0.1f) == "0.1");
+    CHECK(text(0.1) == "0.1");
+    CHECK(text(static_cast<double>(0.1f)) == "0.10000000149011612");
+    CHECK(text(-std::numeric_limits<double>::max()) == "-1.7976931348623157e+308");
+    CHECK(text(std::numeric_limits<std::uint64_t>::max()) == "18446744073709551615");
+}
