@@ -20,6 +20,12 @@ constexpr double sheet_penalty = 1.0;
 constexpr int longest_descent = 6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+bool has_corner(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+bool shares_corner(const Triangle& a, const Triangle& b) {
+    return has_corner(a, b[0]) || has_corner(a, b[1]) || has_corner(a, b[2]);
+}
+
 double distance_squared(const Vector3& p, const Bound& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
 }
@@ -211,19 +217,27 @@ SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const
 }
 
 // From `face` to the closest face around it, again and again. False when it takes too long: then the sample
-// is not as close by as was thought.
+// is not as close by as was thought. Every face is looked at once: those around the face before were, and are
+// no closer. Whether a face passes is only asked where it is closer, which few are.
 bool ProjectionWalk::descend(const Query& query, Index& face) const {
     double least = distance_to_original(face, query.p0);
+    Triangle before = {no_index, no_index, no_index};
     for (int step = 0; step < longest_descent; ++step) {
         const Index from = face;
-        for (const Index v : history_.triangles[from]) {
-            for (const Index g : rings_.at(v)) {
-                if (g == from || !passes(g, query)) continue;
+        const Triangle& at = history_.triangles[from];
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (has_corner(before, at[i])) continue;
+            for (const Index g : rings_.at(at[i])) {
+                const Triangle& t = history_.triangles[g];
+                const bool seen = g == from || shares_corner(t, before) || (i > 0 && has_corner(t, at[0])) ||
+                                  (i > 1 && has_corner(t, at[1]));
+                if (seen) continue;
                 const double d = distance_to_original(g, query.p0);
-                if (d < least || (d == least && g < face)) least = d, face = g;
+                if ((d < least || (d == least && g < face)) && passes(g, query)) least = d, face = g;
             }
         }
         if (face == from) return true;
+        before = at;
     }
     return false;
 }
