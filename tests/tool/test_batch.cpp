@@ -112,6 +112,13 @@ TEST_CASE("a batch refuses models as simplify does") {
     CHECK(outcome.code == 9);
     CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
     CHECK(!fs::exists(folder / "out/a.glb"));
+    // A face twice is a repair, and with --strict an error; what was made without it is made again.
+    write(folder / "in/twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 4 1 3\n");
+    CHECK(status(run(folder, batch), "twice.obj") == "done");
+    const Outcome strict = run(folder, batch + "--strict --resume");
+    CHECK(strict.code == 9);
+    CHECK(lines_of(strict).at("twice.obj")["code"] == 3);
+    CHECK(status(strict, "a.glb") == "done");
 }
 
 TEST_CASE("two models with one result are named before anything is done") {
