@@ -18,7 +18,8 @@ constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_le
 constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
 constexpr std::array<std::string_view, rung_kinds> rung_names = {
-    "reseed", "tiny_components", "without_link", "fold", "flip_zero", "flip_half", "flip_any", "any_component"};
+    "reseed",    "double_faces", "tiny_components", "without_link", "fold",
+    "flip_zero", "flip_half",    "flip_any",        "any_component"};
 
 std::uint64_t peak_rss_bytes() {
     rusage usage{};

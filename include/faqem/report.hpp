@@ -40,6 +40,7 @@ inline constexpr std::size_t refusal_kinds = 9;
 /// link condition is lifted pair by pair, and so is the rule against folds; each collapse against one counts.
 enum class Rung {
     reseed,           ///< all pairs evaluated anew
+    double_faces,     ///< faces deleted that lie on others, with the same corners and winding
     tiny_components,  ///< whole tiny components deleted
     without_link,     ///< link condition lifted
     fold,             ///< folds allowed
@@ -48,7 +49,7 @@ enum class Rung {
     flip_any,         ///< flips allowed
     any_component,    ///< whole components deleted, smallest first
 };
-inline constexpr std::size_t rung_kinds = 8;
+inline constexpr std::size_t rung_kinds = 9;
 
 /// Wall-clock seconds of the phases. `simplify` runs from flat arrays to flat arrays and includes `weld`.
 struct PhaseSeconds {

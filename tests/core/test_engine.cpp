@@ -437,3 +437,22 @@ TEST_CASE("the end of a border waits for its distance to the next one") {
     CHECK(order_of_hole(1.5 / 4.5) == 1);
     CHECK(order_of_hole(2.5 / 4.5) == 2);
 }
+
+TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as many as needed") {
+    // A square of two triangles; the first is there three times, the second as well the other way round.
+    TriangleMesh mesh = test::quad();
+    mesh.triangles = {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {2, 0, 1}, {0, 3, 2}};
+    for (const std::size_t target : {std::size_t{1}, std::size_t{4}}) {
+        Play<Script> play(mesh, Script());
+        const LoopResult& result = play.run(target, {LinkCondition::off, 0, 0});
+        CHECK(play.complex.face_count() == std::max<std::size_t>(target, 3));
+        CHECK(taken(result, Rung::double_faces) == 1);
+        CHECK(play.complex.alive(0));  // the first of each stays
+        CHECK(play.complex.alive(2));
+        CHECK(play.complex.alive(4));
+        CHECK(play.complex.alive(3) == (target == 4));
+        play.pairs.for_each_pair(1, [&](Neighbour n) {
+            if (n.vertex == 2) CHECK(play.pairs.face_count(n.pair) == (target == 4 ? 2 : 1));
+        });
+    }
+}

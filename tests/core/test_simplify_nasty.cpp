@@ -169,14 +169,13 @@ TEST_CASE("nasty: fins and bow-ties are no trap") {
     });
 }
 
-TEST_CASE("nasty: with 28 of 100 edges non-manifold the target is met, or a reason given") {
+TEST_CASE("nasty: with 28 of 100 edges non-manifold the target is met") {
     const TriangleMesh mesh = test::soup(5, 40, 700);
     REQUIRE(share_of_nonmanifold_edges(mesh) > 0.28);
     every_preset(mesh, 0.1, [](const SimplifyResult& result) {
         CHECK(!result.mesh.triangles.empty());
-        if (result.report.stop == StopReason::reached_target) return;
-        const auto& refusals = result.report.refusals;
-        CHECK(std::any_of(refusals.begin(), refusals.end(), [](std::uint64_t n) { return n > 0; }));
+        CHECK(result.report.stop == StopReason::reached_target);
+        CHECK(result.mesh.triangles.size() <= 70);
     });
 }
 

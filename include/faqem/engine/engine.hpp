@@ -282,6 +282,10 @@ private:
 
     // Takes the next rung. False: there is none left.
     bool climb(const LoopOptions& options) {
+        if (delete_double_faces(options)) {
+            ++result_.rungs[static_cast<std::size_t>(Rung::double_faces)];
+            return true;
+        }
         while (++rung_ < rung_kinds) {
             const auto rung = static_cast<Rung>(rung_);
             if (!take(rung, options)) continue;
@@ -317,9 +321,33 @@ private:
                 return wedges_.empty() && !keeps_groups() &&
                        delete_components(options, std::numeric_limits<double>::infinity());
             case Rung::reseed:
+            case Rung::double_faces:
                 break;
         }
         return false;
+    }
+
+    // Deletes faces with the corners and the winding of an earlier one, down to the target. No surface is
+    // lost, but perhaps a group.
+    bool delete_double_faces(const LoopOptions& options) {
+        if (keeps_groups()) return false;
+        std::vector<std::pair<Triangle, Index>> faces;
+        for (Index f = 0; f < complex_.face_slots(); ++f) {
+            if (!complex_.alive(f)) continue;
+            Triangle t = complex_.triangle(f);
+            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+            faces.emplace_back(t, f);
+        }
+        std::sort(faces.begin(), faces.end());
+        bool any = false;
+        for (std::size_t i = 1; i < faces.size() && complex_.face_count() > options.target_faces; ++i) {
+            if (faces[i].first != faces[i - 1].first) continue;
+            recorder_.deleting(faces[i].second);
+            complex_.remove_face(faces[i].second);
+            pairs_.face_removed(faces[i].first);
+            any = true;
+        }
+        return any;
     }
 
     bool keeps_groups() const { return curves_ && !curves_->empty(); }

@@ -88,6 +88,16 @@ public:
         changes.resize(kept);
     }
 
+    /// A face of the complex is gone; each of its edges has others.
+    void face_removed(const Triangle& corners) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = corners[k], n = corners[(k + 1) % 3];
+            for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
+                if (end(s) == v && end(s ^ 1) == n) set_face_count(s / 2, face_count(s / 2) - 1);
+            }
+        }
+    }
+
     /// Kills all pairs of a vertex that has no face any more.
     void kill_all(Index v, std::vector<Index>& killed) {
         for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
