@@ -80,6 +80,16 @@ TEST_CASE("border bindings: inside, and where a border ends, there is nothing to
     CHECK(triangle.squared_distance(0, 1, {0.5, 0, 0}) == 0);
 }
 
+TEST_CASE("border bindings: a border that begins where the original had none is let be") {
+    // Each side of the triangle 0 1 2 has a flap of two faces, back to back.
+    Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                           {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}}));
+    bench.collapse(0, 3, {0, 0, 0});
+    REQUIRE(bench.pairs.boundary_degree(0) > 0);
+    CHECK(bench.squared_distance(0, 1, {7, 7, 7}) == 0);
+    bench.collapse(0, 1, {0, 0, 0});
+}
+
 TEST_CASE("border bindings: a simplified disc keeps its rim as a polygon of equal sides would") {
     const TriangleMesh disc = test::fan(128);
     Options options;

@@ -51,7 +51,7 @@ public:
     /// O(bound points times valence)
     double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v,
                             const Vector3& p) {
-        if (pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0) return 0;
+        if (!is_near(pairs, u, v)) return 0;
         gather(pairs, u, v);
         edges_.clear();
         for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
@@ -72,7 +72,7 @@ public:
     /// u and v are about to become one.
     void collapsing(const PairTable& pairs, Index u, Index v) {
         bound_.clear();
-        if (pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0) return;
+        if (!is_near(pairs, u, v)) return;
         gather(pairs, u, v);
         for (const Index a : {u, v}) {
             pairs.for_each_pair(a, [&](Neighbour n) {
@@ -103,6 +103,11 @@ private:
         Index vertex;
         std::size_t first_segment;  ///< of the far ends of its original open edges
     };
+
+    // Where the original has no border, one that begins has nothing to be compared with.
+    bool is_near(const PairTable& pairs, Index u, Index v) const {
+        return !points_.empty() && pairs.boundary_degree(u) + pairs.boundary_degree(v) > 0;
+    }
 
     void bind(Index point, Index pair) {
         next_[point] = first_[pair];

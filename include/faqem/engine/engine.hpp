@@ -23,6 +23,7 @@
 #include "faqem/engine/border_loops.hpp"
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/components.hpp"
+#include "faqem/engine/double_faces.hpp"
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/legality.hpp"
 #include "faqem/engine/metric.hpp"
@@ -327,26 +328,19 @@ private:
         return false;
     }
 
-    // Deletes faces with the corners and the winding of an earlier one, down to the target. No surface is
-    // lost, but perhaps a group.
+    // Down to the target. No surface is lost, but perhaps a group.
     bool delete_double_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
-        std::vector<std::pair<Triangle, Index>> faces;
-        for (Index f = 0; f < complex_.face_slots(); ++f) {
-            if (!complex_.alive(f)) continue;
-            Triangle t = complex_.triangle(f);
-            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-            faces.emplace_back(t, f);
-        }
-        std::sort(faces.begin(), faces.end());
         bool any = false;
-        for (std::size_t i = 1; i < faces.size() && complex_.face_count() > options.target_faces; ++i) {
-            if (faces[i].first != faces[i - 1].first) continue;
-            recorder_.deleting(faces[i].second);
-            complex_.remove_face(faces[i].second);
-            pairs_.face_removed(faces[i].first);
+        for (const Index f : double_faces(complex_)) {
+            if (complex_.face_count() <= options.target_faces) break;
+            const Triangle corners = complex_.triangle(f);
+            recorder_.deleting(f);
+            complex_.remove_face(f);
+            pairs_.face_removed(corners);
             any = true;
         }
+        if (any && borders_) borders_.emplace(complex_, pairs_);  // edges may have become open
         return any;
     }
 
