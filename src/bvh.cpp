@@ -140,12 +140,6 @@ struct Bvh::Build {
         }
         return all;
     }
-
-    Box bounds(const Range& range) const {
-        Box box;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) box.add(items[i].box);
-        return box;
-    }
 };
 
 template <class Positions>

@@ -127,3 +127,11 @@ TEST_CASE("after any collapses and removals the lists are those of a plain list 
         CHECK(good);
     }
 }
+
+TEST_CASE("the faces on three corners are counted, however they are wound") {
+    const Complex complex = test::complex_of(
+        test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}, {1, 3, 2}}));
+    CHECK(complex.faces_with(0, 1, 2) == 2);
+    CHECK(complex.faces_with(2, 3, 1) == 1);
+    CHECK(complex.faces_with(0, 1, 3) == 0);
+}

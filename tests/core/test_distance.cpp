@@ -35,3 +35,12 @@ TEST_CASE("distance: it is that of the closest point, on slivers, segments and p
         }
     }
 }
+
+TEST_CASE("distance: of several triangles the nearest is found, the first of equals") {
+    const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), up(0, 0, 1);
+    const std::vector<TriangleDistance> layers = {
+        {a, b, c}, {a + up, b + up, c + up}, {a + up, b + up, c + up}};
+    CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.4}) == 0);
+    CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.6}) == 1);
+    CHECK(engine::nearest_of({}, a) == 0);
+}

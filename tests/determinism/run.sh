@@ -18,29 +18,25 @@ hash() {
 
 runs=0
 same=0
+# compare TOOL THREADS WHAT: of $model with $options, with $first
+compare() {
+    runs=$((runs + 1))
+    if [ "$(hash "$1" "$model" "$2" "$options")" = "$first" ]; then
+        same=$((same + 1))
+    else
+        echo "differs: $(basename "$model") $options, $3"
+    fi
+}
 for model in "$work"/*.glb; do
     case $model in */out.glb) continue ;; esac
     for options in "--preset qem" "--preset paper" "--preset stmw" "--preset fast" "--preset balanced" \
         "--preset best" "--bake vertex" "--bake keep" "--bake none" "--mapping lineage" "--virtual-edges=0.1" \
         "--max-error 1% --bake none"; do
         first=$(hash "$tool" "$model" 1 "$options")
-        for threads in 1 1 2 3 16; do
-            runs=$((runs + 1))
-            if [ "$(hash "$tool" "$model" $threads "$options")" = "$first" ]; then
-                same=$((same + 1))
-            else
-                echo "differs: $(basename "$model") $options, $threads threads"
-            fi
-        done
+        for threads in 1 1 2 3 16; do compare "$tool" $threads "$threads threads"; done
         for preset in release debug clang; do
             other=$root/build/$preset/src/tool/faqem
-            [ -x "$other" ] && [ "$other" != "$tool" ] || continue
-            runs=$((runs + 1))
-            if [ "$(hash "$other" "$model" 3 "$options")" = "$first" ]; then
-                same=$((same + 1))
-            else
-                echo "differs: $(basename "$model") $options, preset $preset"
-            fi
+            if [ -x "$other" ] && [ "$other" != "$tool" ]; then compare "$other" 3 "preset $preset"; fi
         done
     done
 done

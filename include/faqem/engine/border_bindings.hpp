@@ -62,7 +62,7 @@ public:
         double worst = 0, nearest_point = std::numeric_limits<double>::infinity();
         Index nearest = no_index;
         for (const Index i : bound_) {
-            worst = std::max(worst, edges_[nearest_edge(points_[i].position)](points_[i].position));
+            worst = std::max(worst, edges_[nearest_of(edges_, points_[i].position)](points_[i].position));
             const double d = (points_[i].position - p).squaredNorm();
             if (d < nearest_point) nearest_point = d, nearest = i;
         }
@@ -94,7 +94,7 @@ public:
             edge_pairs_.push_back(pair);
         }
         if (edges_.empty()) return;
-        for (const Index i : bound_) bind(i, edge_pairs_[nearest_edge(points_[i].position)]);
+        for (const Index i : bound_) bind(i, edge_pairs_[nearest_of(edges_, points_[i].position)]);
     }
 
 private:
@@ -123,16 +123,6 @@ private:
                 for (Index i = first_[n.pair]; i != no_index; i = next_[i]) bound_.push_back(i);
             });
         }
-    }
-
-    std::size_t nearest_edge(const Vector3& x) const {
-        std::size_t at = 0;
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < edges_.size(); ++k) {
-            const double d = edges_[k](x);
-            if (d < nearest) nearest = d, at = k;
-        }
-        return at;
     }
 
     double squared_distance_around(Index point, const Vector3& p) const {

@@ -94,6 +94,13 @@ public:
         return engine::area_vector(position(t[0]), position(t[1]), position(t[2]));
     }
 
+    /// Number of faces with the corners a, b and c. O(valence of a)
+    std::uint32_t faces_with(Index a, Index b, Index c) const {
+        std::uint32_t count = 0;
+        for_each_face(a, [&](Index f, unsigned) { count += has_corner(f, b) && has_corner(f, c); });
+        return count;
+    }
+
     /// Area of all faces. O(faces)
     double area() const {
         double sum = 0;

@@ -3,6 +3,9 @@
 /// Squared distance from many points to one triangle.
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
 
 #include "faqem/engine/vector.hpp"
 
@@ -42,5 +45,16 @@ private:
     double ab2_ = 0, ac2_ = 0, ab_ac_ = 0;
     double per_det_ = 0, per_ab2_ = 0, per_ac2_ = 0, per_bc2_ = 0;  // reciprocals; 0 where there is none
 };
+
+/// The index of the one nearest to p, the first of several; 0 where there is none. O(n)
+inline std::size_t nearest_of(std::span<const TriangleDistance> triangles, const Vector3& p) {
+    std::size_t at = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const double d = triangles[k](p);
+        if (d < nearest) nearest = d, at = k;
+    }
+    return at;
+}
 
 }  // namespace faqem::engine

@@ -96,7 +96,7 @@ private:
             ++common;
             if (manifold && shared == 1 && at_u == 1 && at_v == 1)
                 legal = false;  // last triangle or its hole
-            if (!manifold && at_u + at_v - 2 * faces_with(complex, v, u, n.vertex) > std::max(at_u, at_v))
+            if (!manifold && at_u + at_v - 2 * complex.faces_with(v, u, n.vertex) > std::max(at_u, at_v))
                 legal = false;
         });
         if (manifold) {
@@ -115,13 +115,6 @@ private:
 
     void mark_edges(const PairTable& pairs, Index u) {
         pairs.for_each_pair(u, [&](Neighbour n) { mark_[n.vertex] = pairs.face_count(n.pair); });
-    }
-
-    static std::uint32_t faces_with(const Complex& complex, Index v, Index u, Index n) {
-        std::uint32_t count = 0;
-        complex.for_each_face(
-            v, [&](Index f, unsigned) { count += complex.has_corner(f, u) && complex.has_corner(f, n); });
-        return count;
     }
 
     // Is there a face (v, x, y) beside a face (u, x, y)? Only edges marked at u can be such.

@@ -25,13 +25,6 @@ inline std::uint32_t faces_of_edge(const PairTable& pairs, Index v, Index other)
     return count;
 }
 
-inline std::uint32_t faces_with(const Complex& complex, Index a, Index b, Index c) {
-    std::uint32_t count = 0;
-    complex.for_each_face(
-        a, [&](Index f, unsigned) { count += complex.has_corner(f, b) && complex.has_corner(f, c); });
-    return count;
-}
-
 }  // namespace open_edges
 
 /// Calls visit(OpenEdge) for each open edge there would be at the vertex that u and v become. O(valence
@@ -44,7 +37,7 @@ void for_each_open_edge_after(const Complex& complex, const PairTable& pairs, In
         const std::uint32_t with_u = pairs.face_count(n.pair);
         if (n.vertex == v || with_u == 0) return;
         const std::uint32_t with_v = faces_of_edge(pairs, v, n.vertex);
-        const std::uint32_t gone = with_v > 0 ? 2 * faces_with(complex, u, v, n.vertex) : 0;
+        const std::uint32_t gone = with_v > 0 ? 2 * complex.faces_with(u, v, n.vertex) : 0;
         if (with_u + with_v - gone == 1) visit(OpenEdge{n.vertex, with_u, with_v});
     });
     pairs.for_each_pair(v, [&](Neighbour n) {

@@ -89,7 +89,7 @@ public:
             faces_.push_back(f);
         });
         if (faces_.empty()) return;
-        for (const Index x : bound_) bindings_->bind(x, faces_[nearest_face(bindings_->position(x))]);
+        for (const Index x : bound_) bindings_->bind(x, faces_[nearest_of(after_, bindings_->position(x))]);
     }
 
     Staleness staleness(const PairTable::Change& change) const { return planes_.staleness(change); }
@@ -142,16 +142,6 @@ private:
             if (d < nearest) nearest = d, at = i;
         }
         return at == no_index ? 0 : bindings_->squared_distance_around(at, p, nearest);
-    }
-
-    std::size_t nearest_face(const Vector3& x) const {
-        std::size_t at = 0;
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < after_.size(); ++k) {
-            const double d = after_[k](x);
-            if (d < nearest) nearest = d, at = k;
-        }
-        return at;
     }
 
     MemorylessMetric planes_;
