@@ -16,7 +16,8 @@ namespace faqem::engine {
 /// 6 * max_faces < 2^32: a soup has up to three edges per face, and a pair two ends.
 inline constexpr std::size_t max_faces = 715'827'880;
 
-/// Vertices, triangles, and for each vertex a linked list of its corners. Faces keep their index for life.
+/// Vertices, triangles with their normals, and for each vertex a linked list of its corners. Faces keep their
+/// index for life.
 ///
 /// Lists are cleaned lazily: a corner of a dead face stays in the list of a vertex until that vertex survives
 /// a collapse, so that removing a face next to a vertex of valence n costs O(1), not O(n). At most max_faces
@@ -27,13 +28,14 @@ public:
     /// \param triangles  indices into positions; a face with no_index corners is dead from the start
     Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles) {
         vertices_.reserve(positions.size());
-        for (const Vector3& p : positions) vertices_.push_back({p, no_index, 0});
+        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), no_index, 0});
         faces_.resize(triangles.size());
         for (std::size_t f = triangles.size(); f-- > 0;) {
             faces_[f].corners = triangles[f];
             if (!alive(static_cast<Index>(f))) continue;
             ++face_count_;
             for (std::size_t k = 3; k-- > 0;) push_corner(triangles[f][k], static_cast<Index>(4 * f + k));
+            set_normal(static_cast<Index>(f));
         }
     }
 
@@ -94,6 +96,26 @@ public:
         return engine::area_vector(position(t[0]), position(t[1]), position(t[2]));
     }
 
+    /// Unit normal of f; zero where it has no area.
+    const Vector3& normal(Index f) const { return faces_[f].normal; }
+    double area(Index f) const { return faces_[f].area; }
+
+    /// Are all normals at v at most 120 degrees apart? May be false where they are. O(1) where they are
+    /// within about 30 degrees, else O(valence)
+    bool is_calm(Index v) const {
+        // The sum of two at more than 120 degrees is no longer than 1, and that of all than one less than
+        // there are.
+        const Vertex& vertex = vertices_[v];
+        const double square = vertex.normals.squaredNorm();
+        const double most = static_cast<double>(vertex.degree) - 1 + 1e-6;
+        if (vertex.degree > 0 && square > most * most) return true;
+        // Nor are any so far apart where each is within 60 degrees of one direction.
+        return all_faces(v, [&](Index f, unsigned) {
+            const double along = normal(f).dot(vertex.normals);
+            return along > 0 && along * along > 0.25 * square;
+        });
+    }
+
     /// Number of faces with the corners a, b and c. O(valence of a)
     std::uint32_t faces_with(Index a, Index b, Index c) const {
         std::uint32_t count = 0;
@@ -105,7 +127,7 @@ public:
     double area() const {
         double sum = 0;
         for (Index f = 0; f < face_slots(); ++f) {
-            if (alive(f)) sum += 0.5 * area_vector(f).norm();
+            if (alive(f)) sum += area(f);
         }
         return sum;
     }
@@ -120,33 +142,53 @@ public:
             const Index f = c / 4;
             if (alive(f) && has_corner(f, survivor)) remove_face(f);
         }
+        for_each_face(survivor, [&](Index f, unsigned) { add_normal(f, -1); });
+        for_each_face(gone, [&](Index f, unsigned) { add_normal(f, -1); });
         Index kept = no_index;
         splice(to.first, kept, survivor);
         splice(from.first, kept, survivor);
-        to = {p, kept, to.degree + from.degree};
+        to = {p, Vector3::Zero(), kept, to.degree + from.degree};
         from.first = no_index;
         from.degree = 0;
+        for_each_face(survivor, [&](Index f, unsigned) { set_normal(f); });
         return before - face_count_;
     }
 
     /// Removes a living face.
     void remove_face(Index f) {
+        add_normal(f, -1);
         for (const Index v : faces_[f].corners) --vertices_[v].degree;
         faces_[f].corners = {no_index, no_index, no_index};
         --face_count_;
     }
 
 private:
-    // What is needed together lies together: a vertex is half a cache line.
-    struct alignas(32) Vertex {
+    // What is needed together lies together: a vertex is a cache line.
+    struct alignas(64) Vertex {
         Vector3 position;
-        Index first;  ///< corner 4 * face + (0, 1 or 2), head of a list
+        Vector3 normals;  ///< sum of those of its faces
+        Index first;      ///< corner 4 * face + (0, 1 or 2), head of a list
         std::uint32_t degree;
     };
     struct Face {
         Triangle corners;
         Triangle next;  ///< corner after each, in the list of its vertex
+        Vector3 normal;
+        double area;
     };
+
+    void set_normal(Index f) {
+        Face& face = faces_[f];
+        face.normal = area_vector(f);
+        const double length = face.normal.norm();
+        face.area = length > 0 ? 0.5 * length : 0;
+        face.normal = length > 0 ? Vector3(face.normal / length) : Vector3::Zero();
+        add_normal(f, 1);
+    }
+
+    void add_normal(Index f, double sign) {
+        for (const Index v : faces_[f].corners) vertices_[v].normals += sign * faces_[f].normal;
+    }
 
     Index next(Index corner) const { return faces_[corner / 4].next[corner % 4]; }
 

@@ -11,68 +11,67 @@
 
 namespace faqem::engine {
 
+/// A face around a pair as its collapse leaves it: the new vertex, then corners a and b.
+struct TurnedFace {
+    Index face, a, b;
+    Vector3 normal;  ///< unit; zero without area
+    double turn;     ///< cosine to the normal it has now
+};
+
 /// Counts folds; holds scratch memory only.
 class Folds {
 public:
     explicit Folds(const Complex& complex) : mark_(complex.vertex_slots(), 0) {}
 
-    /// Are there more folds after (u, v) has become one vertex at p than there are?
-    /// \param least  cosine between the faces of an edge below which it is a fold, in (-1, 0)
+    /// Are there more folds after (u, v) has become one vertex than there are?
+    /// \param turned  the faces around both but those with both
+    /// \param least   cosine between the faces of an edge below which it is a fold, in (-1, 0)
     /// O(valence squared), O(valence) typically
-    bool adds(const Complex& complex, Index u, Index v, const Vector3& p, double least) {
+    bool adds(const Complex& complex, Index u, Index v, const std::vector<TurnedFace>& turned, double least) {
+        // Normals at most 120 degrees apart, of which one turns by less than this, make no fold.
+        const double calm_turn = least < -0.5 ? -0.5 * least + std::sqrt(0.75 * (1 - least * least)) : 2;
         std::uint32_t before = 0, after = 0;
-        moved_.clear();
-        complex.for_each_face_around(u, v, [&](Index f, unsigned corner) {
-            if (complex.has_corner(f, u) && complex.has_corner(f, v)) return;
-            const Triangle& t = complex.triangle(f);
-            const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            const Vector3 normal = area_vector(p, complex.position(a), complex.position(b)).normalized();
-            moved_.push_back({a, b, normal});
-            if (const Index g = across(complex, f, a, b); g != no_index) {
-                const Vector3 other =
-                    (complex.goes_from(g, a, b) ? -1 : 1) * complex.area_vector(g).normalized();
-                before += complex.area_vector(f).normalized().dot(other) < least;
-                after += normal.dot(other) < least;
+        for (const TurnedFace& side : turned) {
+            if (side.turn > calm_turn && (complex.is_calm(side.a) || complex.is_calm(side.b))) continue;
+            if (const Index g = across(complex, side); g != no_index) {
+                const Vector3 other = (complex.goes_from(g, side.a, side.b) ? -1 : 1) * complex.normal(g);
+                before += complex.normal(side.face).dot(other) < least;
+                after += side.normal.dot(other) < least;
             }
-        });
-        after += folds_between(moved_, least);
+        }
+        after += folds_between(turned, least);
         if (after <= before) return false;
         return after > before + folds_at(complex, u, no_index, least) + folds_at(complex, v, u, least);
     }
 
 private:
-    struct Side {
-        Index a, b;  ///< the corners besides the vertex in hand
-        Vector3 normal;
-    };
-
-    // The other face of edge (a, b) of face f; no_index where there is not exactly one.
-    static Index across(const Complex& complex, Index f, Index a, Index b) {
+    // The other face of edge (a, b); no_index where there is not exactly one.
+    static Index across(const Complex& complex, const TurnedFace& side) {
         Index other = no_index;
         std::uint32_t others = 0;
-        complex.for_each_face(a, [&](Index g, unsigned) {
-            if (g != f && complex.has_corner(g, b)) other = g, ++others;
+        complex.for_each_face(side.a, [&](Index g, unsigned) {
+            if (g != side.face && complex.has_corner(g, side.b)) other = g, ++others;
         });
         return others == 1 ? other : no_index;
     }
 
     // Folds at w, but for its edge to `except`.
     std::uint32_t folds_at(const Complex& complex, Index w, Index except, double least) {
-        moved_.clear();
+        as_they_are_.clear();
         complex.for_each_face(w, [&](Index f, unsigned corner) {
             const Triangle& t = complex.triangle(f);
             const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            moved_.push_back({a == except ? no_index : a, b == except ? no_index : b,
-                              complex.area_vector(f).normalized()});
+            as_they_are_.push_back(
+                {f, a == except ? no_index : a, b == except ? no_index : b, complex.normal(f), 1});
         });
-        return folds_between(moved_, least);
+        return folds_between(as_they_are_, least);
     }
 
     // Folds among the edges from the vertex in hand to corners of exactly two of its faces.
-    std::uint32_t folds_between(const std::vector<Side>& sides, double least) {
+    std::uint32_t folds_between(const std::vector<TurnedFace>& sides, double least) {
         if (are_within_one_cone(sides, least)) return 0;
         ends_.clear();
-        for (const Side& side : sides) {
+        for (const TurnedFace& side : sides) {
             // Faces of one winding have an edge at different places.
             add_end(side.a, side.normal);
             add_end(side.b, -side.normal);
@@ -99,11 +98,11 @@ private:
 
     // Two normals at angles below x from a third are less than 2 x apart: cos 2x = 2 cos^2 x - 1. Only
     // windings that disagree could make a fold of such.
-    static bool are_within_one_cone(const std::vector<Side>& sides, double least) {
+    static bool are_within_one_cone(const std::vector<TurnedFace>& sides, double least) {
         Vector3 sum = Vector3::Zero();
-        for (const Side& side : sides) sum += side.normal;
+        for (const TurnedFace& side : sides) sum += side.normal;
         const double limit = std::sqrt(0.5 * (1 + least)) * sum.norm();
-        for (const Side& side : sides) {
+        for (const TurnedFace& side : sides) {
             if (!(side.normal.dot(sum) > limit)) return false;
         }
         return true;
@@ -114,7 +113,7 @@ private:
         std::uint32_t faces;
         Vector3 first, last;  ///< normals of its faces, turned over where the vertex in hand comes after it
     };
-    std::vector<Side> moved_;
+    std::vector<TurnedFace> as_they_are_;
     std::vector<End> ends_;
     std::vector<std::uint32_t> mark_;  // 1 + place in ends_, while counting; else 0
 };

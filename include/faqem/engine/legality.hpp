@@ -37,45 +37,53 @@ public:
     /// \return why (u, v) may not become one vertex at p, or nothing. O(valence of u and v)
     std::optional<Refusal> check(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
                                  const Vector3& p, const Rules& rules) {
+        turned_.clear();
         if (const auto refusal = check_faces(complex, u, v, p, rules.least_turn)) return refusal;
         if (const auto refusal = check_faces(complex, v, u, p, rules.least_turn)) return refusal;
         if (rules.link != LinkCondition::off && !link_condition(complex, pairs, u, v, pair, rules.link)) {
             return Refusal::link;
         }
-        if (rules.least_fold > -1 && folds_.adds(complex, u, v, p, rules.least_fold)) return Refusal::fold;
+        if (rules.least_fold > -1 && folds_.adds(complex, u, v, turned_, rules.least_fold))
+            return Refusal::fold;
         return std::nullopt;
     }
 
 private:
     // Faces of `moved` without `partner`: none may turn over or lose its area (paper, Sec. 3.3). A face that
     // was degenerate before has no normal to turn and no area to lose.
-    static std::optional<Refusal> check_faces(const Complex& complex, Index moved, Index partner,
-                                              const Vector3& p, double least_turn) {
+    std::optional<Refusal> check_faces(const Complex& complex, Index moved, Index partner, const Vector3& p,
+                                       double least_turn) {
         std::optional<Refusal> refusal;
         complex.all_faces(moved, [&](Index f, unsigned corner) {
             if (complex.has_corner(f, partner)) return true;
             const Triangle& t = complex.triangle(f);
-            const Vector3& a = complex.position(t[(corner + 1) % 3]);
-            const Vector3& b = complex.position(t[(corner + 2) % 3]);
-            const Vector3 before = area_vector(complex.position(moved), a, b);
-            const Vector3 after = area_vector(p, a, b);
-            const double old_norm = before.norm();
-            const double new_norm = after.norm();
-            if (least_turn > -1 && !(before.dot(after) >= least_turn * old_norm * new_norm)) {
+            const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
+            const Vector3 to_a = complex.position(a) - p, to_b = complex.position(b) - p;
+            const Vector3 area_vector = to_a.cross(to_b);
+            const double length = area_vector.norm();
+            const double along = complex.normal(f).dot(area_vector);
+            if (least_turn > -1 && complex.area(f) > 0 && !(along >= least_turn * length)) {
                 refusal = Refusal::flip;
-            } else if (is_degenerate(new_norm, p, a, b) &&
-                       !is_degenerate(old_norm, complex.position(moved), a, b)) {
+            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(complex, moved, f, a, b)) {
                 refusal = Refusal::degenerate;
             }
+            const double scale = length > 0 ? 1 / length : 0;
+            turned_.push_back({f, a, b, scale * area_vector, scale * along});
             return !refusal;
         });
         return refusal;
     }
 
-    static bool is_degenerate(double doubled_area, const Vector3& a, const Vector3& b, const Vector3& c) {
+    // \param to_a, to_b  sides of a triangle
+    static bool is_degenerate(double doubled_area, const Vector3& to_a, const Vector3& to_b) {
         const double longest =
-            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+            std::max({to_a.squaredNorm(), to_b.squaredNorm(), (to_b - to_a).squaredNorm()});
         return !(doubled_area > degenerate_aspect * longest);
+    }
+
+    static bool is_degenerate(const Complex& complex, Index v, Index f, Index a, Index b) {
+        const Vector3& p = complex.position(v);
+        return is_degenerate(2 * complex.area(f), complex.position(a) - p, complex.position(b) - p);
     }
 
     // Where (u, v) is an edge and all edges at u and v have at most two faces: the link condition for
@@ -130,6 +138,7 @@ private:
     }
 
     Folds folds_;
+    std::vector<TurnedFace> turned_;   // those that the collapse in hand leaves
     std::vector<std::uint32_t> mark_;  // faces of the edge from u, while checking
 };
 

@@ -37,16 +37,11 @@ public:
         : weights_(weights), curves_(curves) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
-        facets_.resize(complex.face_slots());
-        for (Index f = 0; f < facets_.size(); ++f) {
-            if (complex.alive(f)) facets_[f] = facet(complex, f);
-        }
         rings_.assign(complex.vertex_slots(), {});
-        normals_.assign(complex.vertex_slots(), Vector3::Zero());
         edges_.assign(complex.vertex_slots(), {});
         has_edges_.assign(complex.vertex_slots(), 0);
-        for (Index f = 0; f < facets_.size(); ++f) {
-            if (complex.alive(f)) add_facet(complex, f, no_index, no_index, 1);
+        for (Index f = 0; f < complex.face_slots(); ++f) {
+            if (complex.alive(f)) add_face(complex, f, no_index, no_index, 1);
         }
         for (Index v = 0; v < rings_.size(); ++v) find_edges(complex, pairs, v);
     }
@@ -77,17 +72,14 @@ public:
 
     void collapsing(const Complex& complex, const PairTable&, Index survivor, Index gone, const Vector3&) {
         complex.for_each_face_around(survivor, gone,
-                                     [&](Index f, unsigned) { add_facet(complex, f, survivor, gone, -1); });
+                                     [&](Index f, unsigned) { add_face(complex, f, survivor, gone, -1); });
     }
 
     void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
                    std::span<const PairTable::Change> around) {
         rings_[survivor] = {};
-        normals_[survivor] = Vector3::Zero();
-        complex.for_each_face(survivor, [&](Index f, unsigned) {
-            facets_[f] = facet(complex, f);
-            add_facet(complex, f, no_index, no_index, 1);
-        });
+        complex.for_each_face(survivor,
+                              [&](Index f, unsigned) { add_face(complex, f, no_index, no_index, 1); });
         find_edges(complex, pairs, survivor);
         for (const PairTable::Change& change : around) find_edges(complex, pairs, change.neighbour.vertex);
     }
@@ -98,11 +90,6 @@ private:
     /// A part that goes is missed at its own size at least, and may be all there is for a long way around: it
     /// goes where collapses elsewhere cost this many times its longest edge squared, squared.
     static constexpr double part_weight = 100;
-
-    struct Facet {
-        Vector3 normal = Vector3::Zero();  ///< unit; zero without area
-        double area = 0;
-    };
 
     /// Sum of w n n^T.
     struct Planes {
@@ -121,22 +108,12 @@ private:
         }
     };
 
-    static Facet facet(const Complex& complex, Index f) {
-        const Vector3 n = complex.area_vector(f);
-        const double length = n.norm();
-        if (!(length > 0)) return {};
-        return {n / length, 0.5 * length};
-    }
-
-    // Adds the facet to its corners' rings, or takes it away (sign -1), except at u and v.
-    void add_facet(const Complex& complex, Index f, Index u, Index v, double sign) {
-        const Facet& facet = facets_[f];
+    // Adds the face to its corners' rings, or takes it away (sign -1), except at u and v.
+    void add_face(const Complex& complex, Index f, Index u, Index v, double sign) {
         Planes planes;
-        planes.add(facet.normal, sign * facet.area);
+        planes.add(complex.normal(f), sign * complex.area(f));
         for (const Index corner : complex.triangle(f)) {
-            if (corner == u || corner == v) continue;
-            rings_[corner].add(planes, 1);
-            normals_[corner] += sign * facet.normal;
+            if (corner != u && corner != v) rings_[corner].add(planes, 1);
         }
     }
 
@@ -151,7 +128,7 @@ private:
         has_edges_[v] = 0;
         const bool is_on_curve = curves_ && curves_->has(v);
         if (pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !is_on_curve &&
-            !may_fold(complex, v)) {
+            (!(weights_.fold_edge > 0) || complex.is_calm(v))) {
             return;
         }
         Planes q;
@@ -166,18 +143,6 @@ private:
         edges_[v] = q;
     }
 
-    // Can two normals at v be more than 120 degrees apart? Their sum would not be longer than 1, and the sum
-    // of all than one less than there are. Nor are they where all normals are within 60 degrees of one
-    // direction.
-    bool may_fold(const Complex& complex, Index v) const {
-        if (!(weights_.fold_edge > 0)) return false;
-        const Vector3& sum = normals_[v];
-        const double length = sum.norm();
-        if (length > complex.degree(v) - 1 + 1e-6) return false;
-        return !complex.all_faces(
-            v, [&](Index f, unsigned) { return facets_[f].normal.dot(sum) > 0.5 * length; });
-    }
-
     std::uint32_t sum_shared(const Complex& complex, Index u, Index v, Planes& q) const {
         if (complex.degree(v) < complex.degree(u)) std::swap(u, v);
         std::uint32_t shared = 0;
@@ -187,7 +152,7 @@ private:
             ++shared;
             first = last;
             last = f;
-            q.add(facets_[f].normal, facets_[f].area);
+            q.add(complex.normal(f), complex.area(f));
         });
         const double w = edge_weight(complex, u, v, shared, first, last);
         if (!(w > 0)) return shared;
@@ -231,7 +196,7 @@ private:
         if (curves_ && curves_->differ(first, last)) return weights_.group_edge;
         // Windings may disagree: then opposite normals mean that the surface goes straight on.
         const bool agree = complex.goes_from(first, u, v) != complex.goes_from(last, u, v);
-        const double cosine = (agree ? 1 : -1) * facets_[first].normal.dot(facets_[last].normal);
+        const double cosine = (agree ? 1 : -1) * complex.normal(first).dot(complex.normal(last));
         return cosine < -0.5 ? weights_.fold_edge : 0;
     }
 
@@ -245,7 +210,7 @@ private:
             const Triangle& t = complex.triangle(f);
             const Index next = t[(corner + 1) % 3], other = t[(corner + 2) % 3];
             if (next != v && other != v) return;
-            const Vector3 into = e.cross(facets_[f].normal);
+            const Vector3 into = e.cross(complex.normal(f));
             const double length = into.norm();
             if (!(length > 0)) return;
             const Vector3& apex = complex.position(next == v ? other : next);
@@ -256,17 +221,15 @@ private:
 
     void add_edge_plane(const Complex& complex, Index f, Index a, Index b, double weight, Planes& q) const {
         const Vector3 e = complex.position(b) - complex.position(a);
-        const Vector3 across = e.cross(facets_[f].normal);
+        const Vector3 across = e.cross(complex.normal(f));
         const double length = across.norm();
         if (length > 0) q.add(across / length, weight * e.squaredNorm());
     }
 
     MemorylessWeights weights_;
     const GroupCurves* curves_;
-    std::vector<Facet> facets_;  // of each face, now
-    // Of each vertex, around itself, now: planes and sum of normals of its facets, planes along its edges.
+    // Of each vertex, around itself, now: planes of its faces, planes along its edges.
     std::vector<Planes> rings_;
-    std::vector<Vector3> normals_;
     std::vector<Planes> edges_;
     std::vector<std::uint8_t> has_edges_;
 };
