@@ -1,17 +1,23 @@
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "arrange.hpp"
+#include "blocks.hpp"
 #include "cost_curve.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/importance.hpp"
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/open_edges.hpp"
 #include "faqem/engine/tracked.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
@@ -43,14 +49,14 @@ struct Work {
 };
 
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
-                                const detail::Arranged& arranged, const engine::PairTable& pairs,
-                                Border border) {
+                                const detail::Arranged& arranged,
+                                std::span<const std::array<Index, 2>> open_edges, Border border) {
     const std::vector<std::uint8_t> at_vertex =
         detail::locks_of_welded(mesh, prepared.welded, prepared.positions.size());
     std::vector<std::uint8_t> locked;
     for (const Index v : arranged.vertex) locked.push_back(at_vertex[v]);
     if (border == Border::locked) {
-        for (Index v = 0; v < locked.size(); ++v) locked[v] |= pairs.boundary_degree(v) > 0;
+        for (const auto& [a, b] : open_edges) locked[a] = locked[b] = 1;
     }
     return locked;
 }
@@ -72,16 +78,15 @@ std::vector<double> importance(const MeshView& mesh, const detail::Prepared& pre
 template <class Recorder>
 class OriginRecorder {
 public:
-    OriginRecorder(Recorder& inner, const Complex& complex) : inner_(inner), place_(complex.vertex_slots()) {
-        for (Index v = 0; v < place_.size(); ++v) place_[v] = v;
-    }
+    /// \param places  whose place each slot has, or no_index
+    OriginRecorder(Recorder& inner, std::vector<Index> places) : inner_(inner), place_(std::move(places)) {}
     void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
         inner_.collapsing(complex, survivor, gone, to);
         if (to.point == complex.position(survivor)) return;
         place_[survivor] = to.point == complex.position(gone) ? place_[gone] : no_index;
     }
     void deleting(Index face) { inner_.deleting(face); }
-    /// The slot whose first place slot v has now, or no_index.
+    /// Whose place slot v has now, or no_index.
     Index place(Index v) const { return place_[v]; }
 
 private:
@@ -107,7 +112,8 @@ private:
 
 template <class Recorder>
 engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop) {
+                       Recorder& recorder, const engine::LoopOptions& loop,
+                       const engine::Original& original) {
     engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue) {
         engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
@@ -129,7 +135,7 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
         case detail::Settings::Carry::tracked:
             break;
     }
-    return weighted(engine::TrackedMetric({}, loop.target_faces, curves), engine::BucketQueue());
+    return weighted(engine::TrackedMetric({}, loop.target_faces, curves, &original), engine::BucketQueue());
 }
 
 // Everything of one run, in the order it is made.
@@ -146,15 +152,15 @@ public:
         prepared_ = detail::prepare(mesh_, settings_);
         result_.report.faces_dropped = prepared_.dropped_faces;
         result_.report.seconds.weld = all.seconds();
-        arranged_ = detail::arrange(prepared_);
-        Work work(arranged_);
+        arrange();
         if (options_.history == Recording::on) {
-            engine::HistoryRecorder history(work.complex);
-            collapse_and_collect(work, history);
+            engine::HistoryRecorder history(arranged_.vertex, arranged_.face,
+                                            static_cast<Index>(prepared_.positions.size()));
+            collapse_and_collect(history);
             finish_history(history);
         } else {
             engine::NoRecorder nothing;
-            collapse_and_collect(work, nothing);
+            collapse_and_collect(nothing);
         }
         take_relaxed();
         finish_report();
@@ -164,7 +170,7 @@ public:
 
     detail::CostCurve curve() {
         prepared_ = detail::prepare(mesh_, settings_);
-        arranged_ = detail::arrange(prepared_);
+        arrange();
         Work work(arranged_);
         CostRecorder recorder;
         const engine::LoopResult looped = collapse(work, recorder);
@@ -173,15 +179,121 @@ public:
     }
 
 private:
+    void arrange() {
+        arranged_ = detail::arrange(prepared_);
+        places_ = arranged_.vertex;
+        original_.positions = arranged_.positions;
+        original_.triangles = arranged_.triangles;
+        original_.into.resize(arranged_.positions.size());
+        std::iota(original_.into.begin(), original_.into.end(), Index{0});
+        if (settings_.carry == detail::Settings::Carry::tracked || options_.topology.border == Border::locked)
+            open_edges_ = engine::find_open_edges(arranged_.triangles, arranged_.positions.size());
+        original_.open_edges = open_edges_;
+        locked_ = locks(mesh_, prepared_, arranged_, open_edges_, options_.topology.border);
+        loop_ = loop_options();
+    }
+
+    engine::LoopOptions loop_options() {
+        engine::LoopOptions loop;
+        result_.report.target_faces =
+            std::max(detail::smallest_target,
+                     detail::faces_wanted(options_.target, static_cast<double>(mesh_.triangles.size())));
+        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
+        loop.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};
+        if (settings_.carry != detail::Settings::Carry::memory)
+            loop.distance_weight = area() / static_cast<double>(loop.target_faces);
+        loop.tiny_component = 0.02 * settings_.diagonal;
+        if (options_.progress) {
+            loop.progress = [this](double done) {
+                return options_.progress(Phase::simplify, done_in_blocks_ + (1 - done_in_blocks_) * done);
+            };
+        }
+        return loop;
+    }
+
+    double least_length() const { return 1e-8 * settings_.diagonal; }
+
+    double area() const {
+        double sum = 0;
+        for (const Triangle& t : arranged_.triangles) {
+            const auto at = [&](std::size_t k) -> const Vector3& { return arranged_.positions[t[k]]; };
+            sum += 0.5 * engine::area_vector(at(0), at(1), at(2)).norm();
+        }
+        return sum;
+    }
+
+    // What has attributes, groups, weights or virtual edges is not cut into blocks.
+    bool may_be_cut() const {
+        return settings_.carry != detail::Settings::Carry::memory && !mesh_.attributes &&
+               mesh_.vertex_weights.empty() && options_.topology.group_borders != GroupBorders::kept &&
+               options_.topology.virtual_edges != VirtualEdges::on;
+    }
+
+    // What can be collapsed in blocks is, and the rest arranged anew. \return false where it was cancelled
+    template <class Recorder>
+    bool begin_in_blocks(Recorder& recorder) {
+        if (!may_be_cut()) return true;
+        std::size_t least = loop_.target_faces;
+        if (settings_.carry == detail::Settings::Carry::tracked) least *= engine::TrackedMetric::begins_at;
+        engine::LoopOptions loop = loop_;
+        const double all = static_cast<double>(arranged_.triangles.size());
+        const double share = (all - static_cast<double>(std::min(least, arranged_.triangles.size()))) / all;
+        if (options_.progress) {
+            loop.progress = [&](double done) { return options_.progress(Phase::simplify, share * done); };
+        }
+        const detail::BlockInput input{arranged_.positions, arranged_.triangles, locked_};
+        const detail::BlockSteps blocks =
+            detail::simplify_in_blocks(input, loop, least, options_.history, options_.threads);
+        if (blocks.is_cancelled) return false;
+        if (blocks.steps.empty()) return true;
+        done_in_blocks_ = share;
+        result_.report.collapses = blocks.steps.size();
+        result_.report.refusals = blocks.refusals;
+        result_.report.rungs = blocks.rungs;
+        detail::Reduced reduced = detail::reduce(input, blocks.steps);
+        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) record(blocks, reduced, recorder);
+        take(std::move(reduced));
+        return true;
+    }
+
+    static void record(const detail::BlockSteps& blocks, const detail::Reduced& reduced,
+                       engine::HistoryRecorder& recorder) {
+        for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
+            const auto& [survivor, gone, to] = blocks.steps[i];
+            const std::size_t begin = blocks.patch_begin[i];
+            const std::size_t end =
+                i + 1 < blocks.steps.size() ? blocks.patch_begin[i + 1] : blocks.patch_faces.size();
+            recorder.collapsed(survivor, gone, to, std::span(blocks.patch_faces).subspan(begin, end - begin));
+        }
+        recorder.renumber(reduced.vertices, reduced.faces);
+    }
+
+    void take(detail::Reduced&& reduced) {
+        whole_ = std::exchange(arranged_, {});
+        original_.positions = whole_.positions;
+        original_.triangles = whole_.triangles;
+        original_.into = std::move(reduced.into);
+        const std::vector<std::uint8_t> locked = std::exchange(locked_, {});
+        places_.clear();
+        for (std::size_t i = 0; i < reduced.vertices.size(); ++i) {
+            const Index v = reduced.vertices[i], place = reduced.places[i];
+            arranged_.vertex.push_back(whole_.vertex[v]);
+            places_.push_back(place == no_index ? no_index : whole_.vertex[place]);
+            locked_.push_back(locked[v]);
+        }
+        for (const Index f : reduced.faces) arranged_.face.push_back(whole_.face[f]);
+        arranged_.positions = std::move(reduced.positions);
+        arranged_.triangles = std::move(reduced.triangles);
+    }
+
     template <class Recorder>
     engine::LoopResult collapse(Work& work, Recorder& recorder) {
         const Complex& complex = work.complex;
         std::vector<std::pair<Index, Index>> extra;
-        const double least_length = 1e-8 * settings_.diagonal;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
             extra = detail::virtual_edges(complex, arranged_.per_face(mesh_.face_groups),
                                           options_.topology.virtual_edge_distance * settings_.diagonal,
-                                          least_length);
+                                          least_length());
         }
         result_.report.virtual_edges = extra.size();
         engine::PairTable pairs(complex, extra);
@@ -189,37 +301,30 @@ private:
             const auto [values, width] = *mesh_.attributes;
             work.wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
         }
-        work.locked = locks(mesh_, prepared_, arranged_, pairs, options_.topology.border);
+        work.locked = locked_;
         if (options_.topology.group_borders == GroupBorders::kept) {
             work.groups = arranged_.per_face(mesh_.face_groups);
             work.curves = engine::GroupCurves(complex, work.groups);
         }
         work.importance = importance(mesh_, prepared_, arranged_);
-        engine::LoopOptions loop;
-        result_.report.target_faces =
-            std::max(detail::smallest_target,
-                     detail::faces_wanted(options_.target, static_cast<double>(mesh_.triangles.size())));
-        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
-        loop.rules = {settings_.link, settings_.least_turn, least_length, settings_.least_fold};
-        loop.distance_weight = settings_.carry == detail::Settings::Carry::memory
-                                   ? 0
-                                   : complex.area() / static_cast<double>(loop.target_faces);
-        loop.tiny_component = 0.02 * settings_.diagonal;
-        if (options_.progress) {
-            loop.progress = [this](double done) { return options_.progress(Phase::simplify, done); };
-        }
-        return run(work, pairs, settings_, recorder, loop);
+        return run(work, pairs, settings_, recorder, loop_, original_);
     }
 
     template <class Recorder>
-    void collapse_and_collect(Work& work, Recorder& recorder) {
-        OriginRecorder<Recorder> origin(recorder, work.complex);
-        const engine::LoopResult looped = collapse(work, origin);
+    void collapse_and_collect(Recorder& recorder) {
+        const bool goes_on = begin_in_blocks(recorder);
+        Work work(arranged_);
+        OriginRecorder<Recorder> origin(recorder, std::move(places_));
+        engine::LoopResult looped;
+        if (goes_on)
+            looped = collapse(work, origin);
+        else
+            looped.stop = StopReason::cancelled;
         Report& report = result_.report;
         report.stop = looped.stop;
-        report.collapses = looped.collapses;
-        report.refusals = looped.refusals;
-        report.rungs = looped.rungs;
+        report.collapses += looped.collapses;
+        for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
+        for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
         report.components_deleted = looped.components_deleted;
         collect(work.complex, work.wedges, origin);
         if (settings_.relax) relax(work);
@@ -235,7 +340,7 @@ private:
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
         const std::vector<Vector3> relaxed =
-            detail::relax({arranged_.positions, arranged_.triangles}, {now, result_.mesh.triangles}, fixed,
+            detail::relax({original_.positions, original_.triangles}, {now, result_.mesh.triangles}, fixed,
                           settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
@@ -255,8 +360,7 @@ private:
         std::vector<Vec3> position(complex.vertex_slots());
         for (Index v = 0; v < position.size(); ++v) {
             const Index at = origin.place(v);
-            position[v] = at != no_index ? prepared_.positions[arranged_.vertex[at]]
-                                         : prepared_.to_model(complex.position(v));
+            position[v] = at != no_index ? prepared_.positions[at] : prepared_.to_model(complex.position(v));
         }
         std::vector<Index> slot_of_face(mesh_.triangles.size(), no_index);
         std::vector<Index> slot_of_vertex(prepared_.positions.size(), no_index);
@@ -295,23 +399,13 @@ private:
         out.attributes.width = wedges.width();
     }
 
-    // The version of a slot, or of a collapse after them, among the vertices of the prepared mesh.
-    Index version(Index of_slots) const {
-        const std::size_t slots = arranged_.vertex.size();
-        return of_slots < slots ? arranged_.vertex[of_slots]
-                                : static_cast<Index>(of_slots - slots + prepared_.positions.size());
-    }
-
     void finish_history(engine::HistoryRecorder& recorder) {
         std::vector<Index> kept_versions;
-        for (const Index slot : slots_) kept_versions.push_back(version(recorder.version(slot)));
+        for (const Index slot : slots_) kept_versions.push_back(recorder.version(slot));
         CollapseHistory history = recorder.take();
         for (Collapse& collapse : history.collapses) {
-            collapse = {version(collapse.first), version(collapse.second),
-                        prepared_.to_model(engine::to_eigen(collapse.position))};
+            collapse.position = prepared_.to_model(engine::to_eigen(collapse.position));
         }
-        for (Index& face : history.patch_faces) face = arranged_.face[face];
-        for (DeletedFace& deleted : history.deleted_faces) deleted.face = arranged_.face[deleted.face];
         // What was pruned is deleted before the first collapse.
         for (const detail::PrunedFace& pruned : prepared_.pruned.faces)
             prepared_.triangles[pruned.face] = pruned.corners;
@@ -366,7 +460,14 @@ private:
     const Options& options_;
     detail::Settings settings_;
     detail::Prepared prepared_;
-    detail::Arranged arranged_;  // as the engine sees it, before the first collapse
+    detail::Arranged arranged_;  // what the engine begins with
+    detail::Arranged whole_;     // the original, where it begins with less
+    engine::Original original_;
+    std::vector<std::array<Index, 2>> open_edges_;  // of the original
+    std::vector<std::uint8_t> locked_;              // one per slot
+    std::vector<Index> places_;  // whose place each slot has, among the vertices of the prepared mesh
+    engine::LoopOptions loop_;
+    double done_in_blocks_ = 0;  // share of the work
     SimplifyResult result_;
     std::vector<Index> slots_;                           // slot of each vertex of the result
     std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go

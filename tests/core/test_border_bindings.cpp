@@ -13,7 +13,9 @@ namespace {
 
 struct Bench {
     explicit Bench(const TriangleMesh& mesh)
-        : complex(test::complex_of(mesh)), pairs(complex, {}), border(complex, pairs) {
+        : complex(test::complex_of(mesh)),
+          pairs(complex, {}),
+          border(test::vectors(mesh), find_open_edges(mesh.triangles, mesh.positions.size())) {
         border.begin(complex, pairs, [](Index v) { return v; });
     }
     double squared_distance(Index u, Index v, const Vector3& p) {

@@ -135,3 +135,35 @@ TEST_CASE("the faces on three corners are counted, however they are wound") {
     CHECK(complex.faces_with(2, 3, 1) == 1);
     CHECK(complex.faces_with(0, 1, 3) == 0);
 }
+
+TEST_CASE("normals and areas of faces follow every collapse and every face that goes") {
+    TriangleMesh mesh = test::shaken(test::torus(9, 7), 0.2, 3);
+    Complex complex = test::complex_of(mesh);
+    test::Random random(5);
+    std::set<Index> gone;
+    for (int step = 0; step < 40; ++step) {
+        const Index u = random.below(63), v = random.below(63), f = random.below(126);
+        if (step % 4 == 0 && complex.alive(f)) complex.remove_face(f);
+        if (u == v || gone.count(u) || gone.count(v)) continue;
+        complex.collapse(u, v, 0.5 * (complex.position(u) + complex.position(v)));
+        gone.insert(v);
+    }
+    for (Index face = 0; face < complex.face_slots(); ++face) {
+        if (!complex.alive(face)) continue;
+        const Vector3 area_vector = complex.area_vector(face);
+        CHECK(complex.area(face) == Approx(0.5 * area_vector.norm()).margin(1e-15));
+        CHECK((complex.normal(face) * area_vector.norm() - area_vector).norm() < 1e-12);
+    }
+}
+
+TEST_CASE("a vertex is calm where its normals are at most 120 degrees apart") {
+    // A roof of two faces at each side of a ridge, opened more and more.
+    for (const double half : {10.0, 40.0, 59.0, 61.0, 80.0}) {
+        const double x = std::sin(half * test::pi / 180), z = std::cos(half * test::pi / 180);
+        // The faces on either side look along (x, 0, z) and (-x, 0, z).
+        const Complex roof({{0, 0, 0}, {0, 1, 0}, {z, 0.5, -x}, {-z, 0.5, -x}}, {{0, 2, 1}, {0, 1, 3}});
+        CHECK(roof.normal(0).dot(roof.normal(1)) == Approx(std::cos(2 * half * test::pi / 180)));
+        CHECK(roof.is_calm(0) == (half < 60));
+    }
+    CHECK(test::complex_of(test::grid(2)).is_calm(4));
+}

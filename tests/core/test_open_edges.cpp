@@ -58,3 +58,19 @@ TEST_CASE("open edges: foretold for every pair of a soup, they are those that th
         }
     }
 }
+
+TEST_CASE("open edges: of a book of three pages all but its spine, in order") {
+    const TriangleMesh book = test::book();
+    const Complex complex = test::complex_of(book);
+    const PairTable pairs(complex, {});
+    std::vector<std::array<Index, 2>> expected;
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        const auto [a, b] = std::minmax({pairs.first(pair), pairs.second(pair)});
+        if (pairs.face_count(pair) == 1) expected.push_back({a, b});
+    }
+    std::sort(expected.begin(), expected.end());
+    CHECK(find_open_edges(book.triangles, book.positions.size()) == expected);
+    CHECK(expected.size() == 6);
+    CHECK(find_open_edges(test::tetrahedron().triangles, 4).empty());
+    CHECK(find_open_edges({}, 0).empty());
+}

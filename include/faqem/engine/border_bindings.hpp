@@ -3,6 +3,7 @@
 /// Which part of the original's border each open edge of today stands for.
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -19,20 +20,25 @@ namespace faqem::engine {
 /// has come to its end are bound to none. Nothing is kept for a surface without border.
 class BorderBindings {
 public:
-    /// Remembers the border as it is now as the original's. O(vertices)
-    BorderBindings(const Complex& complex, const PairTable& pairs) {
-        for (Index v = 0; v < complex.vertex_slots(); ++v) {
-            if (pairs.boundary_degree(v) == 0) continue;
-            Point point{complex.position(v), v, segments_.size()};
-            pairs.for_each_pair(v, [&](Neighbour n) {
-                if (pairs.face_count(n.pair) == 1) segments_.push_back(complex.position(n.vertex));
-            });
-            points_.push_back(point);
+    /// \param positions   of the original's vertices
+    /// \param open_edges  of the original
+    /// O(open edges)
+    BorderBindings(std::span<const Vector3> positions, std::span<const std::array<Index, 2>> open_edges) {
+        std::vector<std::array<Index, 2>> both_ways;
+        for (const auto& [a, b] : open_edges) {
+            both_ways.push_back({a, b});
+            both_ways.push_back({b, a});
+        }
+        std::sort(both_ways.begin(), both_ways.end());
+        for (const auto& [v, other] : both_ways) {
+            if (points_.empty() || points_.back().vertex != v)
+                points_.push_back({positions[v], v, segments_.size()});
+            segments_.push_back(positions[other]);
         }
     }
 
     /// Binds every point to an open edge near it.
-    /// \param into  vertex of today that a vertex has gone into
+    /// \param into  vertex of today that an original vertex has gone into, or no_index
     /// O(vertices), typically
     template <class Into>
     void begin(const Complex& complex, const PairTable& pairs, Into&& into) {
@@ -40,7 +46,9 @@ public:
         first_.assign(pairs.size(), no_index);
         next_.assign(points_.size(), no_index);
         for (Index i = 0; i < points_.size(); ++i) {
-            const Index pair = near_edge(complex, pairs, points_[i].position, into(points_[i].vertex));
+            const Index today = into(points_[i].vertex);
+            if (today == no_index) continue;
+            const Index pair = near_edge(complex, pairs, points_[i].position, today);
             if (pair != no_index) bind(i, pair);
         }
     }

@@ -22,13 +22,15 @@ namespace faqem::engine {
 /// edge.
 class BorderLoops {
 public:
+    /// \param first_context  vertices from here on, and the edges between them, are not looked at
     /// O(vertices + n log n), where n vertices are on borders
-    BorderLoops(const Complex& complex, const PairTable& pairs) {
+    BorderLoops(const Complex& complex, const PairTable& pairs, Index first_context = no_index) {
         for (Index v = 0; v < complex.vertex_slots(); ++v) {
             if (complex.degree(v) > 0) box_.extend(complex.position(v));
-            if (pairs.boundary_degree(v) > 0) points_.push_back({complex.position(v), v});
+            if (pairs.boundary_degree(v) > 0 && v < first_context)
+                points_.push_back({complex.position(v), v});
         }
-        find_borders(complex.vertex_slots(), pairs);
+        find_borders(complex.vertex_slots(), pairs, first_context);
         arrange(0, points_.size(), 0);
     }
 
@@ -96,18 +98,23 @@ private:
         double reach = 0;             ///< distance of ended borders to which this one was the next
     };
 
-    void find_borders(std::size_t vertices, const PairTable& pairs) {
+    void find_borders(std::size_t vertices, const PairTable& pairs, Index first_context) {
+        const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
+        const auto is_open = [&](Index pair) {
+            return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context;
+        };
         DisjointSets joined(vertices);
         for (Index pair = 0; pair < pairs.size(); ++pair) {
-            if (pairs.face_count(pair) == 1) joined.join(pairs.first(pair), pairs.second(pair));
+            if (is_open(pair)) joined.join(pairs.first(pair), pairs.second(pair));
         }
         border_.assign(vertices, no_index);
         for (const auto& [position, v] : points_) {  // the smallest vertex of a set comes first
             if (joined.root(v) == v) border_[v] = add_border();
             border_[v] = border_[joined.root(v)];
-            borders_[border_[v]].edges += pairs.boundary_degree(v);
         }
-        for (Border& border : borders_) border.edges /= 2;  // both ends were counted
+        for (Index pair = 0; pair < pairs.size(); ++pair) {
+            if (is_open(pair)) ++borders_[border_[smaller_end(pair)]].edges;
+        }
     }
 
     Index add_border() {

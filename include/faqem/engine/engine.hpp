@@ -35,10 +35,20 @@
 
 namespace faqem::engine {
 
+/// What the loop does where no collapse is legal above the target.
+enum class Ladder {
+    climb,  ///< looks at all pairs again, then relaxes one rule after the other
+    stay,   ///< stops
+};
+
 /// What the loop needs besides the complex, the metric and the recorder.
 struct LoopOptions {
     std::size_t target_faces = 4;
     Rules rules;
+    Ladder ladder = Ladder::climb;
+    /// Vertices from here on are there for their faces with others; what else lies around them is not known.
+    /// They must be locked, and so must their neighbours.
+    Index first_context = no_index;
     /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
     /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
     double distance_weight = 0;
@@ -87,7 +97,7 @@ public:
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
         distance_weight_ = options.distance_weight;
-        if (distance_weight_ > 0) borders_.emplace(complex_, pairs_);
+        if (distance_weight_ > 0) borders_.emplace(complex_, pairs_, options.first_context);
         first_count_ = complex_.face_count();
         queue_.reserve(pairs_.size());
         metric_.initialise(complex_, pairs_);
@@ -95,6 +105,8 @@ public:
         std::size_t seeded_at = complex_.face_count();
         for (;;) {
             if (drain(options)) break;
+            result_.stop = StopReason::no_legal_collapse;
+            if (options.ladder == Ladder::stay) break;
             const std::size_t removed = seeded_at - complex_.face_count();
             const std::size_t excess = complex_.face_count() - options.target_faces;
             // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
@@ -102,9 +114,9 @@ public:
             if (worth_it || (rung_ == 0 && result_.rungs[0] == 0)) {
                 ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
             } else if (!climb(options)) {
-                result_.stop = StopReason::no_legal_collapse;
                 break;
             }
+            result_.stop = StopReason::reached_target;
             seed();
             seeded_at = complex_.face_count();
         }

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,36 +29,74 @@ struct NoRecorder {
     void deleting(Index) {}
 };
 
-/// Records the collapse history, in slots and engine units.
+/// Records the collapse history, in engine units.
 class HistoryRecorder {
 public:
-    /// \param complex  before the first collapse
-    explicit HistoryRecorder(const Complex& complex) {
+    /// \param vertices  what the history calls the vertex slots of the complex
+    /// \param faces     what it calls its face slots
+    /// \param fresh     what it calls the vertex that the first collapse makes; the next ones follow
+    HistoryRecorder(std::vector<Index> vertices, std::vector<Index> faces, Index fresh)
+        : version_(std::move(vertices)), faces_(std::move(faces)), fresh_(fresh) {
         history_.patch_begin.push_back(0);
-        version_.resize(complex.vertex_slots());
-        std::iota(version_.begin(), version_.end(), Index{0});
     }
+
+    /// Calls the slots by their numbers.
+    explicit HistoryRecorder(const Complex& complex)
+        : HistoryRecorder(numbers(complex.vertex_slots()), numbers(complex.face_slots()),
+                          static_cast<Index>(complex.vertex_slots())) {}
 
     void collapsing(const Complex& complex, Index survivor, Index gone, const Candidate& to) {
-        const auto fresh = static_cast<Index>(version_.size() + history_.collapses.size());
-        history_.collapses.push_back({version_[survivor], version_[gone], to_array(to.point)});
         complex.for_each_face_around(survivor, gone,
-                                     [&](Index f, unsigned) { history_.patch_faces.push_back(f); });
-        history_.patch_begin.push_back(history_.patch_faces.size());
-        version_[survivor] = fresh;
+                                     [&](Index f, unsigned) { history_.patch_faces.push_back(faces_[f]); });
+        add(survivor, gone, to.point);
     }
 
-    void deleting(Index face) { history_.deleted_faces.push_back({history_.collapses.size(), face}); }
+    /// Records a collapse whose faces are known.
+    /// \param patch  face slots with one of both vertices
+    void collapsed(Index survivor, Index gone, const Vector3& to, std::span<const Index> patch) {
+        for (const Index f : patch) history_.patch_faces.push_back(faces_[f]);
+        add(survivor, gone, to);
+    }
 
-    /// The version that a vertex slot is now.
+    void deleting(Index face) { history_.deleted_faces.push_back({history_.collapses.size(), faces_[face]}); }
+
+    /// Goes on with another complex.
+    /// \param vertices, faces  the slots that its slots were
+    void renumber(std::span<const Index> vertices, std::span<const Index> faces) {
+        const auto take = [](std::vector<Index>& of, std::span<const Index> slots) {
+            std::vector<Index> taken;
+            taken.reserve(slots.size());
+            for (const Index slot : slots) taken.push_back(of[slot]);
+            of = std::move(taken);
+        };
+        take(version_, vertices);
+        take(faces_, faces);
+    }
+
+    /// What the history calls the vertex that a slot is now.
     Index version(Index slot) const { return version_[slot]; }
 
     /// Gives away the collapses, their patches and the deleted faces; the rest is the caller's to fill.
     CollapseHistory take() { return std::move(history_); }
 
 private:
+    static std::vector<Index> numbers(std::size_t count) {
+        std::vector<Index> result(count);
+        std::iota(result.begin(), result.end(), Index{0});
+        return result;
+    }
+
+    void add(Index survivor, Index gone, const Vector3& to) {
+        const auto count = static_cast<Index>(history_.collapses.size());
+        history_.collapses.push_back({version_[survivor], version_[gone], to_array(to)});
+        history_.patch_begin.push_back(history_.patch_faces.size());
+        version_[survivor] = fresh_ + count;
+    }
+
     CollapseHistory history_;
     std::vector<Index> version_;  // of each vertex slot
+    std::vector<Index> faces_;    // of each face slot
+    Index fresh_;
 };
 
 static_assert(CollapseRecorder<NoRecorder> && CollapseRecorder<HistoryRecorder>);

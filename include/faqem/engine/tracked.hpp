@@ -3,6 +3,7 @@
 /// The memoryless metric, and how far a collapse takes the surface from the original.
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -34,15 +35,26 @@ public:
 
     /// \param target_faces  the result's, > 0
     /// \param curves        as MemorylessMetric's
+    /// \param original      borrowed; null: the surface as it is when initialise() is called
     TrackedMetric(const MemorylessWeights& weights, std::size_t target_faces,
-                  const GroupCurves* curves = nullptr)
-        : planes_(weights, curves), target_faces_(target_faces) {}
+                  const GroupCurves* curves = nullptr, const Original* original = nullptr)
+        : planes_(weights, curves), target_faces_(target_faces), original_(original) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         planes_.initialise(complex, pairs);
         weight_ = complex.area() / static_cast<double>(target_faces_);
-        bindings_.emplace(complex);
-        border_.emplace(complex, pairs);
+        if (original_) {
+            bindings_.emplace(*original_, complex);
+            border_.emplace(original_->positions, original_->open_edges);
+        } else {
+            bindings_.emplace(complex);
+            std::vector<std::array<Index, 2>> open_edges;
+            for (Index pair = 0; pair < pairs.size(); ++pair) {
+                if (pairs.face_count(pair) == 1)
+                    open_edges.push_back({pairs.first(pair), pairs.second(pair)});
+            }
+            border_.emplace(bindings_->positions(), open_edges);
+        }
         is_tracking_ = false;
         begin_if_time(complex, pairs);
     }
@@ -148,6 +160,7 @@ private:
     std::optional<Bindings> bindings_;
     std::optional<BorderBindings> border_;
     std::size_t target_faces_;
+    const Original* original_;
     bool is_tracking_ = false;
     double weight_ = 0;
     std::vector<TriangleDistance> after_;  // the faces there would be

@@ -1,0 +1,78 @@
+#pragma once
+/// \file
+/// Large surfaces: blocks of them are simplified side by side, as far as that is the same as simplifying the
+/// whole.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "faqem/engine/engine.hpp"
+#include "faqem/options.hpp"
+
+namespace faqem::detail {
+
+/// A collapse in a block, in slots of the whole.
+struct BlockStep {
+    Index survivor, gone;
+    engine::Vector3 to;
+};
+
+/// What can be done in blocks.
+struct BlockSteps {
+    /// In the order in which they may be done.
+    std::vector<BlockStep> steps;
+    /// Where asked for: the faces with one of the two vertices, and where those of each step begin.
+    std::vector<Index> patch_faces;
+    std::vector<std::size_t> patch_begin;
+    /// What the engines of the blocks counted, what they did beyond these steps included; but no pairs
+    /// between locked vertices.
+    std::array<std::uint64_t, refusal_kinds> refusals = {};
+    std::array<std::uint64_t, rung_kinds> rungs = {};
+    bool is_cancelled = false;
+};
+
+/// A surface without attributes, groups or virtual pairs. Borrows. Vertices that are near should have numbers
+/// that are near.
+struct BlockInput {
+    std::span<const engine::Vector3> positions;
+    std::span<const Triangle> triangles;   ///< of different corners
+    std::span<const std::uint8_t> locked;  ///< one per vertex
+    /// More of them: fewer faces between blocks, which wait. Fewer: less memory, and more threads can help.
+    std::size_t vertices_per_block = 1 << 16;
+
+    std::size_t block_of(Index v) const { return v / vertices_per_block; }
+    bool is_between_blocks(const Triangle& t) const {
+        return block_of(t[0]) != block_of(t[1]) || block_of(t[0]) != block_of(t[2]);
+    }
+};
+
+/// Finds the collapses that an engine with the memoryless metric would do first.
+///
+/// A block is a range of vertices, and the faces with a corner in it. Faces with corners in two blocks stay,
+/// and so do their vertices. Each block is simplified farther than needed; then what was done at the highest
+/// costs is given up everywhere, so that the whole keeps as many faces as wanted, and no block is worn more
+/// than another.
+/// \param loop     as for the whole; progress is called on this thread, with the share of this function
+/// \param least    faces to keep, at least: of what is dense between the blocks, a share only
+/// \param patches  whether to collect the faces of each step
+/// \param threads  at most; 0: all there are. The result does not depend on it.
+/// \return no steps for a surface of one or two blocks, or where little would be gained
+/// O(n) on each thread, for all their vertices
+BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
+                              Recording patches, std::uint32_t threads);
+
+/// What is left after some steps.
+struct Reduced {
+    std::vector<Index> vertices, faces;  ///< slots that are left, in order
+    std::vector<Index> into;    ///< of each vertex slot: which of `vertices` it has gone into, or no_index
+    std::vector<Index> places;  ///< of each of `vertices`: the slot whose place it has, or no_index
+    std::vector<engine::Vector3> positions;
+    std::vector<Triangle> triangles;
+};
+
+/// Does the steps. O(n)
+Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps);
+
+}  // namespace faqem::detail

@@ -1,0 +1,164 @@
+#include "blocks.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "arrange.hpp"
+#include "core/meshes.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using detail::BlockInput;
+using detail::BlockSteps;
+using detail::Reduced;
+
+namespace {
+
+// A surface in slots, its blocks of 500 vertices.
+struct Ground {
+    explicit Ground(const TriangleMesh& mesh)
+        : arranged(detail::arrange(detail::prepare(mesh.view(), detail::settings({})))),
+          locked(arranged.positions.size(), 0) {
+        loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
+        loop.distance_weight = 1e-4;
+    }
+    BlockInput input() const { return {arranged.positions, arranged.triangles, locked, 500}; }
+    BlockSteps steps(std::size_t least, std::uint32_t threads = 2) const {
+        return detail::simplify_in_blocks(input(), loop, least, Recording::on, threads);
+    }
+    std::size_t faces() const { return arranged.triangles.size(); }
+
+    detail::Arranged arranged;
+    std::vector<std::uint8_t> locked;
+    engine::LoopOptions loop;
+};
+
+TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
+
+}  // namespace
+
+TEST_CASE("blocks: the steps can be done one after the other, and leave what reduce() says") {
+    const Ground ground(lump());
+    const BlockSteps found = ground.steps(1000);
+    REQUIRE(found.steps.size() > 1000);
+    engine::Complex complex(ground.arranged.positions, ground.arranged.triangles);
+    bool patches_agree = true;
+    for (std::size_t i = 0; i < found.steps.size(); ++i) {
+        const auto& [survivor, gone, to] = found.steps[i];
+        REQUIRE(complex.degree(survivor) > 0);
+        REQUIRE(complex.degree(gone) > 0);
+        std::set<Index> patch;
+        complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.insert(f); });
+        const std::size_t end =
+            i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
+        patches_agree = patches_agree && patch == std::set<Index>(&found.patch_faces[found.patch_begin[i]],
+                                                                  found.patch_faces.data() + end);
+        complex.collapse(survivor, gone, to);
+    }
+    CHECK(patches_agree);
+    const Reduced reduced = detail::reduce(ground.input(), found.steps);
+    CHECK(reduced.triangles.size() == complex.face_count());
+    bool agree = true;
+    for (std::size_t f = 0; f < reduced.faces.size(); ++f) {
+        const Index slot = reduced.faces[f];
+        for (std::size_t k = 0; k < 3 && agree; ++k) {
+            const Index v = reduced.triangles[f][k];
+            agree = complex.alive(slot) && reduced.vertices[v] == complex.triangle(slot)[k] &&
+                    reduced.positions[v] == complex.position(reduced.vertices[v]);
+        }
+    }
+    CHECK(agree);
+    CHECK(test::closed_manifold(reduced.triangles));
+    CHECK(test::euler(reduced.triangles) == 2);
+}
+
+TEST_CASE("blocks: no fewer faces are left than wanted, whatever they cost") {
+    // Of the flat one every collapse costs nothing: ties are kept in equal shares.
+    for (const TriangleMesh& mesh : {lump(), test::grid(50)}) {
+        const Ground ground(mesh);
+        for (const std::size_t least : {100u, 800u, 2000u}) {
+            const BlockSteps found = ground.steps(least);
+            const std::size_t left = detail::reduce(ground.input(), found.steps).triangles.size();
+            CHECK(left >= least);
+            CHECK(left < 0.9 * static_cast<double>(ground.faces()));
+        }
+    }
+}
+
+TEST_CASE("blocks: one or two, or next to nothing to do, are left to the engine of the whole") {
+    CHECK(Ground(test::icosphere(3)).steps(10).steps.empty());  // 642 vertices
+    CHECK(Ground(lump()).steps(4000).steps.empty());            // of 5120 faces
+}
+
+TEST_CASE("blocks: the steps do not depend on the number of threads") {
+    const Ground ground(lump());
+    const BlockSteps one = ground.steps(600, 1);
+    for (const std::uint32_t threads : {2u, 3u, 16u}) {
+        const BlockSteps more = ground.steps(600, threads);
+        REQUIRE(more.steps.size() == one.steps.size());
+        bool same = more.patch_faces == one.patch_faces;
+        for (std::size_t i = 0; i < one.steps.size(); ++i) {
+            const auto &a = one.steps[i], &b = more.steps[i];
+            same = same && a.survivor == b.survivor && a.gone == b.gone && a.to == b.to;
+        }
+        CHECK(same);
+        CHECK(more.refusals == one.refusals);
+    }
+}
+
+TEST_CASE("blocks: vertices that are locked, or have faces in two blocks, stay") {
+    Ground ground(lump());
+    for (Index v = 0; v < ground.locked.size(); v += 5) ground.locked[v] = 1;
+    const BlockInput input = ground.input();
+    std::set<Index> staying;
+    for (Index v = 0; v < ground.locked.size(); v += 5) staying.insert(v);
+    for (const Triangle& t : input.triangles) {
+        if (input.is_between_blocks(t)) staying.insert(t.begin(), t.end());
+    }
+    const BlockSteps found = ground.steps(1500);
+    REQUIRE_FALSE(found.steps.empty());
+    for (const auto& [survivor, gone, to] : found.steps) {
+        REQUIRE(staying.count(gone) == 0);
+        if (staying.count(survivor)) REQUIRE(to == input.positions[survivor]);
+    }
+}
+
+TEST_CASE("blocks: a hole between blocks is no border that could end") {
+    // Without the rule, edges that only seem open would hold the surface beside them, or their end be priced.
+    const Ground ground(test::grid(60));
+    const BlockSteps found = ground.steps(500);
+    const Reduced reduced = detail::reduce(ground.input(), found.steps);
+    // The outline is still that of the square.
+    double area = 0;
+    for (const Triangle& t : reduced.triangles) {
+        area += engine::area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]])
+                    .z();
+    }
+    double whole = 0;
+    for (const Triangle& t : ground.arranged.triangles) {
+        whole += engine::area_vector(ground.arranged.positions[t[0]], ground.arranged.positions[t[1]],
+                                     ground.arranged.positions[t[2]])
+                     .z();
+    }
+    CHECK(area == Approx(whole));
+}
+
+TEST_CASE("blocks: who cancels is obeyed, and who throws is heard, on the calling thread") {
+    Ground ground(test::shaken(test::icosphere(5), 0.01, 7));
+    const std::thread::id here = std::this_thread::get_id();
+    int calls = 0;
+    double last = 0;
+    ground.loop.progress = [&](double done) {
+        CHECK(std::this_thread::get_id() == here);
+        CHECK(done >= last);
+        CHECK(done <= 1);
+        last = done;
+        return ++calls == 2 ? Continue::cancel : Continue::yes;
+    };
+    CHECK(ground.steps(2000, 3).is_cancelled);
+    CHECK(calls == 2);
+    ground.loop.progress = [&](double) -> Continue { throw std::runtime_error("enough"); };
+    CHECK_THROWS_WITH(ground.steps(2000, 3), "enough");
+}
