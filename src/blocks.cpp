@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/tracked.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {
@@ -19,7 +20,7 @@ using engine::Complex;
 using engine::Vector3;
 
 // What is worn away in a block beyond the share of the whole: blocks with little detail can give more.
-constexpr double local_share = 0.6;
+constexpr double local_share = 0.8;
 // What is left inside of the blocks should be no coarser than the result: the faces that did not take part
 // are denser, and will go first.
 constexpr double spare_share = 1.15;
@@ -104,13 +105,15 @@ public:
     std::vector<std::uint8_t> locked;
     std::size_t between = 0;  ///< faces that have a corner elsewhere
 
-private:
-    bool is_own(Index v) const { return v >= first_ && v - first_ < own_; }
+    /// \param v  a vertex of the whole that the block has
     Index local(Index v) const {
         if (is_own(v)) return v - first_;
         const auto at = std::lower_bound(others_.begin(), others_.end(), v);
         return own_ + static_cast<Index>(at - others_.begin());
     }
+
+private:
+    bool is_own(Index v) const { return v >= first_ && v - first_ < own_; }
 
     Index first_, own_;
     std::vector<Index> others_;
@@ -190,14 +193,42 @@ private:
     std::atomic<bool> is_cancelled_{false};
 };
 
-Done simplify_block(const Block& block, const engine::LoopOptions& loop, double share, Recording patches,
-                    SharedProgress& progress) {
+/// Which original vertices have gone into those of each block.
+struct Lineages {
+    Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
+        : begin(blocks + 1, 0), into(tracking ? tracking->into : std::span<const Index>()) {
+        const auto for_each = [&](auto&& visit) {
+            for (Index v = 0; v < into.size(); ++v) {
+                if (into[v] != no_index) visit(input.block_of(into[v]), v);
+            }
+        };
+        for_each([&](std::size_t b, Index) { ++begin[b + 1]; });
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        vertices.resize(begin.back());
+        std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
+        for_each([&](std::size_t b, Index v) { vertices[place[b]++] = v; });
+    }
+
+    engine::Lineage of(std::size_t b, const Block& block) const {
+        engine::Lineage lineage;
+        for (std::size_t i = begin[b]; i < begin[b + 1]; ++i)
+            lineage.add(vertices[i], block.local(into[vertices[i]]));
+        return lineage;
+    }
+
+    std::vector<std::size_t> begin;  ///< of each block in vertices
+    std::vector<Index> vertices;
+    std::span<const Index> into;
+};
+
+template <class Metric>
+Done simplify_block(const Block& block, Metric metric, const engine::LoopOptions& loop, double share,
+                    Recording patches, SharedProgress& progress) {
     Done done;
     Complex complex(block.positions, block.triangles);
     engine::PairTable pairs(complex, {});
     engine::Wedges wedges;
     std::vector<std::uint8_t> locked = block.locked;
-    engine::MemorylessMetric metric;
     StepRecorder recorder(block, patches, done);
     engine::LoopOptions options = loop;
     options.ladder = engine::Ladder::stay;
@@ -209,8 +240,8 @@ Done simplify_block(const Block& block, const engine::LoopOptions& loop, double 
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known);
     };
-    engine::Engine<engine::MemorylessMetric, engine::BucketQueue, StepRecorder> engine(
-        complex, pairs, wedges, locked, metric, recorder);
+    engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, locked, metric,
+                                                                     recorder);
     done.result = engine.run(options);
     recorder.end_step(complex);
     progress(to_remove, known);
@@ -283,7 +314,7 @@ void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& t
 }  // namespace
 
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              Recording patches, std::uint32_t threads) {
+                              const BlockTracking* tracking, Recording patches, std::uint32_t threads) {
     BlockSteps result;
     if (input.positions.size() <= 2 * input.vertices_per_block) return result;
     const std::size_t faces = input.triangles.size();
@@ -294,10 +325,17 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
     const Blocks blocks(input);
     SharedProgress progress(loop, removable);
+    const Lineages lineages(input, tracking, blocks.count());
     std::vector<Done> done(blocks.count());
     parallel_blocks(blocks.count(), 1, threads, [&](std::size_t b, std::size_t) {
         if (progress.is_cancelled()) return;
-        done[b] = simplify_block(Block(input, blocks, b), loop, local_share * share, patches, progress);
+        const Block block(input, blocks, b);
+        const auto simplify = [&](auto metric) {
+            return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress);
+        };
+        done[b] = tracking ? simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block),
+                                                            block.triangles.size(), tracking->weight))
+                           : simplify(engine::MemorylessMetric());
     });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "faqem/engine/engine.hpp"
+#include "faqem/engine/original.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -33,6 +34,13 @@ struct BlockSteps {
     bool is_cancelled = false;
 };
 
+/// What the blocks need to watch the distance to the original.
+struct BlockTracking {
+    const engine::Original& original;
+    std::span<const Index> into;  ///< vertex of the input that each original one has gone into, or no_index
+    double weight;                ///< what the square of a distance costs
+};
+
 /// A surface without attributes, groups or virtual pairs. Borrows. Vertices that are near should have numbers
 /// that are near.
 struct BlockInput {
@@ -48,7 +56,7 @@ struct BlockInput {
     }
 };
 
-/// Finds the collapses that an engine with the memoryless metric would do first.
+/// Finds the collapses that an engine would do first.
 ///
 /// A block is a range of vertices, and the faces with a corner in it. Faces with corners in two blocks stay,
 /// and so do their vertices. Each block is simplified farther than needed; then what was done at the highest
@@ -56,12 +64,13 @@ struct BlockInput {
 /// than another.
 /// \param loop     as for the whole; progress is called on this thread, with the share of this function
 /// \param least    faces to keep, at least: of what is dense between the blocks, a share only
+/// \param tracking  null: with the memoryless metric
 /// \param patches  whether to collect the faces of each step
 /// \param threads  at most; 0: all there are. The result does not depend on it.
 /// \return no steps for a surface of one or two blocks, or where little would be gained
 /// O(n) on each thread, for all their vertices
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              Recording patches, std::uint32_t threads);
+                              const BlockTracking* tracking, Recording patches, std::uint32_t threads);
 
 /// What is left after some steps.
 struct Reduced {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -49,14 +50,14 @@ struct Work {
 };
 
 std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
-                                const detail::Arranged& arranged,
-                                std::span<const std::array<Index, 2>> open_edges, Border border) {
+                                const detail::Arranged& arranged, Border border) {
     const std::vector<std::uint8_t> at_vertex =
         detail::locks_of_welded(mesh, prepared.welded, prepared.positions.size());
     std::vector<std::uint8_t> locked;
     for (const Index v : arranged.vertex) locked.push_back(at_vertex[v]);
     if (border == Border::locked) {
-        for (const auto& [a, b] : open_edges) locked[a] = locked[b] = 1;
+        for (const auto& [a, b] : engine::find_open_edges(arranged.triangles, arranged.positions.size()))
+            locked[a] = locked[b] = 1;
     }
     return locked;
 }
@@ -112,8 +113,8 @@ private:
 
 template <class Recorder>
 engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop,
-                       const engine::Original& original) {
+                       Recorder& recorder, const engine::LoopOptions& loop, const engine::Original* original,
+                       std::span<const Index> into) {
     engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue) {
         engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
@@ -135,7 +136,9 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
         case detail::Settings::Carry::tracked:
             break;
     }
-    return weighted(engine::TrackedMetric({}, loop.target_faces, curves, &original), engine::BucketQueue());
+    return weighted(engine::TrackedMetric({}, *original, engine::Lineage(into), loop.target_faces,
+                                          loop.distance_weight, curves),
+                    engine::BucketQueue());
 }
 
 // Everything of one run, in the order it is made.
@@ -182,14 +185,11 @@ private:
     void arrange() {
         arranged_ = detail::arrange(prepared_);
         places_ = arranged_.vertex;
-        original_.positions = arranged_.positions;
-        original_.triangles = arranged_.triangles;
-        original_.into.resize(arranged_.positions.size());
-        std::iota(original_.into.begin(), original_.into.end(), Index{0});
-        if (settings_.carry == detail::Settings::Carry::tracked || options_.topology.border == Border::locked)
-            open_edges_ = engine::find_open_edges(arranged_.triangles, arranged_.positions.size());
-        original_.open_edges = open_edges_;
-        locked_ = locks(mesh_, prepared_, arranged_, open_edges_, options_.topology.border);
+        into_.resize(arranged_.positions.size());
+        std::iota(into_.begin(), into_.end(), Index{0});
+        locked_ = locks(mesh_, prepared_, arranged_, options_.topology.border);
+        if (settings_.carry == detail::Settings::Carry::tracked)
+            original_.emplace(arranged_.positions, arranged_.triangles);
         loop_ = loop_options();
     }
 
@@ -233,23 +233,34 @@ private:
     template <class Recorder>
     bool begin_in_blocks(Recorder& recorder) {
         if (!may_be_cut()) return true;
-        std::size_t least = loop_.target_faces;
-        if (settings_.carry == detail::Settings::Carry::tracked) least *= engine::TrackedMetric::begins_at;
+        if (!original_) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
+        if (!reduce_in_blocks(engine::TrackedMetric::begins_at * loop_.target_faces, nullptr, recorder))
+            return false;
+        const detail::BlockTracking tracking{*original_, into_, loop_.distance_weight};
+        return reduce_in_blocks(loop_.target_faces, &tracking, recorder);
+    }
+
+    template <class Recorder>
+    bool reduce_in_blocks(std::size_t least, const detail::BlockTracking* tracking, Recorder& recorder) {
+        const std::size_t faces = arranged_.triangles.size();
+        if (faces <= least) return true;
         engine::LoopOptions loop = loop_;
-        const double all = static_cast<double>(arranged_.triangles.size());
-        const double share = (all - static_cast<double>(std::min(least, arranged_.triangles.size()))) / all;
+        const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
+                             static_cast<double>(faces - loop.target_faces);
         if (options_.progress) {
-            loop.progress = [&](double done) { return options_.progress(Phase::simplify, share * done); };
+            loop.progress = [&](double done) {
+                return options_.progress(Phase::simplify, done_in_blocks_ + share * done);
+            };
         }
         const detail::BlockInput input{arranged_.positions, arranged_.triangles, locked_};
         const detail::BlockSteps blocks =
-            detail::simplify_in_blocks(input, loop, least, options_.history, options_.threads);
+            detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
         if (blocks.is_cancelled) return false;
         if (blocks.steps.empty()) return true;
-        done_in_blocks_ = share;
-        result_.report.collapses = blocks.steps.size();
-        result_.report.refusals = blocks.refusals;
-        result_.report.rungs = blocks.rungs;
+        done_in_blocks_ += share;
+        result_.report.collapses += blocks.steps.size();
+        for (std::size_t i = 0; i < refusal_kinds; ++i) result_.report.refusals[i] += blocks.refusals[i];
+        for (std::size_t i = 0; i < rung_kinds; ++i) result_.report.rungs[i] += blocks.rungs[i];
         detail::Reduced reduced = detail::reduce(input, blocks.steps);
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) record(blocks, reduced, recorder);
         take(std::move(reduced));
@@ -269,21 +280,26 @@ private:
     }
 
     void take(detail::Reduced&& reduced) {
-        whole_ = std::exchange(arranged_, {});
-        original_.positions = whole_.positions;
-        original_.triangles = whole_.triangles;
-        original_.into = std::move(reduced.into);
-        const std::vector<std::uint8_t> locked = std::exchange(locked_, {});
-        places_.clear();
-        for (std::size_t i = 0; i < reduced.vertices.size(); ++i) {
-            const Index v = reduced.vertices[i], place = reduced.places[i];
-            arranged_.vertex.push_back(whole_.vertex[v]);
-            places_.push_back(place == no_index ? no_index : whole_.vertex[place]);
-            locked_.push_back(locked[v]);
-        }
-        for (const Index f : reduced.faces) arranged_.face.push_back(whole_.face[f]);
-        arranged_.positions = std::move(reduced.positions);
-        arranged_.triangles = std::move(reduced.triangles);
+        const auto taken = [](const std::vector<Index>& of, const std::vector<Index>& slots) {
+            std::vector<Index> result;
+            for (const Index slot : slots) result.push_back(slot == no_index ? no_index : of[slot]);
+            return result;
+        };
+        places_ = taken(places_, reduced.places);
+        into_ = taken(reduced.into, into_);
+        std::vector<std::uint8_t> locked;
+        for (const Index v : reduced.vertices) locked.push_back(locked_[v]);
+        locked_ = std::move(locked);
+        detail::Arranged less{taken(arranged_.vertex, reduced.vertices), taken(arranged_.face, reduced.faces),
+                              std::move(reduced.positions), std::move(reduced.triangles)};
+        std::swap(arranged_, less);
+        if (whole_.positions.empty()) whole_ = std::move(less);
+    }
+
+    // Of the original.
+    detail::Patchwork whole() const {
+        const detail::Arranged& whole = whole_.positions.empty() ? arranged_ : whole_;
+        return {whole.positions, whole.triangles};
     }
 
     template <class Recorder>
@@ -307,7 +323,7 @@ private:
             work.curves = engine::GroupCurves(complex, work.groups);
         }
         work.importance = importance(mesh_, prepared_, arranged_);
-        return run(work, pairs, settings_, recorder, loop_, original_);
+        return run(work, pairs, settings_, recorder, loop_, original_ ? &*original_ : nullptr, into_);
     }
 
     template <class Recorder>
@@ -339,9 +355,8 @@ private:
             const bool is_seam = !work.wedges.empty() && work.wedges.is_seam(work.complex, v);
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
-        const std::vector<Vector3> relaxed =
-            detail::relax({original_.positions, original_.triangles}, {now, result_.mesh.triangles}, fixed,
-                          settings_.least_turn, options_.threads);
+        const std::vector<Vector3> relaxed = detail::relax(whole(), {now, result_.mesh.triangles}, fixed,
+                                                           settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
         }
@@ -462,10 +477,10 @@ private:
     detail::Prepared prepared_;
     detail::Arranged arranged_;  // what the engine begins with
     detail::Arranged whole_;     // the original, where it begins with less
-    engine::Original original_;
-    std::vector<std::array<Index, 2>> open_edges_;  // of the original
-    std::vector<std::uint8_t> locked_;              // one per slot
-    std::vector<Index> places_;  // whose place each slot has, among the vertices of the prepared mesh
+    std::optional<engine::Original> original_;
+    std::vector<Index> into_;  // the slot that each vertex of the original has gone into, or no_index
+    std::vector<std::uint8_t> locked_;  // one per slot
+    std::vector<Index> places_;         // whose place each slot has, among the vertices of the prepared mesh
     engine::LoopOptions loop_;
     double done_in_blocks_ = 0;  // share of the work
     SimplifyResult result_;

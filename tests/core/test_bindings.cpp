@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/meshes.hpp"
+#include "core/original.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -19,8 +19,9 @@ std::vector<Index> bound_to(const Bindings& bindings, Index f) {
 }  // namespace
 
 TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces") {
-    const Complex complex = test::complex_of(test::icosphere(1));
-    Bindings bindings(complex);
+    const test::OriginalOf original(test::icosphere(1));
+    const Complex complex(original.positions, original.triangles);
+    Bindings bindings(original.surface, original.lineage, complex);
     bindings.begin(complex);
     std::vector<int> times(complex.vertex_slots(), 0);
     for (Index f = 0; f < complex.face_slots(); ++f) {
@@ -34,8 +35,9 @@ TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces"
 }
 
 TEST_CASE("bindings: what is released is bound to nothing until it is bound anew") {
-    const Complex complex = test::complex_of(test::quad());
-    Bindings bindings(complex);
+    const test::OriginalOf original(test::quad());
+    const Complex complex(original.positions, original.triangles);
+    Bindings bindings(original.surface, original.lineage, complex);
     bindings.begin(complex);
     std::vector<Index> all = bound_to(bindings, 0);
     for (const Index v : bound_to(bindings, 1)) all.push_back(v);
@@ -48,8 +50,9 @@ TEST_CASE("bindings: what is released is bound to nothing until it is bound anew
 }
 
 TEST_CASE("bindings: a vertex without faces is bound to nothing") {
-    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}});
-    Bindings bindings(complex);
+    const test::OriginalOf original(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}));
+    const Complex complex(original.positions, original.triangles);
+    Bindings bindings(original.surface, original.lineage, complex);
     bindings.begin(complex);
     CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1, 2});
 }
@@ -57,8 +60,9 @@ TEST_CASE("bindings: a vertex without faces is bound to nothing") {
 TEST_CASE("bindings: what went into another vertex is bound to the face nearest to where it was") {
     // Every second column of a grid goes into its left neighbour, which stays in place.
     const TriangleMesh mesh = test::grid(6);
+    const test::OriginalOf original(mesh);
     Complex complex = test::complex_of(mesh);
-    Bindings bindings(complex);
+    Bindings bindings(original.surface, original.lineage, complex);
     for (Index y = 0; y <= 6; ++y) {
         for (const Index x : {1u, 3u, 5u}) {
             const Index v = x + 7 * y;
@@ -90,8 +94,9 @@ TEST_CASE("bindings: what went into another vertex is bound to the face nearest 
 
 TEST_CASE("bindings: the lineage is followed over many steps") {
     const TriangleMesh mesh = test::fan(8);
+    const test::OriginalOf original(mesh);
     Complex complex = test::complex_of(mesh);
-    Bindings bindings(complex);
+    Bindings bindings(original.surface, original.lineage, complex);
     for (Index v = 2; v < 7; ++v) {
         bindings.merge(v, v - 1);
         complex.collapse(v, v - 1, complex.position(v));
@@ -106,10 +111,27 @@ TEST_CASE("bindings: the lineage is followed over many steps") {
 
 TEST_CASE("bindings: distances to the original stay those to the original") {
     const TriangleMesh mesh = test::fan(6);
+    const test::OriginalOf original(mesh);
     Complex complex = test::complex_of(mesh);
-    const Bindings bindings(complex);
+    const Bindings bindings(original.surface, original.lineage, complex);
     complex.collapse(0, 1, {0, 0, 5});
     CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 100) == Approx(4));
     CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 1) == 1);
     CHECK(bindings.squared_distance_around(1, {2, 0, 0}, 100) == Approx(1));
+}
+
+TEST_CASE("bindings: of a complex that is what the original has become, and for some vertices only") {
+    // A square of two triangles over what was a square of a hundred and twenty-eight.
+    const test::OriginalOf original(test::grid(8));
+    const Complex complex({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    Lineage lineage;
+    lineage.add(3, 1);   // at (3, 0), below the diagonal
+    lineage.add(30, 0);  // at (3, 3), on it
+    lineage.add(66, 0);  // at (3, 7), above
+    Bindings bindings(original.surface, lineage, complex);
+    bindings.begin(complex);
+    CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1});
+    CHECK(bound_to(bindings, 1) == std::vector<Index>{2});
+    CHECK(bindings.position(2) == Vector3(3, 7, 0));
+    CHECK(bindings.squared_distance_around(2, {3, 7, 2}, 100) == Approx(4));
 }

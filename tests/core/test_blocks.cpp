@@ -6,33 +6,41 @@
 #include <thread>
 
 #include "arrange.hpp"
-#include "core/meshes.hpp"
-#include "faqem/simplify.hpp"
+#include "core/original.hpp"
+#include "faqem/engine/tracked.hpp"
 
 using namespace faqem;
-using detail::BlockInput;
-using detail::BlockSteps;
-using detail::Reduced;
+using namespace faqem::detail;
+using namespace faqem::engine;
 
 namespace {
 
 // A surface in slots, its blocks of 500 vertices.
 struct Ground {
     explicit Ground(const TriangleMesh& mesh)
-        : arranged(detail::arrange(detail::prepare(mesh.view(), detail::settings({})))),
+        : arranged(arrange(prepare(mesh.view(), settings({})))),
           locked(arranged.positions.size(), 0) {
         loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
         loop.distance_weight = 1e-4;
     }
     BlockInput input() const { return {arranged.positions, arranged.triangles, locked, 500}; }
     BlockSteps steps(std::size_t least, std::uint32_t threads = 2) const {
-        return detail::simplify_in_blocks(input(), loop, least, Recording::on, threads);
+        return simplify_in_blocks(input(), loop, least, nullptr, Recording::on, threads);
     }
     std::size_t faces() const { return arranged.triangles.size(); }
 
-    detail::Arranged arranged;
+    Arranged arranged;
     std::vector<std::uint8_t> locked;
-    engine::LoopOptions loop;
+    LoopOptions loop;
+};
+
+struct Steps {
+    void collapsing(const Complex&, Index survivor, Index gone, const Candidate& to) {
+        steps.push_back({survivor, gone, to.point});
+    }
+    void deleting(Index) {}
+
+    std::vector<BlockStep> steps;
 };
 
 TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
@@ -43,7 +51,7 @@ TEST_CASE("blocks: the steps can be done one after the other, and leave what red
     const Ground ground(lump());
     const BlockSteps found = ground.steps(1000);
     REQUIRE(found.steps.size() > 1000);
-    engine::Complex complex(ground.arranged.positions, ground.arranged.triangles);
+    Complex complex(ground.arranged.positions, ground.arranged.triangles);
     bool patches_agree = true;
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
@@ -58,7 +66,7 @@ TEST_CASE("blocks: the steps can be done one after the other, and leave what red
         complex.collapse(survivor, gone, to);
     }
     CHECK(patches_agree);
-    const Reduced reduced = detail::reduce(ground.input(), found.steps);
+    const Reduced reduced = reduce(ground.input(), found.steps);
     CHECK(reduced.triangles.size() == complex.face_count());
     bool agree = true;
     for (std::size_t f = 0; f < reduced.faces.size(); ++f) {
@@ -80,7 +88,7 @@ TEST_CASE("blocks: no fewer faces are left than wanted, whatever they cost") {
         const Ground ground(mesh);
         for (const std::size_t least : {100u, 800u, 2000u}) {
             const BlockSteps found = ground.steps(least);
-            const std::size_t left = detail::reduce(ground.input(), found.steps).triangles.size();
+            const std::size_t left = reduce(ground.input(), found.steps).triangles.size();
             CHECK(left >= least);
             CHECK(left < 0.9 * static_cast<double>(ground.faces()));
         }
@@ -129,16 +137,16 @@ TEST_CASE("blocks: a hole between blocks is no border that could end") {
     // Without the rule, edges that only seem open would hold the surface beside them, or their end be priced.
     const Ground ground(test::grid(60));
     const BlockSteps found = ground.steps(500);
-    const Reduced reduced = detail::reduce(ground.input(), found.steps);
+    const Reduced reduced = reduce(ground.input(), found.steps);
     // The outline is still that of the square.
     double area = 0;
     for (const Triangle& t : reduced.triangles) {
-        area += engine::area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]])
+        area += area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]])
                     .z();
     }
     double whole = 0;
     for (const Triangle& t : ground.arranged.triangles) {
-        whole += engine::area_vector(ground.arranged.positions[t[0]], ground.arranged.positions[t[1]],
+        whole += area_vector(ground.arranged.positions[t[0]], ground.arranged.positions[t[1]],
                                      ground.arranged.positions[t[2]])
                      .z();
     }
@@ -161,4 +169,54 @@ TEST_CASE("blocks: who cancels is obeyed, and who throws is heard, on the callin
     CHECK(calls == 2);
     ground.loop.progress = [&](double) -> Continue { throw std::runtime_error("enough"); };
     CHECK_THROWS_WITH(ground.steps(2000, 3), "enough");
+}
+
+TEST_CASE("blocks: each does what an engine alone would do, with the original vertices that are its own") {
+    // Three spheres in one place, one block each; each was a finer one before.
+    const TriangleMesh coarse = test::shaken(test::icosphere(2), 0.01, 7);
+    const TriangleMesh fine = test::icosphere(3);
+    const auto triple = [](const TriangleMesh& mesh) { return test::both(test::both(mesh, mesh), mesh); };
+    std::vector<Index> into;
+    for (const Vec3& p : fine.positions) {
+        const auto distance = [&](const Vec3& q) { return to_eigen(test::minus(p, q)).squaredNorm(); };
+        const auto nearest =
+            std::min_element(coarse.positions.begin(), coarse.positions.end(),
+                             [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+        into.push_back(static_cast<Index>(nearest - coarse.positions.begin()));
+    }
+    std::vector<Index> into_all;
+    const auto size = static_cast<Index>(coarse.positions.size());
+    for (const Index copy : {0u, 1u, 2u}) {
+        for (const Index v : into) into_all.push_back(v + copy * size);
+    }
+    const test::OriginalOf original(fine), originals(triple(fine));
+    const test::OriginalOf now(triple(coarse));
+    LoopOptions loop;
+    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
+    loop.distance_weight = 0.05;
+    const std::vector<std::uint8_t> locked(3 * size, 0);
+    const BlockInput input{now.positions, now.triangles, locked, size};
+    const BlockTracking tracking{originals.surface, into_all, 0.05};
+    const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
+    REQUIRE(found.steps.size() % 3 == 0);
+    const std::size_t each = found.steps.size() / 3;
+    REQUIRE(each > 80);
+
+    Complex complex = test::complex_of(coarse);
+    PairTable pairs(complex, {});
+    Wedges wedges;
+    std::vector<std::uint8_t> free(size, 0);
+    loop.target_faces = 50;
+    TrackedMetric metric({}, original.surface, Lineage(into), 320, 0.05);
+    Steps alone;
+    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, alone).run(loop);
+    REQUIRE(alone.steps.size() >= each);
+    for (std::size_t i = 0; i < each; ++i) {
+        for (const Index copy : {0u, 1u, 2u}) {
+            const BlockStep& step = found.steps[copy * each + i];
+            REQUIRE(step.survivor == alone.steps[i].survivor + copy * size);
+            REQUIRE(step.gone == alone.steps[i].gone + copy * size);
+            REQUIRE(step.to == alone.steps[i].to);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/meshes.hpp"
+#include "core/original.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
 
@@ -13,9 +13,10 @@ namespace {
 
 struct Bench {
     explicit Bench(const TriangleMesh& mesh)
-        : complex(test::complex_of(mesh)),
+        : original(mesh),
+          complex(original.positions, original.triangles),
           pairs(complex, {}),
-          border(test::vectors(mesh), find_open_edges(mesh.triangles, mesh.positions.size())) {
+          border(original.surface, original.lineage) {
         border.begin(complex, pairs, [](Index v) { return v; });
     }
     double squared_distance(Index u, Index v, const Vector3& p) {
@@ -30,6 +31,7 @@ struct Bench {
         border.collapsed(complex, pairs, u, changes);
     }
 
+    test::OriginalOf original;
     Complex complex;
     PairTable pairs;
     BorderBindings border;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "core/meshes.hpp"
+#include "core/original.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/tracked.hpp"
@@ -97,8 +97,9 @@ TEST_CASE("what refining finds is multiplied too and never falls below the first
     const Complex complex = test::complex_of(mesh);
     const PairTable pairs(complex, {});
     const std::vector<double> weights(mesh.positions.size(), 3);
-    TrackedMetric plain({}, 80);
-    ImportanceMetric weighted(TrackedMetric({}, 80), weights);
+    const test::OriginalOf original(mesh);
+    TrackedMetric plain({}, original.surface, original.lineage, 80, 0.1);
+    ImportanceMetric weighted(TrackedMetric({}, original.surface, original.lineage, 80, 0.1), weights);
     for_each_pair(complex, pairs, plain, weighted,
                   [&](Index u, Index v, const Candidate& a, const Candidate& b) {
                       const double refined = weighted.refine(complex, pairs, u, v, b);

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/meshes.hpp"
+#include "core/original.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
 
@@ -13,9 +13,11 @@ namespace {
 
 struct Bench {
     explicit Bench(const TriangleMesh& mesh, std::size_t target = 0)
-        : complex(test::complex_of(mesh)),
+        : original(mesh),
+          complex(original.positions, original.triangles),
           pairs(complex, {}),
-          metric({0, 0, 0}, target ? target : mesh.triangles.size()) {
+          metric({0, 0, 0}, original.surface, original.lineage, target ? target : mesh.triangles.size(),
+                 complex.area() / static_cast<double>(target ? target : mesh.triangles.size())) {
         metric.initialise(complex, pairs);
     }
     void collapse(Index u, Index v, const Vector3& p) {
@@ -31,6 +33,7 @@ struct Bench {
         return metric.refine(complex, pairs, u, v, candidate);
     }
 
+    test::OriginalOf original;
     Complex complex;
     PairTable pairs;
     TrackedMetric metric;

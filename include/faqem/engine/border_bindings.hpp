@@ -12,6 +12,7 @@
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/distance.hpp"
 #include "faqem/engine/open_edges.hpp"
+#include "faqem/engine/original.hpp"
 #include "faqem/engine/pairs.hpp"
 
 namespace faqem::engine {
@@ -20,25 +21,30 @@ namespace faqem::engine {
 /// has come to its end are bound to none. Nothing is kept for a surface without border.
 class BorderBindings {
 public:
-    /// \param positions   of the original's vertices
-    /// \param open_edges  of the original
-    /// O(open edges)
-    BorderBindings(std::span<const Vector3> positions, std::span<const std::array<Index, 2>> open_edges) {
+    /// \param lineage  of the vertices to look after; original vertices in ascending order
+    /// O(open edges + lineage)
+    BorderBindings(const Original& original, const Lineage& lineage) {
         std::vector<std::array<Index, 2>> both_ways;
-        for (const auto& [a, b] : open_edges) {
+        for (const auto& [a, b] : original.open_edges()) {
             both_ways.push_back({a, b});
             both_ways.push_back({b, a});
         }
         std::sort(both_ways.begin(), both_ways.end());
+        std::size_t i = 0;
         for (const auto& [v, other] : both_ways) {
-            if (points_.empty() || points_.back().vertex != v)
-                points_.push_back({positions[v], v, segments_.size()});
-            segments_.push_back(positions[other]);
+            while (i < lineage.original.size() && lineage.original[i] < v) ++i;
+            if (i == lineage.original.size()) break;
+            if (lineage.original[i] != v) continue;
+            if (points_.empty() || points_.back().vertex != v) {
+                points_.push_back({original.position(v), v, segments_.size()});
+                today_.push_back(lineage.today[i]);
+            }
+            segments_.push_back(original.position(other));
         }
     }
 
     /// Binds every point to an open edge near it.
-    /// \param into  vertex of today that an original vertex has gone into, or no_index
+    /// \param into  what a vertex of the lineage's today has gone into since
     /// O(vertices), typically
     template <class Into>
     void begin(const Complex& complex, const PairTable& pairs, Into&& into) {
@@ -46,11 +52,10 @@ public:
         first_.assign(pairs.size(), no_index);
         next_.assign(points_.size(), no_index);
         for (Index i = 0; i < points_.size(); ++i) {
-            const Index today = into(points_[i].vertex);
-            if (today == no_index) continue;
-            const Index pair = near_edge(complex, pairs, points_[i].position, today);
+            const Index pair = near_edge(complex, pairs, points_[i].position, into(today_[i]));
             if (pair != no_index) bind(i, pair);
         }
+        today_ = {};
     }
 
     /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
@@ -167,6 +172,7 @@ private:
     }
 
     std::vector<Point> points_;
+    std::vector<Index> today_;  // until begin(): the vertex of the complex that each has gone into
     std::vector<Vector3> segments_;
     std::vector<Index> first_, next_;      // lists of points bound to each pair
     std::vector<Index> bound_;             // points around the pair in hand

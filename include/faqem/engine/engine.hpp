@@ -202,7 +202,8 @@ private:
             return may_lift;
         }
         if constexpr (RefiningMetric<Metric>) {
-            if (postpone(pair, metric_.refine(complex_, pairs_, u, v, *found))) return true;
+            found->cost = metric_.refine(complex_, pairs_, u, v, *found);
+            if (postpone(pair, found->cost)) return true;
         }
         // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
         // a hub.

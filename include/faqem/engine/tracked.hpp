@@ -3,10 +3,10 @@
 /// The memoryless metric, and how far a collapse takes the surface from the original.
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "faqem/engine/bindings.hpp"
@@ -33,29 +33,24 @@ public:
     /// original's border vertices is less than what is between them.
     static constexpr double border_factor = 2;
 
+    /// \param weights       of the memoryless metric
+    /// \param original      borrowed
+    /// \param lineage       of the vertices to look after, into those of the complex; original ones ascending
     /// \param target_faces  the result's, > 0
+    /// \param weight        what the square of a distance costs, > 0
     /// \param curves        as MemorylessMetric's
-    /// \param original      borrowed; null: the surface as it is when initialise() is called
-    TrackedMetric(const MemorylessWeights& weights, std::size_t target_faces,
-                  const GroupCurves* curves = nullptr, const Original* original = nullptr)
-        : planes_(weights, curves), target_faces_(target_faces), original_(original) {}
+    TrackedMetric(const MemorylessWeights& weights, const Original& original, Lineage lineage,
+                  std::size_t target_faces, double weight, const GroupCurves* curves = nullptr)
+        : planes_(weights, curves),
+          original_(&original),
+          lineage_(std::move(lineage)),
+          target_faces_(target_faces),
+          weight_(weight) {}
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         planes_.initialise(complex, pairs);
-        weight_ = complex.area() / static_cast<double>(target_faces_);
-        if (original_) {
-            bindings_.emplace(*original_, complex);
-            border_.emplace(original_->positions, original_->open_edges);
-        } else {
-            bindings_.emplace(complex);
-            std::vector<std::array<Index, 2>> open_edges;
-            for (Index pair = 0; pair < pairs.size(); ++pair) {
-                if (pairs.face_count(pair) == 1)
-                    open_edges.push_back({pairs.first(pair), pairs.second(pair)});
-            }
-            border_.emplace(bindings_->positions(), open_edges);
-        }
-        is_tracking_ = false;
+        border_.emplace(*original_, lineage_);
+        bindings_.emplace(*original_, std::exchange(lineage_, {}), complex);
         begin_if_time(complex, pairs);
     }
 
@@ -159,10 +154,11 @@ private:
     MemorylessMetric planes_;
     std::optional<Bindings> bindings_;
     std::optional<BorderBindings> border_;
-    std::size_t target_faces_;
     const Original* original_;
+    Lineage lineage_;
+    std::size_t target_faces_;
     bool is_tracking_ = false;
-    double weight_ = 0;
+    double weight_;
     std::vector<TriangleDistance> after_;  // the faces there would be
     std::vector<Index> faces_;             // their indices
     std::vector<Index> bound_;             // original vertices bound around the pair
