@@ -1,25 +1,19 @@
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 
-#include "arrange.hpp"
-#include "blocks.hpp"
+#include "collect.hpp"
 #include "cost_curve.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/importance.hpp"
 #include "faqem/engine/memoryless.hpp"
-#include "faqem/engine/open_edges.hpp"
 #include "faqem/engine/tracked.hpp"
+#include "ground.hpp"
 #include "prepare.hpp"
 #include "presets.hpp"
 #include "relax.hpp"
@@ -49,19 +43,6 @@ struct Work {
     std::vector<double> importance;  // empty: the same everywhere
 };
 
-std::vector<std::uint8_t> locks(const MeshView& mesh, const detail::Prepared& prepared,
-                                const detail::Arranged& arranged, Border border) {
-    const std::vector<std::uint8_t> at_vertex =
-        detail::locks_of_welded(mesh, prepared.welded, prepared.positions.size());
-    std::vector<std::uint8_t> locked;
-    for (const Index v : arranged.vertex) locked.push_back(at_vertex[v]);
-    if (border == Border::locked) {
-        for (const auto& [a, b] : engine::find_open_edges(arranged.triangles, arranged.positions.size()))
-            locked[a] = locked[b] = 1;
-    }
-    return locked;
-}
-
 // Of vertices at one place the largest weight counts.
 std::vector<double> importance(const MeshView& mesh, const detail::Prepared& prepared,
                                const detail::Arranged& arranged) {
@@ -87,8 +68,8 @@ public:
         place_[survivor] = to.point == complex.position(gone) ? place_[gone] : no_index;
     }
     void deleting(Index face) { inner_.deleting(face); }
-    /// Whose place slot v has now, or no_index.
-    Index place(Index v) const { return place_[v]; }
+    /// Whose place each slot has now, or no_index.
+    const std::vector<Index>& places() const { return place_; }
 
 private:
     Recorder& inner_;
@@ -113,8 +94,7 @@ private:
 
 template <class Recorder>
 engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop, const engine::Original* original,
-                       std::span<const Index> into) {
+                       Recorder& recorder, const engine::LoopOptions& loop, const detail::Ground& ground) {
     engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue) {
         engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
@@ -136,8 +116,8 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
         case detail::Settings::Carry::tracked:
             break;
     }
-    return weighted(engine::TrackedMetric({}, *original, engine::Lineage(into), loop.target_faces,
-                                          loop.distance_weight, curves),
+    return weighted(engine::TrackedMetric({}, *ground.original(), engine::Lineage(ground.into()),
+                                          loop.target_faces, loop.distance_weight, curves),
                     engine::BucketQueue());
 }
 
@@ -157,7 +137,7 @@ public:
         result_.report.seconds.weld = all.seconds();
         arrange();
         if (options_.history == Recording::on) {
-            engine::HistoryRecorder history(arranged_.vertex, arranged_.face,
+            engine::HistoryRecorder history(ground_.now().vertex, ground_.now().face,
                                             static_cast<Index>(prepared_.positions.size()));
             collapse_and_collect(history);
             finish_history(history);
@@ -166,7 +146,7 @@ public:
             collapse_and_collect(nothing);
         }
         take_relaxed();
-        finish_report();
+        detail::finish_report(options_, settings_, prepared_, result_);
         result_.report.seconds.simplify = result_.report.seconds.total = all.seconds();
         return std::move(result_);
     }
@@ -174,7 +154,7 @@ public:
     detail::CostCurve curve() {
         prepared_ = detail::prepare(mesh_, settings_);
         arrange();
-        Work work(arranged_);
+        Work work(ground_.now());
         CostRecorder recorder;
         const engine::LoopResult looped = collapse(work, recorder);
         return {recorder.take(), work.complex.face_count(), settings_.diagonal / prepared_.scale,
@@ -183,13 +163,10 @@ public:
 
 private:
     void arrange() {
-        arranged_ = detail::arrange(prepared_);
-        places_ = arranged_.vertex;
-        into_.resize(arranged_.positions.size());
-        std::iota(into_.begin(), into_.end(), Index{0});
-        locked_ = locks(mesh_, prepared_, arranged_, options_.topology.border);
-        if (settings_.carry == detail::Settings::Carry::tracked)
-            original_.emplace(arranged_.positions, arranged_.triangles);
+        ground_ = detail::Ground(prepared_,
+                                 detail::locks_of_welded(mesh_, prepared_.welded, prepared_.positions.size()),
+                                 options_.topology.border);
+        if (settings_.carry == detail::Settings::Carry::tracked) ground_.remember_original();
         loop_ = loop_options();
     }
 
@@ -201,7 +178,7 @@ private:
         loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
         loop.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};
         if (settings_.carry != detail::Settings::Carry::memory)
-            loop.distance_weight = area() / static_cast<double>(loop.target_faces);
+            loop.distance_weight = ground_.area() / static_cast<double>(loop.target_faces);
         loop.tiny_component = 0.02 * settings_.diagonal;
         if (options_.progress) {
             loop.progress = [this](double done) {
@@ -212,15 +189,6 @@ private:
     }
 
     double least_length() const { return 1e-8 * settings_.diagonal; }
-
-    double area() const {
-        double sum = 0;
-        for (const Triangle& t : arranged_.triangles) {
-            const auto at = [&](std::size_t k) -> const Vector3& { return arranged_.positions[t[k]]; };
-            sum += 0.5 * engine::area_vector(at(0), at(1), at(2)).norm();
-        }
-        return sum;
-    }
 
     // What has attributes, groups, weights or virtual edges is not cut into blocks.
     bool may_be_cut() const {
@@ -233,16 +201,16 @@ private:
     template <class Recorder>
     bool begin_in_blocks(Recorder& recorder) {
         if (!may_be_cut()) return true;
-        if (!original_) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
+        if (!ground_.original()) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
         if (!reduce_in_blocks(engine::TrackedMetric::begins_at * loop_.target_faces, nullptr, recorder))
             return false;
-        const detail::BlockTracking tracking{*original_, into_, loop_.distance_weight};
+        const detail::BlockTracking tracking{*ground_.original(), ground_.into(), loop_.distance_weight};
         return reduce_in_blocks(loop_.target_faces, &tracking, recorder);
     }
 
     template <class Recorder>
     bool reduce_in_blocks(std::size_t least, const detail::BlockTracking* tracking, Recorder& recorder) {
-        const std::size_t faces = arranged_.triangles.size();
+        const std::size_t faces = ground_.now().triangles.size();
         if (faces <= least) return true;
         engine::LoopOptions loop = loop_;
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
@@ -252,7 +220,7 @@ private:
                 return options_.progress(Phase::simplify, done_in_blocks_ + share * done);
             };
         }
-        const detail::BlockInput input{arranged_.positions, arranged_.triangles, locked_};
+        const detail::BlockInput input{ground_.now().positions, ground_.now().triangles, ground_.locked()};
         const detail::BlockSteps blocks =
             detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
         if (blocks.is_cancelled) return false;
@@ -263,7 +231,7 @@ private:
         for (std::size_t i = 0; i < rung_kinds; ++i) result_.report.rungs[i] += blocks.rungs[i];
         detail::Reduced reduced = detail::reduce(input, blocks.steps);
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) record(blocks, reduced, recorder);
-        take(std::move(reduced));
+        ground_.take(std::move(reduced));
         return true;
     }
 
@@ -279,35 +247,12 @@ private:
         recorder.renumber(reduced.vertices, reduced.faces);
     }
 
-    void take(detail::Reduced&& reduced) {
-        const auto taken = [](const std::vector<Index>& of, const std::vector<Index>& slots) {
-            std::vector<Index> result;
-            for (const Index slot : slots) result.push_back(slot == no_index ? no_index : of[slot]);
-            return result;
-        };
-        places_ = taken(places_, reduced.places);
-        into_ = taken(reduced.into, into_);
-        std::vector<std::uint8_t> locked;
-        for (const Index v : reduced.vertices) locked.push_back(locked_[v]);
-        locked_ = std::move(locked);
-        detail::Arranged less{taken(arranged_.vertex, reduced.vertices), taken(arranged_.face, reduced.faces),
-                              std::move(reduced.positions), std::move(reduced.triangles)};
-        std::swap(arranged_, less);
-        if (whole_.positions.empty()) whole_ = std::move(less);
-    }
-
-    // Of the original.
-    detail::Patchwork whole() const {
-        const detail::Arranged& whole = whole_.positions.empty() ? arranged_ : whole_;
-        return {whole.positions, whole.triangles};
-    }
-
     template <class Recorder>
     engine::LoopResult collapse(Work& work, Recorder& recorder) {
         const Complex& complex = work.complex;
         std::vector<std::pair<Index, Index>> extra;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
-            extra = detail::virtual_edges(complex, arranged_.per_face(mesh_.face_groups),
+            extra = detail::virtual_edges(complex, ground_.now().per_face(mesh_.face_groups),
                                           options_.topology.virtual_edge_distance * settings_.diagonal,
                                           least_length());
         }
@@ -315,22 +260,22 @@ private:
         engine::PairTable pairs(complex, extra);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
-            work.wedges = engine::Wedges(complex, {arranged_.per_face<float>(values, 3 * width), width});
+            work.wedges = engine::Wedges(complex, {ground_.now().per_face<float>(values, 3 * width), width});
         }
-        work.locked = locked_;
+        work.locked = ground_.locked();
         if (options_.topology.group_borders == GroupBorders::kept) {
-            work.groups = arranged_.per_face(mesh_.face_groups);
+            work.groups = ground_.now().per_face(mesh_.face_groups);
             work.curves = engine::GroupCurves(complex, work.groups);
         }
-        work.importance = importance(mesh_, prepared_, arranged_);
-        return run(work, pairs, settings_, recorder, loop_, original_ ? &*original_ : nullptr, into_);
+        work.importance = importance(mesh_, prepared_, ground_.now());
+        return run(work, pairs, settings_, recorder, loop_, ground_);
     }
 
     template <class Recorder>
     void collapse_and_collect(Recorder& recorder) {
         const bool goes_on = begin_in_blocks(recorder);
-        Work work(arranged_);
-        OriginRecorder<Recorder> origin(recorder, std::move(places_));
+        Work work(ground_.now());
+        OriginRecorder<Recorder> origin(recorder, ground_.places());
         engine::LoopResult looped;
         if (goes_on)
             looped = collapse(work, origin);
@@ -342,7 +287,8 @@ private:
         for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
         for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
         report.components_deleted = looped.components_deleted;
-        collect(work.complex, work.wedges, origin);
+        slots_ = detail::collect(mesh_, prepared_, ground_.now(), work.complex, work.wedges, origin.places(),
+                                 result_);
         if (settings_.relax) relax(work);
     }
 
@@ -355,8 +301,8 @@ private:
             const bool is_seam = !work.wedges.empty() && work.wedges.is_seam(work.complex, v);
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
-        const std::vector<Vector3> relaxed = detail::relax(whole(), {now, result_.mesh.triangles}, fixed,
-                                                           settings_.least_turn, options_.threads);
+        const std::vector<Vector3> relaxed = detail::relax(ground_.whole(), {now, result_.mesh.triangles},
+                                                           fixed, settings_.least_turn, options_.threads);
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
         }
@@ -367,51 +313,6 @@ private:
         if (!relaxed_.empty() && !result_.history.empty())
             result_.history.kept_positions = result_.mesh.positions;
         result_.report.vertices_relaxed = relaxed_.size();
-    }
-
-    // Faces and vertices in input order; what has no area is left out.
-    template <class Origin>
-    void collect(const Complex& complex, const engine::Wedges& wedges, const Origin& origin) {
-        std::vector<Vec3> position(complex.vertex_slots());
-        for (Index v = 0; v < position.size(); ++v) {
-            const Index at = origin.place(v);
-            position[v] = at != no_index ? prepared_.positions[at] : prepared_.to_model(complex.position(v));
-        }
-        std::vector<Index> slot_of_face(mesh_.triangles.size(), no_index);
-        std::vector<Index> slot_of_vertex(prepared_.positions.size(), no_index);
-        for (Index f = 0; f < complex.face_slots(); ++f) {
-            if (!complex.alive(f)) continue;
-            const Triangle& t = complex.triangle(f);
-            if (detail::has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
-                ++result_.report.faces_dropped;
-                continue;
-            }
-            for (const Index v : t) slot_of_vertex[arranged_.vertex[v]] = v;
-            slot_of_face[arranged_.face[f]] = f;
-        }
-        TriangleMesh& out = result_.mesh;
-        std::vector<Index> vertex(complex.vertex_slots(), no_index);
-        for (Index v = 0; v < slot_of_vertex.size(); ++v) {
-            const Index slot = slot_of_vertex[v];
-            if (slot == no_index) continue;
-            vertex[slot] = static_cast<Index>(out.positions.size());
-            out.positions.push_back(position[slot]);
-            result_.vertex_origin.push_back(prepared_.vertex_origin[v]);
-            slots_.push_back(slot);
-        }
-        for (Index f = 0; f < slot_of_face.size(); ++f) {
-            const Index slot = slot_of_face[f];
-            if (slot == no_index) continue;
-            const Triangle& t = complex.triangle(slot);
-            result_.face_origin.push_back(f);
-            out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
-            if (!mesh_.face_groups.empty()) out.face_groups.push_back(mesh_.face_groups[f]);
-            for (unsigned corner = 0; corner < 3 && !wedges.empty(); ++corner) {
-                const float* values = wedges.values(slot, corner);
-                out.attributes.values.insert(out.attributes.values.end(), values, values + wedges.width());
-            }
-        }
-        out.attributes.width = wedges.width();
     }
 
     void finish_history(engine::HistoryRecorder& recorder) {
@@ -444,43 +345,11 @@ private:
         result_.history = std::move(history);
     }
 
-    void finish_report() {
-        Report& report = result_.report;
-        const Weights& w = options_.weights;
-        if (settings_.carry != detail::Settings::Carry::memory &&
-            (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
-            report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
-                                      std::string(name(options_.preset)) + " has none of their terms");
-        }
-        report.faces_out = result_.mesh.triangles.size();
-        report.vertices_out = result_.mesh.positions.size();
-        if (report.faces_dropped > 0) {
-            report.warnings.push_back(std::to_string(report.faces_dropped) +
-                                      " faces without area, or doubles of another face, were dropped");
-        }
-        report.components_pruned = prepared_.pruned.components;
-        report.faces_pruned = prepared_.pruned.faces.size();
-        if (report.components_pruned > 0) {
-            report.warnings.push_back(std::to_string(report.components_pruned) +
-                                      " components smaller than asked for were pruned, with " +
-                                      std::to_string(report.faces_pruned) + " faces");
-        }
-        if (report.components_deleted > 0) {
-            report.warnings.push_back(std::to_string(report.components_deleted) +
-                                      " small components were deleted to reach the target");
-        }
-    }
-
     const MeshView& mesh_;
     const Options& options_;
     detail::Settings settings_;
     detail::Prepared prepared_;
-    detail::Arranged arranged_;  // what the engine begins with
-    detail::Arranged whole_;     // the original, where it begins with less
-    std::optional<engine::Original> original_;
-    std::vector<Index> into_;  // the slot that each vertex of the original has gone into, or no_index
-    std::vector<std::uint8_t> locked_;  // one per slot
-    std::vector<Index> places_;         // whose place each slot has, among the vertices of the prepared mesh
+    detail::Ground ground_;
     engine::LoopOptions loop_;
     double done_in_blocks_ = 0;  // share of the work
     SimplifyResult result_;

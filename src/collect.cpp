@@ -1,0 +1,82 @@
+#include "collect.hpp"
+
+#include <string>
+
+namespace faqem::detail {
+
+std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
+                           const engine::Complex& complex, const engine::Wedges& wedges,
+                           std::span<const Index> places, SimplifyResult& result) {
+    std::vector<Index> slots;
+    std::vector<Vec3> position(complex.vertex_slots());
+    for (Index v = 0; v < position.size(); ++v) {
+        const Index at = places[v];
+        position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(complex.position(v));
+    }
+    std::vector<Index> slot_of_face(mesh.triangles.size(), no_index);
+    std::vector<Index> slot_of_vertex(prepared.positions.size(), no_index);
+    for (Index f = 0; f < complex.face_slots(); ++f) {
+        if (!complex.alive(f)) continue;
+        const Triangle& t = complex.triangle(f);
+        if (has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
+            ++result.report.faces_dropped;
+            continue;
+        }
+        for (const Index v : t) slot_of_vertex[now.vertex[v]] = v;
+        slot_of_face[now.face[f]] = f;
+    }
+    TriangleMesh& out = result.mesh;
+    std::vector<Index> vertex(complex.vertex_slots(), no_index);
+    for (Index v = 0; v < slot_of_vertex.size(); ++v) {
+        const Index slot = slot_of_vertex[v];
+        if (slot == no_index) continue;
+        vertex[slot] = static_cast<Index>(out.positions.size());
+        out.positions.push_back(position[slot]);
+        result.vertex_origin.push_back(prepared.vertex_origin[v]);
+        slots.push_back(slot);
+    }
+    for (Index f = 0; f < slot_of_face.size(); ++f) {
+        const Index slot = slot_of_face[f];
+        if (slot == no_index) continue;
+        const Triangle& t = complex.triangle(slot);
+        result.face_origin.push_back(f);
+        out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
+        if (!mesh.face_groups.empty()) out.face_groups.push_back(mesh.face_groups[f]);
+        for (unsigned corner = 0; corner < 3 && !wedges.empty(); ++corner) {
+            const float* values = wedges.values(slot, corner);
+            out.attributes.values.insert(out.attributes.values.end(), values, values + wedges.width());
+        }
+    }
+    out.attributes.width = wedges.width();
+    return slots;
+}
+
+void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
+                   SimplifyResult& result) {
+    Report& report = result.report;
+    const Weights& w = options.weights;
+    if (settings.carry != Settings::Carry::memory &&
+        (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
+        report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
+                                  std::string(name(options.preset)) + " has none of their terms");
+    }
+    report.faces_out = result.mesh.triangles.size();
+    report.vertices_out = result.mesh.positions.size();
+    if (report.faces_dropped > 0) {
+        report.warnings.push_back(std::to_string(report.faces_dropped) +
+                                  " faces without area, or doubles of another face, were dropped");
+    }
+    report.components_pruned = prepared.pruned.components;
+    report.faces_pruned = prepared.pruned.faces.size();
+    if (report.components_pruned > 0) {
+        report.warnings.push_back(std::to_string(report.components_pruned) +
+                                  " components smaller than asked for were pruned, with " +
+                                  std::to_string(report.faces_pruned) + " faces");
+    }
+    if (report.components_deleted > 0) {
+        report.warnings.push_back(std::to_string(report.components_deleted) +
+                                  " small components were deleted to reach the target");
+    }
+}
+
+}  // namespace faqem::detail

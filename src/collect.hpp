@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// From what the engine leaves to what the caller gets.
+
+#include <span>
+#include <vector>
+
+#include "arrange.hpp"
+#include "faqem/engine/wedges.hpp"
+#include "faqem/simplify.hpp"
+#include "presets.hpp"
+
+namespace faqem::detail {
+
+/// Fills the mesh of the result, and whose its vertices and faces were: both in input order; what has no area
+/// is left out and counted.
+/// \param now     the slots of the complex
+/// \param places  of each vertex slot: the vertex of the prepared mesh whose place it has, or no_index
+/// \return the slot of each vertex of the result
+/// O(n)
+std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
+                           const engine::Complex& complex, const engine::Wedges& wedges,
+                           std::span<const Index> places, SimplifyResult& result);
+
+/// Counts the mesh of the result and what was prepared, and says in words what the user should know.
+void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
+                   SimplifyResult& result);
+
+}  // namespace faqem::detail

@@ -1,0 +1,55 @@
+#include "ground.hpp"
+
+#include <numeric>
+#include <utility>
+
+namespace faqem::detail {
+
+namespace {
+
+// Of some slots; no_index where there is none.
+template <class T>
+std::vector<T> taken(const std::vector<T>& of, const std::vector<Index>& slots) {
+    std::vector<T> result;
+    result.reserve(slots.size());
+    for (const Index slot : slots) result.push_back(slot == no_index ? static_cast<T>(no_index) : of[slot]);
+    return result;
+}
+
+}  // namespace
+
+Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border)
+    : now_(arrange(prepared)),
+      into_(now_.positions.size()),
+      places_(now_.vertex),
+      locked_(taken(locked, now_.vertex)) {
+    std::iota(into_.begin(), into_.end(), Index{0});
+    if (border != Border::locked) return;
+    for (const auto& [a, b] : engine::find_open_edges(now_.triangles, now_.positions.size()))
+        locked_[a] = locked_[b] = 1;
+}
+
+void Ground::take(Reduced&& reduced) {
+    places_ = taken(places_, reduced.places);
+    into_ = taken(reduced.into, into_);
+    locked_ = taken(locked_, reduced.vertices);
+    Arranged less{taken(now_.vertex, reduced.vertices), taken(now_.face, reduced.faces),
+                  std::move(reduced.positions), std::move(reduced.triangles)};
+    std::swap(now_, less);
+    if (whole_.positions.empty()) whole_ = std::move(less);
+}
+
+Patchwork Ground::whole() const {
+    const Arranged& whole = whole_.positions.empty() ? now_ : whole_;
+    return {whole.positions, whole.triangles};
+}
+
+double Ground::area() const {
+    double sum = 0;
+    for (const Triangle& t : now_.triangles)
+        sum += 0.5 *
+               engine::area_vector(now_.positions[t[0]], now_.positions[t[1]], now_.positions[t[2]]).norm();
+    return sum;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// The surface on its way through the engines, in slots.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "arrange.hpp"
+#include "blocks.hpp"
+#include "faqem/engine/original.hpp"
+#include "gaps.hpp"
+
+namespace faqem::detail {
+
+/// What the next engine begins with, and whose it was.
+class Ground {
+public:
+    Ground() = default;
+    /// \param locked  one per vertex of the prepared mesh
+    Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border);
+
+    /// Lets engines watch the distance to what is there now. O(faces)
+    void remember_original() { original_.emplace(now_.positions, now_.triangles); }
+
+    /// Goes on with what is left after some steps.
+    void take(Reduced&& reduced);
+
+    const Arranged& now() const { return now_; }
+    const std::vector<std::uint8_t>& locked() const { return locked_; }
+    /// Of each slot: the vertex of the prepared mesh whose place it has, or no_index.
+    const std::vector<Index>& places() const { return places_; }
+    /// The slot that each vertex of the original has gone into, or no_index.
+    const std::vector<Index>& into() const { return into_; }
+    /// Null if it is not remembered.
+    const engine::Original* original() const { return original_ ? &*original_ : nullptr; }
+    /// The surface before the first step.
+    Patchwork whole() const;
+    /// Area of what is there now. O(faces)
+    double area() const;
+
+private:
+    Arranged now_;
+    Arranged whole_;  // as it was, where there is less now
+    std::optional<engine::Original> original_;
+    std::vector<Index> into_, places_;
+    std::vector<std::uint8_t> locked_;
+};
+
+}  // namespace faqem::detail
