@@ -19,6 +19,7 @@ namespace {
 using engine::Complex;
 using engine::Vector3;
 
+constexpr std::size_t most_per_block = 1 << 15;
 // What is worn away in a block beyond the share of the whole: blocks with little detail can give more.
 constexpr double local_share = 0.8;
 // What is left inside of the blocks should be no coarser than the result: the faces that did not take part
@@ -28,7 +29,7 @@ constexpr double spare_share = 1.15;
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
     explicit Blocks(const BlockInput& input)
-        : begin((input.positions.size() + input.vertices_per_block - 1) / input.vertices_per_block + 1, 0) {
+        : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
         for_each(input, [&](std::size_t block, Index) { ++begin[block + 1]; });
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
         faces.resize(begin.back());
@@ -73,8 +74,8 @@ class Block {
 public:
     Block(const BlockInput& input, const Blocks& blocks, std::size_t b)
         : faces(blocks.of(b)),
-          first_(static_cast<Index>(b * input.vertices_per_block)),
-          own_(static_cast<Index>(std::min(input.vertices_per_block, input.positions.size() - first_))) {
+          first_(static_cast<Index>(b * input.per_block)),
+          own_(static_cast<Index>(std::min(input.per_block, input.positions.size() - first_))) {
         for (const Index f : faces) {
             for (const Index v : input.triangles[f]) {
                 if (!is_own(v)) others_.push_back(v);
@@ -313,10 +314,16 @@ void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& t
 
 }  // namespace
 
+std::size_t vertices_per_block(std::size_t vertices) {
+    if (vertices <= most_per_block) return vertices;
+    const std::size_t blocks = 4 * ((vertices + 4 * most_per_block - 1) / (4 * most_per_block));
+    return (vertices + blocks - 1) / blocks;
+}
+
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, std::uint32_t threads) {
     BlockSteps result;
-    if (input.positions.size() <= 2 * input.vertices_per_block) return result;
+    if (input.positions.size() <= 2 * input.per_block) return result;
     const std::size_t faces = input.triangles.size();
     const double waiting = static_cast<double>(count_waiting(input)) / static_cast<double>(faces);
     const double share = spare_share * static_cast<double>(least) / static_cast<double>(faces);

@@ -34,6 +34,12 @@ struct BlockSteps {
     bool is_cancelled = false;
 };
 
+/// The size of blocks for so many vertices: all of them where they are few, else a part of four, eight,
+/// twelve
+/// ... alike, so that two or four threads end together. More would leave more faces between blocks, which
+/// wait; fewer take more memory.
+std::size_t vertices_per_block(std::size_t vertices);
+
 /// What the blocks need to watch the distance to the original.
 struct BlockTracking {
     const engine::Original& original;
@@ -47,10 +53,9 @@ struct BlockInput {
     std::span<const engine::Vector3> positions;
     std::span<const Triangle> triangles;   ///< of different corners
     std::span<const std::uint8_t> locked;  ///< one per vertex
-    /// More of them: fewer faces between blocks, which wait. Fewer: less memory, and more threads can help.
-    std::size_t vertices_per_block = 1 << 16;
+    std::size_t per_block;                 ///< vertices
 
-    std::size_t block_of(Index v) const { return v / vertices_per_block; }
+    std::size_t block_of(Index v) const { return v / per_block; }
     bool is_between_blocks(const Triangle& t) const {
         return block_of(t[0]) != block_of(t[1]) || block_of(t[0]) != block_of(t[2]);
     }

@@ -220,7 +220,9 @@ private:
                 return options_.progress(Phase::simplify, done_in_blocks_ + share * done);
             };
         }
-        const detail::BlockInput input{ground_.now().positions, ground_.now().triangles, ground_.locked()};
+        const detail::Arranged& now = ground_.now();
+        const detail::BlockInput input{now.positions, now.triangles, ground_.locked(),
+                                       detail::vertices_per_block(now.positions.size())};
         const detail::BlockSteps blocks =
             detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
         if (blocks.is_cancelled) return false;

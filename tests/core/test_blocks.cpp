@@ -18,8 +18,7 @@ namespace {
 // A surface in slots, its blocks of 500 vertices.
 struct Ground {
     explicit Ground(const TriangleMesh& mesh)
-        : arranged(arrange(prepare(mesh.view(), settings({})))),
-          locked(arranged.positions.size(), 0) {
+        : arranged(arrange(prepare(mesh.view(), settings({})))), locked(arranged.positions.size(), 0) {
         loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
         loop.distance_weight = 1e-4;
     }
@@ -46,6 +45,18 @@ struct Steps {
 TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
 
 }  // namespace
+
+TEST_CASE("blocks: few vertices are one, more are four, eight and so on of one size") {
+    for (const std::size_t few : {0u, 1u, 32768u}) CHECK(vertices_per_block(few) == few);
+    for (const std::size_t many : {32769u, 100000u, 131072u, 131073u, 1000000u}) {
+        const std::size_t size = vertices_per_block(many);
+        const std::size_t blocks = (many + size - 1) / size;
+        CHECK(size <= 32768);
+        CHECK(blocks % 4 == 0);
+        CHECK(many > (blocks - 1) * size);
+        CHECK(many > (blocks - 4) * 32768);
+    }
+}
 
 TEST_CASE("blocks: the steps can be done one after the other, and leave what reduce() says") {
     const Ground ground(lump());
@@ -141,13 +152,12 @@ TEST_CASE("blocks: a hole between blocks is no border that could end") {
     // The outline is still that of the square.
     double area = 0;
     for (const Triangle& t : reduced.triangles) {
-        area += area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]])
-                    .z();
+        area += area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]]).z();
     }
     double whole = 0;
     for (const Triangle& t : ground.arranged.triangles) {
         whole += area_vector(ground.arranged.positions[t[0]], ground.arranged.positions[t[1]],
-                                     ground.arranged.positions[t[2]])
+                             ground.arranged.positions[t[2]])
                      .z();
     }
     CHECK(area == Approx(whole));

@@ -56,7 +56,7 @@ TEST_CASE("ground: after two rounds of steps everything still knows whose it was
             const Index survivor = at(to, y);
             steps.push_back({survivor, at(from, y), ground.now().positions[survivor]});
         }
-        ground.take(reduce({ground.now().positions, ground.now().triangles, ground.locked()}, steps));
+        ground.take(reduce({ground.now().positions, ground.now().triangles, ground.locked(), 10}, steps));
     };
     join(1, 0);
     CHECK(ground.now().triangles.size() == 6);
