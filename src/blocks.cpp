@@ -19,7 +19,6 @@ namespace {
 using engine::Complex;
 using engine::Vector3;
 
-constexpr std::size_t most_per_block = 1 << 15;
 // What is worn away in a block beyond the share of the whole: blocks with little detail can give more.
 constexpr double local_share = 0.8;
 // What is left inside of the blocks should be no coarser than the result: the faces that did not take part
@@ -314,9 +313,10 @@ void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& t
 
 }  // namespace
 
-std::size_t vertices_per_block(std::size_t vertices) {
-    if (vertices <= most_per_block) return vertices;
-    const std::size_t blocks = 4 * ((vertices + 4 * most_per_block - 1) / (4 * most_per_block));
+std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
+    if (vertices <= few) return vertices;
+    constexpr std::size_t most = 4 * most_vertices_per_block;
+    const std::size_t blocks = 4 * ((vertices + most - 1) / most);
     return (vertices + blocks - 1) / blocks;
 }
 

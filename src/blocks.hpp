@@ -34,11 +34,13 @@ struct BlockSteps {
     bool is_cancelled = false;
 };
 
+inline constexpr std::size_t most_vertices_per_block = 1 << 15;
+
 /// The size of blocks for so many vertices: all of them where they are few, else a part of four, eight,
-/// twelve
-/// ... alike, so that two or four threads end together. More would leave more faces between blocks, which
-/// wait; fewer take more memory.
-std::size_t vertices_per_block(std::size_t vertices);
+/// twelve ... alike, so that two or four threads end together. More blocks would leave more faces between
+/// them, which wait; fewer take more memory.
+/// \param few  up to which they are not cut
+std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vertices_per_block);
 
 /// What the blocks need to watch the distance to the original.
 struct BlockTracking {

@@ -220,9 +220,12 @@ private:
                 return options_.progress(Phase::simplify, done_in_blocks_ + share * done);
             };
         }
+        // What has been cut once may be cut smaller: watching distances is worth more than the waiting costs.
+        const std::size_t few =
+            done_in_blocks_ > 0 ? detail::most_vertices_per_block / 4 : detail::most_vertices_per_block;
         const detail::Arranged& now = ground_.now();
         const detail::BlockInput input{now.positions, now.triangles, ground_.locked(),
-                                       detail::vertices_per_block(now.positions.size())};
+                                       detail::vertices_per_block(now.positions.size(), few)};
         const detail::BlockSteps blocks =
             detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
         if (blocks.is_cancelled) return false;

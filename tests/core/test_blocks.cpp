@@ -48,6 +48,8 @@ TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 25
 
 TEST_CASE("blocks: few vertices are one, more are four, eight and so on of one size") {
     for (const std::size_t few : {0u, 1u, 32768u}) CHECK(vertices_per_block(few) == few);
+    CHECK(vertices_per_block(8192, 8192) == 8192);
+    CHECK(vertices_per_block(8193, 8192) == 2049);
     for (const std::size_t many : {32769u, 100000u, 131072u, 131073u, 1000000u}) {
         const std::size_t size = vertices_per_block(many);
         const std::size_t blocks = (many + size - 1) / size;
