@@ -19,7 +19,8 @@ namespace {
 using engine::Complex;
 using engine::Vector3;
 
-// What is worn away in a block beyond the share of the whole: blocks with little detail can give more.
+// Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
+// more.
 constexpr double local_share = 0.8;
 // What is left inside of the blocks should be no coarser than the result: the faces that did not take part
 // are denser, and will go first.
@@ -222,13 +223,12 @@ struct Lineages {
 };
 
 template <class Metric>
-Done simplify_block(const Block& block, Metric metric, const engine::LoopOptions& loop, double share,
+Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
                     Recording patches, SharedProgress& progress) {
     Done done;
     Complex complex(block.positions, block.triangles);
     engine::PairTable pairs(complex, {});
     engine::Wedges wedges;
-    std::vector<std::uint8_t> locked = block.locked;
     StepRecorder recorder(block, patches, done);
     engine::LoopOptions options = loop;
     options.ladder = engine::Ladder::stay;
@@ -240,8 +240,8 @@ Done simplify_block(const Block& block, Metric metric, const engine::LoopOptions
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known);
     };
-    engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, locked, metric,
-                                                                     recorder);
+    engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
+                                                                     metric, recorder);
     done.result = engine.run(options);
     recorder.end_step(complex);
     progress(to_remove, known);
@@ -336,12 +336,12 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     std::vector<Done> done(blocks.count());
     parallel_blocks(blocks.count(), 1, threads, [&](std::size_t b, std::size_t) {
         if (progress.is_cancelled()) return;
-        const Block block(input, blocks, b);
+        Block block(input, blocks, b);
         const auto simplify = [&](auto metric) {
             return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress);
         };
         done[b] = tracking ? simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block),
-                                                            block.triangles.size(), tracking->weight))
+                                                            block.triangles.size(), loop.distance_weight))
                            : simplify(engine::MemorylessMetric());
     });
     result.is_cancelled = progress.is_cancelled();

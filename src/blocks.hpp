@@ -46,7 +46,6 @@ std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vert
 struct BlockTracking {
     const engine::Original& original;
     std::span<const Index> into;  ///< vertex of the input that each original one has gone into, or no_index
-    double weight;                ///< what the square of a distance costs
 };
 
 /// A surface without attributes, groups or virtual pairs. Borrows. Vertices that are near should have numbers
@@ -71,7 +70,7 @@ struct BlockInput {
 /// than another.
 /// \param loop     as for the whole; progress is called on this thread, with the share of this function
 /// \param least    faces to keep, at least: of what is dense between the blocks, a share only
-/// \param tracking  null: with the memoryless metric
+/// \param tracking null: with the memoryless metric
 /// \param patches  whether to collect the faces of each step
 /// \param threads  at most; 0: all there are. The result does not depend on it.
 /// \return no steps for a surface of one or two blocks, or where little would be gained

@@ -204,7 +204,7 @@ private:
         if (!ground_.original()) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
         if (!reduce_in_blocks(engine::TrackedMetric::begins_at * loop_.target_faces, nullptr, recorder))
             return false;
-        const detail::BlockTracking tracking{*ground_.original(), ground_.into(), loop_.distance_weight};
+        const detail::BlockTracking tracking{*ground_.original(), ground_.into()};
         return reduce_in_blocks(loop_.target_faces, &tracking, recorder);
     }
 

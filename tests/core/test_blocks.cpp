@@ -208,7 +208,7 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     loop.distance_weight = 0.05;
     const std::vector<std::uint8_t> locked(3 * size, 0);
     const BlockInput input{now.positions, now.triangles, locked, size};
-    const BlockTracking tracking{originals.surface, into_all, 0.05};
+    const BlockTracking tracking{originals.surface, into_all};
     const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
     REQUIRE(found.steps.size() % 3 == 0);
     const std::size_t each = found.steps.size() / 3;

@@ -103,20 +103,11 @@ public:
         metric_.initialise(complex_, pairs_);
         seed();
         std::size_t seeded_at = complex_.face_count();
-        for (;;) {
-            if (drain(options)) break;
-            result_.stop = StopReason::no_legal_collapse;
-            if (options.ladder == Ladder::stay) break;
-            const std::size_t removed = seeded_at - complex_.face_count();
-            const std::size_t excess = complex_.face_count() - options.target_faces;
-            // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
-            const bool worth_it = 10 * removed >= excess && removed > 0;
-            if (worth_it || (rung_ == 0 && result_.rungs[0] == 0)) {
-                ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
-            } else if (!climb(options)) {
+        while (!drain(options)) {
+            if (options.ladder == Ladder::stay || !find_more(options, seeded_at)) {
+                result_.stop = StopReason::no_legal_collapse;
                 break;
             }
-            result_.stop = StopReason::reached_target;
             seed();
             seeded_at = complex_.face_count();
         }
@@ -124,6 +115,17 @@ public:
     }
 
 private:
+    // Tells whether all pairs are worth another look, after a rung of the ladder perhaps.
+    bool find_more(const LoopOptions& options, std::size_t seeded_at) {
+        const std::size_t removed = seeded_at - complex_.face_count();
+        const std::size_t excess = complex_.face_count() - options.target_faces;
+        // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
+        const bool worth_it = 10 * removed >= excess && removed > 0;
+        if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0)) return climb(options);
+        ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
+        return true;
+    }
+
     void seed() {
         std::fill(has_vetoed_.begin(), has_vetoed_.end(), std::uint8_t{0});
         for (Index pair = 0; pair < pairs_.size(); ++pair) {

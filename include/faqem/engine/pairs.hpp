@@ -23,8 +23,6 @@ struct Neighbour {
 /// virtual and both its ends have faces.
 class PairTable {
 public:
-    PairTable() = default;
-
     /// Numbers the edges of `complex` by their smaller vertex, then by the order of that vertex's corners;
     /// the virtual pairs follow. O(faces)
     /// \param virtual_pairs  distinct pairs that are no edges
