@@ -127,6 +127,8 @@ enum class Recording { off, on };
 
 /// Where the colours of the small model go.
 enum class Bake {
+    automatic,     ///< `atlas` or `per_triangle`, page by page: see docs/baking.md
+    atlas,         ///< a new atlas of charts: neighbouring triangles lie together
     per_triangle,  ///< a new atlas, every triangle on its own (paper, Sec. 3.2.3)
     vertex,        ///< vertex colours
     keep,          ///< the source's UVs and images, carried through the collapses

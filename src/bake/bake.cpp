@@ -63,8 +63,10 @@ void map_parts(BakeJob& job, const SmallParts& small) {
 
 void bake_kind(BakeJob& job) {
     switch (job.options.bake.kind) {
+        case Bake::automatic:
+        case Bake::atlas:
         case Bake::per_triangle:
-            if (bake_per_triangle(job)) return;
+            if (bake_pages(job)) return;
             job.warn("more triangles than texels: colours went to the vertices");
             return bake_vertex(job);
         case Bake::vertex:

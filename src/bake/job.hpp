@@ -53,7 +53,7 @@ std::string material_title(const Asset& asset, Index material);
 std::string part_title(const Asset& asset, std::size_t part);
 
 /// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
-bool bake_per_triangle(BakeJob& job);
+bool bake_pages(BakeJob& job);
 
 /// Colours on vertices.
 void bake_vertex(BakeJob& job);

@@ -62,6 +62,31 @@ public:
         });
     }
 
+    void bake(const ChartTile& tile) {
+        const TileOwners owned =
+            tile_owners(request_.atlas, request_.charts[tile.chart], request_.across, tile, samples_);
+        std::vector<Painter> painters;
+        painters.reserve(owned.triangles.size());
+        for (Index t : owned.triangles) painters.emplace_back(*this, t);
+        for (std::uint32_t y = 0; y < tile.height; ++y) {
+            for (std::uint32_t x = 0; x < tile.width; ++x) {
+                const std::size_t first = (std::size_t{y} * tile.width * samples_ + x) * samples_;
+                if (owned.owners[first] == TileOwners::none) continue;
+                Texel sum;
+                for (std::uint32_t j = 0; j < samples_; ++j) {
+                    for (std::uint32_t i = 0; i < samples_; ++i) {
+                        const double s = (i + 0.5) / samples_, t = (j + 0.5) / samples_;
+                        Painter& painter =
+                            painters[owned.owners[first + std::size_t{j} * tile.width * samples_ + i]];
+                        add_sample(sum, painter, tile.x + x, tile.y + y,
+                                   painter.point(tile.x + x, tile.y + y, s, t));
+                    }
+                }
+                write(tile.x + x, tile.y + y, sum);
+            }
+        }
+    }
+
     PageImages finish() {
         if (request_.channels.base) {
             const bool alpha = images_.base.has_alpha;
@@ -128,11 +153,15 @@ private:
         double texel_length() const {
             const auto at = [&](std::size_t i) { return corner(face.face, i); };
             if (single()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
-            return std::max((at(right + 1) - at(right)).norm() / place.legs[0],
-                            (at(right + 2) - at(right)).norm() / place.legs[1]);
+            const auto side = [&](double x, double y) {
+                const auto& a = place.uv[0];
+                const Vec3 w = frame.at(a[0] + x, a[1] + y);
+                return (w[1] * (at(1) - at(0)) + w[2] * (at(2) - at(0))).norm();
+            };
+            return std::max(side(1, 0), side(0, 1));
         }
 
-        bool single() const { return place.legs[0] == 0; }
+        bool single() const { return place.uv[0] == place.uv[1]; }
 
         // How weights of this face become weights of the neighbour across an edge, unfolded into one plane.
         struct Fold {
@@ -253,10 +282,15 @@ private:
 PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,
                      double done, double total) {
     Page page(job, surface, request);
-    const std::vector<AtlasCell>& cells = request.atlas.cells;
-    polled_blocks(job, Phase::bake, cells.size(), 4, done, total, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) page.bake(cells[c]);
-    });
+    const auto bake_all = [&](const auto& pieces, std::size_t block) {
+        polled_blocks(job, Phase::bake, pieces.size(), block, done, total,
+                      [&](std::size_t begin, std::size_t end) {
+                          for (std::size_t i = begin; i < end; ++i) page.bake(pieces[i]);
+                      });
+        done += static_cast<double>(pieces.size());
+    };
+    bake_all(request.atlas.cells, 4);
+    bake_all(request.tiles, 1);
     return page.finish();
 }
 

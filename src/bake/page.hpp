@@ -14,6 +14,8 @@ namespace faqem::detail {
 /// What is on a page.
 struct PageRequest {
     const Atlas& atlas;
+    std::span<const AtlasChart> charts;
+    std::span<const ChartTile> tiles;               ///< of the charts
     std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
     std::span<const PageFace> faces;                ///< by triangle of the atlas
     Channels channels;
@@ -28,8 +30,9 @@ struct PageImages {
 /// Averages options.bake.samples^2 samples per texel, in linear light and premultiplied, encodes once, and
 /// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
 /// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
-/// triangle's closest point where there is none. Cells are independent of each other,
-/// so the result does not depend on the number of threads. \param done, total  texels, for the progress
+/// triangle's closest point where there is none. Cells and tiles are independent of each other,
+/// so the result does not depend on the number of threads. \param done, total  cells and tiles, for the
+/// progress
 /// \throws Cancelled
 PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,
                      double done, double total);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/charts.hpp"
 #include "faqem/engine/vector.hpp"
 #include "morton.hpp"
 
@@ -12,6 +13,9 @@ namespace {
 
 using engine::to_eigen;
 using engine::Vector3;
+
+// Charts of fewer faces have more gutter than cells of pairs do.
+constexpr std::size_t few_faces = 3;
 
 // Source texels per length at a small face, root mean square over four places.
 double density_at(const SmallPart& part, const SourceSurface& surface, Index face) {
@@ -120,8 +124,11 @@ std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<cons
     return result;
 }
 
-std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
-                                         std::span<const PageFace> faces) {
+namespace {
+
+// By face.
+std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& surface,
+                                     std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());
     parallel_blocks(faces.size(), 256, job.options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -129,7 +136,11 @@ std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface
         }
     });
     clamp_densities(job, faces, density);
-    PageAtlas result{{}, neighbours(job, faces)};
+    return density;
+}
+
+bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
+                       const std::vector<double>& density, PageAtlas& result) {
     std::vector<PairTriangle> shapes(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const auto p = corners_of(job.parts[faces[i].part].small->mesh, faces[i].face);
@@ -149,8 +160,86 @@ std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface
         if (corner[i] < 3) t.partner = shapes[i].across[corner[i]].triangle;
     }
     std::optional<Atlas> atlas = pack_triangles(triangles, job.options.bake.texture_size);
-    if (!atlas) return std::nullopt;
+    if (!atlas) return false;
     result.atlas = *std::move(atlas);
+    result.summary.kind = Bake::per_triangle;
+    result.summary.charts = result.atlas.cells.size();
+    return true;
+}
+
+// An edge is a crease where the normals of both ends are split along it.
+bool creased(const BakeJob& job, const PageFace& face, std::size_t corner, const PageFace& other,
+             std::size_t other_corner) {
+    const std::vector<Index>& clusters = job.normals[face.part].clusters;
+    const auto cluster = [&](const PageFace& f, std::size_t c) {
+        return clusters[std::size_t{3} * f.face + c % 3];
+    };
+    return cluster(face, corner + 1) != cluster(other, other_corner + 2) &&
+           cluster(face, corner + 2) != cluster(other, other_corner + 1);
+}
+
+bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const std::vector<double>& density,
+                    PageAtlas& result) {
+    std::vector<ChartFace> shapes(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const TriangleMesh& mesh = job.parts[faces[i].part].small->mesh;
+        for (std::size_t c = 0; c < 3; ++c) {
+            shapes[i].corners[c] = mesh.positions[mesh.triangles[faces[i].face][c]];
+            const Across& across = result.across[i][c];
+            shapes[i].crease[c] = across.triangle != no_index &&
+                                  creased(job, faces[i], c, faces[across.triangle], across.corner);
+        }
+        shapes[i].density = density[i];
+        shapes[i].across = result.across[i];
+    }
+    Charts charts = make_charts(shapes, job.options.threads);
+    if (job.options.bake.kind == Bake::automatic && few_faces * charts.charts.size() > faces.size()) {
+        return lay_out_triangles(job, faces, density, result);
+    }
+    std::optional<ChartPage> page = pack_charts(charts.charts, faces.size(), job.options.bake.texture_size);
+    if (!page) return false;
+    result.atlas = std::move(page->atlas);
+    result.charts = std::move(page->charts);
+    result.tiles = cut_tiles(result.charts);
+    AtlasPage& summary = result.summary;
+    summary.kind = Bake::atlas;
+    summary.charts = charts.charts.size();
+    summary.faces_alone = charts.given_up;
+    double stretch = 0, texels = 0;
+    for (const Chart& chart : charts.charts) {
+        stretch += chart.stretch * chart.texels;
+        texels += chart.texels;
+    }
+    if (texels > 0) summary.stretch = stretch / texels;
+    return true;
+}
+
+// Share of a page under its triangles.
+double fill_of(const Atlas& atlas) {
+    double twice = 0;
+    for (const AtlasPlace& place : atlas.places) {
+        const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+        twice += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    return twice / 2 / (double(atlas.width) * atlas.height);
+}
+
+}  // namespace
+
+std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
+                                         std::span<const PageFace> faces) {
+    const std::vector<double> density = wanted_densities(job, surface, faces);
+    PageAtlas result{{}, {}, {}, neighbours(job, faces), {}};
+    const bool fits = job.options.bake.kind == Bake::per_triangle
+                          ? lay_out_triangles(job, faces, density, result)
+                          : lay_out_charts(job, faces, density, result);
+    if (!fits) return std::nullopt;
+    AtlasPage& summary = result.summary;
+    summary.width = result.atlas.width;
+    summary.height = result.atlas.height;
+    summary.faces = faces.size();
+    summary.fill = fill_of(result.atlas);
+    summary.density = result.atlas.scale;
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/atlas_per_triangle.hpp"
+#include "bake/chart_tile.hpp"
 #include "bake/job.hpp"
 #include "bake/source_surface.hpp"
 #include "bake/triangle_pairs.hpp"
@@ -19,17 +20,23 @@ struct PageFace {
     Index part = 0, face = 0;
 };
 
-/// An atlas and its neighbours in the mesh, by triangle.
+/// An atlas, and the neighbours in the mesh by triangle.
 struct PageAtlas {
     Atlas atlas;
+    std::vector<AtlasChart> charts;
+    std::vector<ChartTile> tiles;  ///< of the charts
     std::vector<std::array<Across, 3>> across;
+    AtlasPage summary;  ///< all but the material
+
+    std::size_t pieces() const { return atlas.cells.size() + tiles.size(); }
 };
 
 /// Neighbours of the page's faces: over edges with exactly two of them, wound alike. O(n log n)
 std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<const PageFace> faces);
 
-/// Wants the source's texels per length of each face, pairs neighbours, and packs.
-/// \param faces  those of a part are consecutive \return nothing if there are more faces than texels
+/// Wants the source's texels per length of each face, and makes the atlas that options.bake.kind says.
+/// `automatic` takes charts unless they hold fewer than 3 faces on average.
+/// \param faces  those of a part are consecutive \return nothing if there are more pieces than texels
 std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
                                          std::span<const PageFace> faces);
 

@@ -124,7 +124,7 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
 
 }  // namespace
 
-bool bake_per_triangle(BakeJob& job) {
+bool bake_pages(BakeJob& job) {
     const MaterialGroups groups = group_materials(job.source, Bake::per_triangle);
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
@@ -135,12 +135,12 @@ bool bake_per_triangle(BakeJob& job) {
         wanted.emissive = wanted.emissive || page.channels.emissive;
     }
     const SourceSurface surface(job.source, wanted);
-    double cells = 0;
+    double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;
         page.atlas = make_page_atlas(job, surface, page.faces);
         if (!page.atlas) return false;
-        cells += static_cast<double>(page.atlas->atlas.cells.size());
+        pieces += static_cast<double>(page.atlas->pieces());
     }
     warn_of_normal_maps(job, groups);
     Asset& out = job.result.asset;
@@ -150,11 +150,19 @@ bool bake_per_triangle(BakeJob& job) {
         const Material& first = groups.groups[g].material;
         PageImages images;
         if (page.atlas) {
-            images = bake_page(
-                job, surface,
-                {page.atlas->atlas, page.atlas->across, page.faces, page.channels, first.alpha_mode}, done,
-                cells);
-            done += static_cast<double>(page.atlas->atlas.cells.size());
+            images = bake_page(job, surface,
+                               {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
+                                page.faces, page.channels, first.alpha_mode},
+                               done, pieces);
+            done += static_cast<double>(page.atlas->pieces());
+        }
+        if (page.atlas) {
+            job.result.report.pages.push_back(page.atlas->summary);
+            job.result.report.pages.back().material = first.name;
+            if (page.atlas->summary.faces_alone > 0) {
+                job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +
+                         " faces lie alone: the bound on the work for their charts was reached");
+            }
         }
         out.materials.push_back(page_material(out, first, page.atlas ? page.channels : Channels{}, images));
     }

@@ -86,7 +86,8 @@ class PartsRun {
 public:
     PartsRun(const Asset& source, const Options& options)
         : source_(source), options_(options), small_{std::vector<SimplifyResult>(source.parts.size()), {}} {
-        const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
+        const Bake kind = options.bake.kind;
+        const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake.kind);
         if (options.topology.prune)
             size_ = detail::scene_size(source);

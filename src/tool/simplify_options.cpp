@@ -14,7 +14,9 @@ namespace faqem::tool {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Bake>, 4> bakes = {{{"per-triangle", Bake::per_triangle},
+constexpr std::array<std::pair<std::string_view, Bake>, 6> bakes = {{{"auto", Bake::automatic},
+                                                                     {"atlas", Bake::atlas},
+                                                                     {"per-triangle", Bake::per_triangle},
                                                                      {"vertex", Bake::vertex},
                                                                      {"keep", Bake::keep},
                                                                      {"none", Bake::none}}};
@@ -83,7 +85,9 @@ void add_target_options(CLI::App& command, SimplifyArguments& a) {
 }
 
 void add_look_options(CLI::App& command, SimplifyArguments& a) {
-    command.add_option("--bake", a.bake, "Where colours go: per-triangle (default), vertex, keep, none");
+    command.add_option(
+        "--bake", a.bake,
+        "Where colours go: per-triangle (default), atlas (charts), auto (one of these), vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
                        "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
     command.add_option("--mapping", a.mapping, "Way back to the original: projection (default), lineage");

@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// From faces on a surface to flat ones.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bake/chart_face.hpp"
+
+namespace faqem::detail {
+
+/// What came of an attempt to lay faces flat.
+struct Flattening {
+    enum class Outcome {
+        flat,
+        turned,    ///< some triangles would lie on their backs: `turned`
+        overlaps,  ///< all turn the right way, but some lie on others, or it could not be told
+    };
+    Outcome outcome = Outcome::overlaps;
+    Chart chart;                ///< of `flat` only
+    std::vector<Index> turned;  ///< faces, ascending
+};
+
+inline constexpr std::uint64_t flatten_work = 256;
+
+/// Lays connected faces flat with little stretch. Begins with the projection along their mean normal if that
+/// turns none over, else with a least squares conformal map (Lévy et al. 2002), and goes on with rounds of
+/// as-rigid-as-possible parametrisation (Liu et al. 2008), of which the best is taken. One face alone is
+/// always flat, and exact. Faces with less height than a thousandth of their longest side get that much.
+/// \param all    of the page
+/// \param faces  into `all`, ascending, connected over `across`
+/// \param work   as in apart(); a flattening itself counts as `flatten_work` comparisons a face
+/// O(n^1.5) expected
+Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work);
+
+}  // namespace faqem::detail
