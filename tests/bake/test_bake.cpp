@@ -318,7 +318,8 @@ TEST_CASE("an asset without faces passes") {
     Asset asset;
     asset.parts.resize(2);
     asset.parts[1].source = 3;
-    for (Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
+    for (Bake kind :
+         {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
         Options options;
         options.bake.kind = kind;
         const LightAsset light = simplify(asset, options);

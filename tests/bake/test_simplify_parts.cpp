@@ -196,7 +196,7 @@ TEST_CASE("kept borders between materials stay, also where they are baked into o
     for (Index f = 0; f < 800; ++f) asset.parts[0].face_material.push_back(f / 2 % 20 / 10);
     Options options;
     options.target = ratio(0.05);
-    options.bake.kind = GENERATE(Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
+    options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
     options.topology.group_borders = GroupBorders::kept;
     const SmallParts small = simplify_parts(asset, options);
     const SimplifyResult& part = small.parts[0];
@@ -217,7 +217,7 @@ TEST_CASE("kept borders between materials stay, also where they are baked into o
     CHECK(area[0] == Approx(200));
     CHECK(area[1] == Approx(200));
     // What is baked into one page is one group for the second stage.
-    const bool merged = options.bake.kind == Bake::per_triangle || options.bake.kind == Bake::vertex;
+    const bool merged = options.bake.kind != Bake::keep && options.bake.kind != Bake::none;
     CHECK(part.mesh.face_groups.empty() == merged);
     CHECK(part.history.face_groups.empty() == merged);
 }
@@ -291,7 +291,8 @@ TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
     const auto refused = [&](const std::function<void(Asset&, Part&)>& spoil, const std::string& why) {
         Asset asset = good;
         spoil(asset, asset.parts[0]);
-        for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
+        for (const Bake kind :
+             {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
             Options options;
             options.bake.kind = kind;
             CHECK_THROWS_WITH(simplify(asset, options), why);
@@ -301,8 +302,7 @@ TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
     const float nan = std::nanf("");
     refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range");
     refused([](Asset&, Part& p) { p.uvs[0].pop_back(); }, part + "uvs 0: 3 entries, there are 4 vertices");
-    refused([](Asset&, Part& p) { p.normals.resize(5); },
-            part + "normals: 5 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.normals.resize(5); }, part + "normals: 5 entries, there are 4 vertices");
     refused([](Asset&, Part& p) { p.joints.resize(1); }, part + "joints: 1 entries, there are 4 vertices");
     refused(
         [](Asset&, Part& p) {
