@@ -50,9 +50,21 @@ TEST_CASE("the report as JSON holds every count") {
     report.virtual_edges = 11;
     report.components_pruned = 12;
     report.faces_pruned = 13;
+    report.pages = {{"paint", Bake::atlas, 512, 256, 90, 7, 2, 0.5, 0.75, 1.25}};
     report.warnings = {"a \"quoted\" line\n"};
     report.seconds.weld = 0.25;
     const auto json = nlohmann::json::parse(to_json(report));
+    CHECK(json["pages"].size() == 1);
+    CHECK(json["pages"][0] == nlohmann::json{{"material", "paint"},
+                                             {"kind", "atlas"},
+                                             {"width", 512},
+                                             {"height", 256},
+                                             {"faces", 90},
+                                             {"charts", 7},
+                                             {"faces_alone", 2},
+                                             {"fill", 0.5},
+                                             {"density", 0.75},
+                                             {"stretch", 1.25}});
     CHECK(json["preset"] == "stmw");
     CHECK(json["faces_in"] == 1'000'000'007);
     CHECK(json["faces_out"] == 2);
