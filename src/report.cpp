@@ -77,17 +77,22 @@ std::string to_json(const Report& report) {
     json["faces_pruned"] = report.faces_pruned;
     json["vertices_relaxed"] = report.vertices_relaxed;
     json["virtual_edges"] = report.virtual_edges;
-    for (const AtlasPage& page : report.pages) {
-        json["pages"].push_back({{"material", page.material},
-                                 {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
-                                 {"width", page.width},
-                                 {"height", page.height},
-                                 {"faces", page.faces},
-                                 {"charts", page.charts},
-                                 {"faces_alone", page.faces_alone},
-                                 {"fill", page.fill},
-                                 {"density", page.density},
-                                 {"stretch", page.stretch}});
+    json["pages"] = nlohmann::ordered_json::array();
+    for (const BakedPage& page : report.pages) {
+        json["pages"].push_back(
+            {{"material", page.material},
+             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
+             {"width", page.width},
+             {"height", page.height},
+             {"faces", page.faces},
+             {"charts", page.charts},
+             {"faces_alone", page.faces_alone},
+             {"fill", page.fill},
+             {"density", page.density},
+             {"stretch", page.stretch},
+             {"samples",
+              {{"history", page.samples[0]}, {"relaxed", page.samples[1]}, {"closest", page.samples[2]}}},
+             {"uncertain_texels", page.uncertain_texels}});
     }
     json["warnings"] = report.warnings;
     const PhaseSeconds& s = report.seconds;

@@ -1,21 +1,29 @@
 #include "faqem/surface_map.hpp"
 
+#include "mapping_closest.hpp"
 #include "mapping_lineage.hpp"
 #include "mapping_projection.hpp"
 
 namespace faqem {
 
 struct SurfaceMap::Impl {
-    std::unique_ptr<const detail::ProjectionWalk> projection;  // one of the two
+    std::unique_ptr<const detail::ProjectionWalk> projection;  // one of the three
     std::unique_ptr<const detail::LineageWalk> lineage;
+    std::unique_ptr<const detail::ClosestPoints> closest;
 };
 
 SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping) {
     auto impl = std::make_unique<Impl>();
-    if (mapping == Mapping::projection) {
-        impl->projection = std::make_unique<const detail::ProjectionWalk>(history);
-    } else {
-        impl->lineage = std::make_unique<const detail::LineageWalk>(history);
+    switch (mapping) {
+        case Mapping::projection:
+            impl->projection = std::make_unique<const detail::ProjectionWalk>(history);
+            break;
+        case Mapping::lineage:
+            impl->lineage = std::make_unique<const detail::LineageWalk>(history);
+            break;
+        case Mapping::closest:
+            impl->closest = std::make_unique<const detail::ClosestPoints>(history);
+            break;
     }
     impl_ = std::move(impl);
 }
@@ -25,13 +33,14 @@ SurfaceMap::SurfaceMap(SurfaceMap&&) noexcept = default;
 SurfaceMap& SurfaceMap::operator=(SurfaceMap&&) noexcept = default;
 
 SurfacePoint SurfaceMap::map(Index face, const Vec3& barycentric) const {
-    return impl_->projection ? impl_->projection->map(face, barycentric)
-                             : impl_->lineage->map(face, barycentric);
+    if (impl_->projection) return impl_->projection->map(face, barycentric);
+    return impl_->lineage ? impl_->lineage->map(face, barycentric) : impl_->closest->map(face, barycentric);
 }
 
 SurfacePoint SurfaceMap::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
-    return impl_->projection ? impl_->projection->map_near(face, barycentric, near)
-                             : impl_->lineage->map(face, barycentric);
+    if (impl_->projection) return impl_->projection->map_near(face, barycentric, near);
+    return impl_->lineage ? impl_->lineage->map(face, barycentric)
+                          : impl_->closest->map_near(face, barycentric, near);
 }
 
 }  // namespace faqem

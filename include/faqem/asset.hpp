@@ -138,4 +138,10 @@ Pixels decode(const Image& image);
 /// Encodes as PNG; without the alpha channel where has_alpha is false.
 Image encode_png(const Pixels& pixels, const std::string& name);
 
+/// What an image is for: data and normals must not have their colours thinned out.
+enum class Content { colour, data };
+
+/// Encodes as JPEG; alpha is left out. \param quality  in [1, 100]
+Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content);
+
 }  // namespace faqem

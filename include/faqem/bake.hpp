@@ -2,10 +2,12 @@
 /// \file
 /// Door (c): a textured asset in, a light one with a new texture out. Needs the standard library only.
 
+#include <iosfwd>
 #include <vector>
 
 #include "faqem/asset.hpp"
 #include "faqem/simplify.hpp"
+#include "faqem/surface_map.hpp"
 
 namespace faqem {
 
@@ -15,11 +17,30 @@ struct SmallParts {
     Report report;  ///< sums over the parts
 };
 
+/// Where a texel lies on the original: the sample of it next to its middle.
+struct TexelOrigin {
+    Index part = no_index;  ///< into Asset::parts of the source; no_index: the texel shows no triangle
+    SurfacePoint point;     ///< on a face of that part
+};
+
+/// The map of one page, by texel, row 0 at the top.
+struct PageOrigins {
+    Index material = no_index;  ///< of the result, whose images the page holds
+    std::uint32_t width = 0, height = 0;
+    std::vector<TexelOrigin> texels;  ///< width * height
+};
+
+/// Writes the maps of all pages in the format of docs/correspondence-format.md, little-endian on any machine.
+/// The caller checks the stream. O(texels)
+void write(const std::vector<PageOrigins>& pages, std::ostream& out);
+
 /// An asset and what was done to make it.
 struct LightAsset {
     Asset asset;
     Report report;
     std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
+    /// One per page of a new atlas; empty unless options.bake.correspondence is on.
+    std::vector<PageOrigins> correspondence;
 };
 
 /// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset.

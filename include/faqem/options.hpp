@@ -139,6 +139,28 @@ enum class Bake {
 enum class Mapping {
     projection,  ///< successive projection through the collapse history (after Liu et al. 2024)
     lineage,     ///< the paper's heuristic: the closer of the two parents, again and again
+    closest,     ///< the closest point of the original, whatever side or sheet it is on: for comparison
+};
+
+/// Vertex normals of the result.
+enum class Normals {
+    transfer,  ///< the original's, through the map
+    smooth,    ///< those of the result's own faces, averaged up to the crease angle
+    flat,      ///< those of the result's own faces, one by one
+};
+
+/// How baked images are encoded. Images with alpha are PNG in any case.
+enum class ImageFormat {
+    png,
+    jpeg,    ///< with BakeOptions::jpeg_quality
+    source,  ///< JPEG where all the images that a channel is baked from are JPEG, else PNG
+};
+
+/// Whether a new atlas has a normal map. With Bake::keep the source's maps stay; elsewhere there is none.
+enum class NormalMap {
+    automatic,  ///< where the source has one, or where its normals differ by more than 5 degrees on average
+    on,         ///< for every lit material: without a map of the source, made from its geometry
+    off,
 };
 
 /// Appearance of the result; used by the asset door only.
@@ -146,11 +168,18 @@ struct BakeOptions {
     Bake kind = Bake::per_triangle;
     /// Largest side of a baked image in texels, a power of two in [64, 16384].
     std::uint32_t texture_size = 2048;
+    NormalMap normal_map = NormalMap::automatic;
     Mapping mapping = Mapping::projection;
     /// Samples per texel and axis, in [1, 8]: 2 means 2 x 2.
     std::uint32_t samples = 2;
-    /// Dihedral angle in degrees above which a normal is split, in [0, 180].
+    Normals normals = Normals::transfer;
+    /// Angle in degrees between normals above which a vertex is split, in [0, 180]. Not used by
+    /// Normals::flat.
     double crease_angle = 40;
+    ImageFormat image_format = ImageFormat::png;
+    std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
+    /// Whether LightAsset::correspondence is filled.
+    Recording correspondence = Recording::off;
 };
 
 /// Everything that can be asked of simplify().

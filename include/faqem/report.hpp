@@ -67,17 +67,20 @@ struct MeasuredError {
     bool within() const { return bound <= allowed; }
 };
 
-/// A page of a new atlas.
-struct AtlasPage {
-    std::string material;     ///< name of the material that shows it
-    Bake kind = Bake::atlas;  ///< or `per_triangle`
-    std::uint32_t width = 0, height = 0;
+/// One page of a new atlas: the images of one material of the result.
+struct BakedPage {
+    std::string material;                 ///< its name; may be empty
+    Bake kind = Bake::atlas;              ///< or `per_triangle`
+    std::uint32_t width = 0, height = 0;  ///< texels
     std::uint64_t faces = 0;
     std::uint64_t charts = 0;       ///< pieces: charts; of `per_triangle`, cells
     std::uint64_t faces_alone = 0;  ///< that could not be laid into a chart within the bound on the work
     double fill = 0;                ///< share of the page under triangles
-    double density = 0;             ///< texels per length over those wanted
-    double stretch = 1;             ///< mean over the area; 1: none
+    double density = 0;  ///< texels per length over the source's; both root mean squares over the surface
+    double stretch = 1;  ///< mean over the area; 1: none
+    /// By MapStep: how many samples found their place on the original how.
+    std::array<std::uint64_t, 3> samples = {};
+    std::uint64_t uncertain_texels = 0;  ///< with a sample that was found other than by MapStep::history
 };
 
 /// The result's passport. Counts are sums where several meshes were simplified.
@@ -98,7 +101,7 @@ struct Report {
     std::uint64_t vertices_relaxed = 0;   ///< moved in the end to come closer to the original (preset best)
     std::uint64_t virtual_edges = 0;
     std::optional<MeasuredError> max_error = {};  ///< unless Options::max_error is unset, or it was cancelled
-    std::vector<AtlasPage> pages = {};            ///< of a new atlas
+    std::vector<BakedPage> pages;                 ///< of a new atlas; materials without images have none
     std::vector<std::string> warnings;
     PhaseSeconds seconds;
 };

@@ -13,7 +13,9 @@ namespace faqem {
 enum class MapStep {
     history,  ///< the walk through the history, every test passed
     relaxed,  ///< the walk, with the sheet or side test dropped somewhere
-    closest,  ///< the walk ended on a wrong face: closest one among those that collapsed into the small face
+    /// The walk ended on a wrong face: closest one among those that collapsed into the small face. Of
+    /// Mapping::closest: always.
+    closest,
 };
 
 /// A place on the original surface.
@@ -28,7 +30,7 @@ struct SurfacePoint {
 class SurfaceMap {
 public:
     /// \param history  of the run that made the small mesh; must outlive the map
-    /// \param mapping  projection or lineage
+    /// \param mapping  how places are found
     /// Complexity: O(size of the history) time and memory.
     SurfaceMap(const CollapseHistory& history, Mapping mapping);
     ~SurfaceMap();

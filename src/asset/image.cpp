@@ -77,6 +77,40 @@ void spread_to_rgba(std::vector<std::uint8_t>& bytes, std::size_t pixels, std::s
     }
 }
 
+OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int channels) {
+    const std::size_t count = std::size_t{pixels.width} * pixels.height;
+    if (count == 0 || pixels.rgba.size() != count * 4)
+        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
+    return OIIO::ImageSpec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
+                           OIIO::TypeDesc::UINT8);
+}
+
+Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
+             const std::string& format) {
+    std::vector<std::uint8_t> rgb;
+    if (spec.nchannels == 3) {
+        const std::size_t count = std::size_t{pixels.width} * pixels.height;
+        rgb.resize(count * 3);
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], &pixels.rgba[4 * i], 3);
+    }
+    Image image;
+    image.name = name;
+    image.mime_type = "image/" + format;
+    OIIO::Filesystem::IOVecOutput bytes(image.encoded);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output) throw Error("OpenImageIO has no writer for " + format + ": " + OIIO::geterror());
+    output->set_ioproxy(&bytes);
+    const bool opened = output->open("memory." + format, spec);
+    const bool written =
+        opened && output->write_image(OIIO::TypeDesc::UINT8, rgb.empty() ? pixels.rgba.data() : rgb.data());
+    const bool closed = opened && output->close();
+    // OpenImageIO 2.4 reports some failures here only.
+    const std::string error = output->geterror();
+    if (!written || !closed || !error.empty())
+        throw WriteError("image '" + name + "': cannot encode: " + error);
+    return image;
+}
+
 }  // namespace
 
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
@@ -85,6 +119,21 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
         if (text.size() >= kind.at && text.substr(kind.at, kind.magic.size()) == kind.magic)
             return kind.mime_type;
     return "";
+}
+
+bool can_decode_image(const std::string& mime_type) {
+    if (mime_type == "image/png" || mime_type == "image/jpeg") return true;
+    if (mime_type != "image/webp") return false;
+    static const bool has_webp = [] {
+        const auto input = OIIO::ImageInput::create("webp");
+        if (!input) OIIO::geterror();  // else it is there for the next one who asks
+        return input && input->supports("ioproxy");
+    }();
+    return has_webp;
+}
+
+std::string decodable_images() {
+    return can_decode_image("image/webp") ? "PNG, JPEG and WebP" : "PNG and JPEG";
 }
 
 std::string file_ending(const std::string& mime_type) {
@@ -97,10 +146,10 @@ std::string file_ending(const std::string& mime_type) {
 
 Pixels decode(const Image& image) {
     const std::string type = detail::sniff_mime_type(image.encoded);
-    if (type != "image/png" && type != "image/jpeg")
-        throw UnsupportedError(
-            image.uri, detail::title(image),
-            type.empty() ? "is neither PNG nor JPEG" : type + " is not supported, only PNG and JPEG are");
+    if (!detail::can_decode_image(type))
+        throw UnsupportedError(image.uri, detail::title(image),
+                               (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") +
+                                   ", only " + detail::decodable_images() + " are");
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::string format = type.substr(6);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -131,35 +180,16 @@ Pixels decode(const Image& image) {
 }
 
 Image encode_png(const Pixels& pixels, const std::string& name) {
-    const std::size_t count = std::size_t{pixels.width} * pixels.height;
-    if (count == 0 || pixels.rgba.size() != count * 4)
-        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
-    const int channels = pixels.has_alpha ? 4 : 3;
-    std::vector<std::uint8_t> rgb;
-    if (!pixels.has_alpha) {
-        rgb.resize(count * 3);
-        for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], &pixels.rgba[4 * i], 3);
-    }
-
-    Image image;
-    image.name = name;
-    image.mime_type = "image/png";
-    OIIO::Filesystem::IOVecOutput bytes(image.encoded);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    if (!output) throw Error("OpenImageIO has no writer for PNG: " + OIIO::geterror());
-    output->set_ioproxy(&bytes);
-    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
-                         OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec = detail::spec_of(pixels, name, pixels.has_alpha ? 4 : 3);
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    const bool opened = output->open("memory.png", spec);
-    const bool written = opened && output->write_image(OIIO::TypeDesc::UINT8,
-                                                       pixels.has_alpha ? pixels.rgba.data() : rgb.data());
-    const bool closed = opened && output->close();
-    // OpenImageIO 2.4 reports some failures here only.
-    const std::string error = output->geterror();
-    if (!written || !closed || !error.empty())
-        throw WriteError("image '" + name + "': cannot encode: " + error);
-    return image;
+    return detail::encode(pixels, name, spec, "png");
+}
+
+Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
+    OIIO::ImageSpec spec = detail::spec_of(pixels, name, 3);
+    spec.attribute("CompressionQuality", static_cast<int>(quality));
+    if (content == Content::data) spec.attribute("jpeg:subsampling", "4:4:4");
+    return detail::encode(pixels, name, spec, "jpeg");
 }
 
 }  // namespace faqem

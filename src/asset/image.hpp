@@ -12,6 +12,12 @@ namespace faqem::detail {
 /// image/bmp; empty if it is none of these.
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
+/// Whether decode() knows the media type: PNG and JPEG, and WebP where OpenImageIO reads it from memory.
+bool can_decode_image(const std::string& mime_type);
+
+/// "PNG, JPEG and WebP", or what else can be decoded, for errors.
+std::string decodable_images();
+
 /// Usual name ending with the dot, ".bin" for unknown types.
 std::string file_ending(const std::string& mime_type);
 

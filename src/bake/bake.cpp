@@ -55,9 +55,8 @@ void map_parts(BakeJob& job, const SmallParts& small) {
     }
     for (const SmallPart& part : job.parts) {
         job.poll(Phase::map, 1);
-        job.normals.push_back(part.map
-                                  ? transfer_normals(part, job.options.bake.crease_angle, job.options.threads)
-                                  : CornerNormals{});
+        job.normals.push_back(part.map ? make_normals(part, job.options.bake, job.options.threads)
+                                       : CornerNormals{});
     }
 }
 
@@ -82,6 +81,9 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
     validate(options);
     check_asset(source);
     check(source, small);
+    if (options.bake.correspondence == Recording::on && options.bake.kind != Bake::per_triangle) {
+        throw OptionError("correspondence needs a new atlas (Bake::per_triangle)");
+    }
     BakeJob job{source, options, {}, {}, {}};
     job.result.report = small.report;
     job.result.asset.source = source.source;
@@ -98,6 +100,7 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
         job.result.asset.parts.clear();
         job.result.asset.materials.clear();
         job.result.asset.images.clear();
+        job.result.correspondence.clear();
         job.result.report.stop = StopReason::cancelled;
     }
     seconds.bake = watch.seconds() - seconds.map;

@@ -24,6 +24,9 @@ int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
     for (const std::vector<Vec2f>& uvs : layers.uvs) {
         if (const int c = compare(uvs[a], uvs[b])) return c;
     }
+    if (!layers.tangents.empty()) {
+        if (const int c = compare(layers.tangents[a], layers.tangents[b])) return c;
+    }
     return layers.colors.empty() ? 0 : compare(layers.colors[a], layers.colors[b]);
 }
 
@@ -89,6 +92,7 @@ JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers) {
             if (!layers.normals.empty()) part.normals.push_back(layers.normals[c]);
             for (std::size_t s = 0; s < layers.uvs.size(); ++s) part.uvs[s].push_back(layers.uvs[s][c]);
             if (!layers.colors.empty()) part.colors.push_back(layers.colors[c]);
+            if (!layers.tangents.empty()) part.tangents.push_back(layers.tangents[c]);
         }
         part.triangles[c / 3][c % 3] = n;
     }

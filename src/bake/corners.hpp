@@ -43,6 +43,7 @@ struct CornerLayers {
     std::vector<Vec3f> normals;
     std::vector<std::vector<Vec2f>> uvs;
     std::vector<Vec4f> colors;
+    std::vector<Vec4f> tangents = {};
 };
 
 /// The output part, and for each of its vertices a corner of the small mesh that it stands for.

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "bake/job.hpp"
+#include "bake/normal_map.hpp"
+#include "bake/sampling.hpp"
 #include "bake/vertex_transfer.hpp"
 #include "faqem/error.hpp"
 
@@ -45,6 +47,33 @@ void finish_part(BakeJob& job, const SmallPart& part, const CornerLayers& layers
 std::vector<Index> kept_materials(const SmallPart& part) {
     std::vector<Index> result;
     for (Index f : part.small->history.kept_faces) result.push_back(face_material(*part.source, f));
+    return result;
+}
+
+// Tangents where there are normal maps. Those of a file are taken to be made from the UVs as they are;
+// viewers make theirs from what the texture's transform makes of them.
+std::vector<Vec4f> kept_tangents(const BakeJob& job, const SmallPart& part,
+                                 const std::vector<std::vector<Vec2f>>& uvs) {
+    std::vector<Vec4f> result;
+    const std::vector<Index> materials = kept_materials(part);
+    for (Index m = 0; m < job.source.materials.size(); ++m) {
+        const TextureRef& use = job.source.materials[m].normal_texture;
+        if (!use || use.uv_set >= uvs.size()) continue;
+        std::vector<Index> faces;
+        for (Index f = 0; f < materials.size(); ++f) {
+            if (materials[f] == m) faces.push_back(f);
+        }
+        if (faces.empty()) continue;
+        std::vector<Vec2f> moved = uvs[use.uv_set];
+        if (part.source->tangents.empty()) {
+            const UvTransform transform = uv_transform(use);
+            for (Vec2f& uv : moved) {
+                const auto to = transform.apply(uv[0], uv[1]);
+                uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
+            }
+        }
+        set_tangents(part, job.normals[part.index], faces, moved, result);
+    }
     return result;
 }
 
@@ -96,10 +125,7 @@ void bake_keep(BakeJob& job) {
             values += 2 * sets;
             layers.colors.push_back({values[0], values[1], values[2], values[3]});
         }
-        if (!part.source->tangents.empty()) {
-            job.warn(part_title(job.source, part.index) +
-                     ": tangents left out; viewers make them from the UVs");
-        }
+        layers.tangents = kept_tangents(job, part, layers.uvs);
         finish_part(job, part, layers, kept_materials(part));
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/source_normals.hpp"
 #include "faqem/engine/vector.hpp"
 #include "parallel.hpp"
 
@@ -21,22 +22,8 @@ Vector3 unit_or_zero(const Vector3& n) {
     return length > 0 && std::isfinite(length) ? Vector3(n / length) : Vector3::Zero();
 }
 
-Vector3 face_normal(const std::vector<Vec3>& positions, const Triangle& t) {
-    return unit_or_zero(
-        engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]), to_eigen(positions[t[2]])));
-}
-
-Vector3 original_normal(const Part& part, const SurfacePoint& point) {
-    const Triangle& t = part.triangles[point.face];
-    Vector3 n = Vector3::Zero();
-    if (!part.normals.empty()) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3f& m = part.normals[t[i]];
-            n += point.barycentric[i] * Vector3(m[0], m[1], m[2]);
-        }
-        n = unit_or_zero(n);
-    }
-    return n.isZero(0) ? face_normal(part.positions, t) : n;
+Vec3f to_float(const Vector3& n) {
+    return {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
 }
 
 // Angle times area: a large flat face keeps its normal next to a narrow bevel, and how a fan is cut up does
@@ -74,7 +61,7 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     std::vector<Index> number(clusters.size(), no_index);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint64_t c = corners[i];
-        const Vector3 side = face_normal(mesh.positions, mesh.triangles[c / 3]);
+        const Vector3 side = winding_normal(mesh.positions, mesh.triangles[c / 3]);
         Vector3 n = unit_or_zero(clusters[member[i]].sum);
         Index& first = number[member[i]];
         Index cluster = first == no_index ? first = static_cast<Index>(c) : first;
@@ -83,32 +70,40 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
             n = side;
             cluster = static_cast<Index>(c);
         }
-        result.normals[c] = {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
+        result.normals[c] = to_float(n);
         result.clusters[c] = cluster;
     }
 }
 
 }  // namespace
 
-CornerNormals transfer_normals(const SmallPart& part, double crease_degrees, std::uint32_t threads) {
+CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads) {
     const TriangleMesh& mesh = part.small->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
     std::vector<Vector3> raw(corners);
     parallel_blocks(mesh.triangles.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-            const Vector3 side = face_normal(mesh.positions, mesh.triangles[c / 3]);
-            const SurfacePoint point = part.map->map(static_cast<Index>(c / 3), near_corner(c % 3, inset));
-            raw[c] = original_normal(*part.source, point);
-            if (raw[c].isZero(0)) raw[c] = side.isZero(0) ? Vector3(0, 0, 1) : side;
+            const Vector3 side = winding_normal(mesh.positions, mesh.triangles[c / 3]);
+            raw[c] = side;
+            if (options.normals == Normals::transfer) {
+                const SurfacePoint point =
+                    part.map->map(static_cast<Index>(c / 3), near_corner(c % 3, inset));
+                const Vector3 original = smooth_normal(*part.source, point);
+                if (!original.isZero(0)) raw[c] = original;
+            }
+            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
             if (!side.isZero(0) && !(raw[c].dot(side) > 0)) raw[c] = side;
         }
     });
     // The cosine is lowered a little: equal normals differ by rounding.
-    const double least_cosine = std::cos(crease_degrees * (std::acos(-1.0) / 180)) - 1e-6;
+    const double least_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners)};
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         smooth_vertex(mesh, at.at(v), raw, least_cosine, result);
+    }
+    if (options.normals == Normals::flat) {
+        std::transform(raw.begin(), raw.end(), result.normals.begin(), to_float);
     }
     return result;
 }

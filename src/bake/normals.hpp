@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals of the small mesh, taken from the original through the map.
+/// Normals of the small mesh.
 
 #include "bake/corners.hpp"
 
@@ -12,10 +12,11 @@ struct CornerNormals {
     std::vector<Index> clusters;  ///< corners of one vertex that share a normal have the same number
 };
 
-/// A corner's normal is the original's (its face's, where it has none) a little inside the small face.
+/// As BakeOptions::normals says. Normals::transfer: a corner's normal is the original's (its face's, where it
+/// has none) a little inside the small face. Normals::smooth: the small face's own.
 /// Corners of one vertex whose normals differ by at most the crease angle get their mean, weighted by corner
-/// angles. A normal that would look away from its face gives way to the face's. \param crease_degrees  in [0,
-/// 180] O(corners), for bounded numbers of creases per vertex
-CornerNormals transfer_normals(const SmallPart& part, double crease_degrees, std::uint32_t threads);
+/// angles. A normal that would look away from its face gives way to the face's. Normals::flat clusters as
+/// Normals::smooth does. O(corners), for bounded numbers of creases per vertex
+CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads);
 
 }  // namespace faqem::detail

@@ -1,6 +1,8 @@
 #include "bake/page.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bake/fill.hpp"
 #include "faqem/engine/vector.hpp"
@@ -9,6 +11,7 @@ namespace faqem::detail {
 namespace {
 
 using engine::to_eigen;
+using engine::Vector3;
 
 // Below this a texel's colour is that of texels around it.
 constexpr float clear = 1.0f / 512;
@@ -24,6 +27,10 @@ struct Texel {
     Linear base{};
     std::array<float, 3> orm{};
     Vec3f emissive{};
+    Vector3 normal = Vector3::Zero();     // in tangent space
+    std::array<std::uint8_t, 3> steps{};  // samples by MapStep
+    TexelOrigin origin;                   // of the sample next to the middle
+    double off_middle = std::numeric_limits<double>::infinity();
 
     void add(const Appearance& a, float share) {
         for (std::size_t k = 0; k < 4; ++k) base[k] += share * a.base[k];
@@ -44,7 +51,11 @@ public:
         images_.occlusion_roughness_metallic =
             blank(atlas, channels.occlusion || channels.metallic_roughness, false);
         images_.emissive = blank(atlas, channels.emissive, false);
+        images_.normal = blank(atlas, channels.normal, false);
         known_.assign(std::size_t{atlas.width} * atlas.height, 0);
+        relaxed_.assign(known_.size(), 0);
+        closest_.assign(known_.size(), 0);
+        if (job.options.bake.correspondence == Recording::on) images_.origins.resize(known_.size());
         if (images_.base.has_alpha) opaque_.assign(known_.size(), 0);
     }
 
@@ -88,6 +99,7 @@ public:
     }
 
     PageImages finish() {
+        count_samples();
         if (request_.channels.base) {
             const bool alpha = images_.base.has_alpha;
             push_pull(images_.base, alpha ? opaque_ : known_, {0, 3});
@@ -97,6 +109,7 @@ public:
             push_pull(images_.occlusion_roughness_metallic, known_, {0, 3});
         }
         if (request_.channels.emissive) push_pull(images_.emissive, known_, {0, 3});
+        if (request_.channels.normal) push_pull(images_.normal, known_, {0, 3});
         return std::move(images_);
     }
 
@@ -106,6 +119,7 @@ private:
         Index face = 0;
         Vec3 weights = {};
         std::size_t trail = 0;
+        double x = 0, y = 0;  // on the page
     };
 
     // The last sample on a face: the next one may start from there if it is close by.
@@ -129,11 +143,22 @@ private:
               mesh(page.job_.parts[face.part].small->mesh),
               map(*page.job_.parts[face.part].map),
               spacing(texel_length() / page.samples_) {
+            if (page.request_.channels.normal) set_frames(page);
             for (std::size_t c = 0; c < 3; ++c) {
                 const Across& across = page.request_.across[triangle][c];
                 if (across.triangle == no_index) continue;
                 folds[c] = fold(c, page.request_.faces[across.triangle].face, across.corner);
             }
+        }
+
+        void set_frames(const Page& page) {
+            const auto& normals = page.job_.normals[face.part].normals;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::size_t c = std::size_t{3} * face.face + i;
+                const Vec3f& n = normals[c];
+                frames[i] = {{n[0], n[1], n[2]}, page.request_.tangents[face.part][c]};
+            }
+            side = winding_normal(mesh.positions, mesh.triangles[face.face]);
         }
 
         // The right corner is the one whose UV is level with one other corner and plumb with the other.
@@ -185,14 +210,15 @@ private:
         // The point for place (s, t) of texel (x, y).
         SmallPoint point(std::uint32_t x, std::uint32_t y, double s, double t) const {
             if (single())
-                return {face.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0};
+                return {face.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0,
+                        x + s, y + t};
             const Vec3 w = frame.at(x + s, y + t);
             for (std::size_t c = 0; c < 3; ++c) {
                 if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && folds[c].face != no_index) {
-                    return {folds[c].face, across(folds[c], w, c), c + 1};
+                    return {folds[c].face, across(folds[c], w, c), c + 1, x + s, y + t};
                 }
             }
-            return {face.face, frame.closest(x + s, y + t), 0};
+            return {face.face, frame.closest(x + s, y + t), 0, x + s, y + t};
         }
 
         // The neighbour runs along the edge the other way. What is outside of it too is drawn in.
@@ -207,6 +233,11 @@ private:
             return result;
         }
 
+        // Weights of the point of this triangle that is closest to a sample.
+        Vec3 own_weights(const SmallPoint& at) const {
+            return at.trail == 0 ? at.weights : frame.closest(at.x, at.y);
+        }
+
         const PageFace face;
         const AtlasPlace& place;
         const AtlasFrame frame;
@@ -214,8 +245,10 @@ private:
         const TriangleMesh& mesh;
         const SurfaceMap& map;
         const double spacing;
-        std::array<Fold, 3> folds;    // by corner opposite
-        std::array<Trail, 4> trails;  // the triangle's own, then those across
+        std::array<Fold, 3> folds;          // by corner opposite
+        std::array<FrameCorner, 3> frames;  // for the normal map
+        Vector3 side = Vector3::Zero();     // the triangle's normal
+        std::array<Trail, 4> trails;        // the triangle's own, then those across
     };
 
     // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
@@ -241,16 +274,29 @@ private:
         Trail& trail = painter.trails[at.trail];
         trail.last = trail.leads_to(x, y) ? painter.map.map_near(at.face, at.weights, trail.last)
                                           : painter.map.map(at.face, at.weights);
+        ++sum.steps[static_cast<std::size_t>(trail.last.step)];
         trail.started = true;
         trail.x = x;
         trail.y = y;
         sum.add(surface_.sample(painter.face.part, trail.last, painter.spacing),
                 1.0f / static_cast<float>(samples_ * samples_));
+        const double off_middle = std::hypot(at.x - x - 0.5, at.y - y - 0.5);
+        if (off_middle < sum.off_middle) {
+            sum.off_middle = off_middle;
+            sum.origin = {painter.face.part, trail.last};
+        }
+        if (!request_.channels.normal) return;
+        sum.normal +=
+            blend_frames(painter.frames, painter.own_weights(at))
+                .from_mesh(surface_.normal(painter.face.part, trail.last, painter.spacing, painter.side));
     }
 
     void write(std::uint32_t x, std::uint32_t y, const Texel& texel) {
         const std::size_t at = std::size_t{y} * request_.atlas.width + x;
         known_[at] = 1;
+        relaxed_[at] = texel.steps[static_cast<std::size_t>(MapStep::relaxed)];
+        closest_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
+        if (!images_.origins.empty()) images_.origins[at] = texel.origin;
         if (request_.channels.base) {
             const float alpha = texel.base[3];
             std::uint8_t* p = &images_.base.rgba[4 * at];
@@ -266,6 +312,23 @@ private:
             std::uint8_t* p = &images_.emissive.rgba[4 * at];
             for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.emissive[k]);
         }
+        if (request_.channels.normal) {
+            const double length = texel.normal.norm();
+            const Vector3 n = length > 1e-6 ? Vector3(texel.normal / length) : Vector3(0, 0, 1);
+            std::uint8_t* p = &images_.normal.rgba[4 * at];
+            for (Eigen::Index k = 0; k < 3; ++k) p[k] = linear_byte((n[k] + 1) / 2);
+        }
+    }
+
+    void count_samples() {
+        auto& [history, relaxed, closest] = images_.samples;
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            images_.texels += known_[i];
+            history += known_[i] * (samples_ * samples_ - relaxed_[i] - closest_[i]);
+            relaxed += relaxed_[i];
+            closest += closest_[i];
+            images_.uncertain_texels += relaxed_[i] + closest_[i] > 0;
+        }
     }
 
     const BakeJob& job_;
@@ -273,8 +336,9 @@ private:
     const PageRequest& request_;
     std::uint32_t samples_;
     PageImages images_;
-    std::vector<std::uint8_t> known_;   // texels in cells
-    std::vector<std::uint8_t> opaque_;  // those with a colour
+    std::vector<std::uint8_t> relaxed_, closest_;  // samples of each texel that were found so
+    std::vector<std::uint8_t> known_;              // texels in cells
+    std::vector<std::uint8_t> opaque_;             // those with a colour
 };
 
 }  // namespace

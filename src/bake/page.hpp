@@ -18,19 +18,26 @@ struct PageRequest {
     std::span<const ChartTile> tiles;               ///< of the charts
     std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
     std::span<const PageFace> faces;                ///< by triangle of the atlas
+    /// By part and corner, as they are written; needed for the normal map.
+    std::span<const std::vector<Vec4f>> tangents;
     Channels channels;
     AlphaMode alpha_mode = AlphaMode::opaque;
 };
 
 /// The page's images; those not asked for have no pixels.
 struct PageImages {
-    Pixels base, occlusion_roughness_metallic, emissive;
+    Pixels base, occlusion_roughness_metallic, emissive, normal;
+    std::array<std::uint64_t, 3> samples = {};  ///< by MapStep
+    std::uint64_t uncertain_texels = 0;         ///< with a sample found other than by MapStep::history
+    std::uint64_t texels = 0;                   ///< that show a triangle
+    std::vector<TexelOrigin> origins;           ///< by texel; empty unless they are recorded
 };
 
 /// Averages options.bake.samples^2 samples per texel, in linear light and premultiplied, encodes once, and
 /// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
 /// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
-/// triangle's closest point where there is none. Cells and tiles are independent of each other,
+/// triangle's closest point where there is none. Normals are averaged in the tangent space of the small mesh;
+/// texels outside a triangle use that of its closest point. Cells and tiles are independent of each other,
 /// so the result does not depend on the number of threads. \param done, total  cells and tiles, for the
 /// progress
 /// \throws Cancelled

@@ -201,7 +201,7 @@ bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const s
     result.atlas = std::move(page->atlas);
     result.charts = std::move(page->charts);
     result.tiles = cut_tiles(result.charts);
-    AtlasPage& summary = result.summary;
+    BakedPage& summary = result.summary;
     summary.kind = Bake::atlas;
     summary.charts = charts.charts.size();
     summary.faces_alone = charts.given_up;
@@ -234,12 +234,11 @@ std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface
                           ? lay_out_triangles(job, faces, density, result)
                           : lay_out_charts(job, faces, density, result);
     if (!fits) return std::nullopt;
-    AtlasPage& summary = result.summary;
+    BakedPage& summary = result.summary;
     summary.width = result.atlas.width;
     summary.height = result.atlas.height;
     summary.faces = faces.size();
     summary.fill = fill_of(result.atlas);
-    summary.density = result.atlas.scale;
     return result;
 }
 

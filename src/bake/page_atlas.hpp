@@ -26,7 +26,7 @@ struct PageAtlas {
     std::vector<AtlasChart> charts;
     std::vector<ChartTile> tiles;  ///< of the charts
     std::vector<std::array<Across, 3>> across;
-    AtlasPage summary;  ///< all but the material
+    BakedPage summary;  ///< what can be told before it is baked
 
     std::size_t pieces() const { return atlas.cells.size() + tiles.size(); }
 };

@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "bake/job.hpp"
+#include "bake/normal_map.hpp"
 #include "bake/page.hpp"
+#include "bake/page_material.hpp"
 #include "bake/vertex_transfer.hpp"
+#include "faqem/engine/vector.hpp"
 
 namespace faqem::detail {
 namespace {
 
 // One group's faces and page.
 struct GroupPage {
+    std::string name;
     Channels channels;
     std::vector<PageFace> faces;
     std::optional<PageAtlas> atlas;  // none where no image is needed
@@ -42,6 +47,7 @@ Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
 std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& groups) {
     std::vector<GroupPage> pages(groups.groups.size());
     for (std::size_t g = 0; g < pages.size(); ++g) {
+        pages[g].name = groups.groups[g].material.name;
         pages[g].channels = needed_channels(job.source, groups.groups[g]);
     }
     for (const SmallPart& part : job.parts) {
@@ -53,51 +59,18 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
             page.channels.base = page.channels.base || colors;
         }
     }
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        pages[g].channels.normal = wants_normal_map(job, groups.groups[g], pages[g].faces);
+    }
     return pages;
 }
 
-TextureRef add_image(Asset& asset, const Pixels& pixels, const std::string& name) {
-    TextureRef ref;
-    ref.image = static_cast<Index>(asset.images.size());
-    ref.wrap_u = ref.wrap_v = Wrap::clamp;
-    asset.images.push_back(encode_png(pixels, name));
-    return ref;
-}
-
-Material page_material(Asset& asset, const Material& first, const Channels& channels,
-                       const PageImages& images) {
-    Material result = first;
-    result.rebaked = true;
-    result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
-        result.occlusion_texture = result.emissive_texture = {};
-    result.normal_scale = result.occlusion_strength = 1;
-    const std::string name =
-        first.name.empty() ? "material" + std::to_string(asset.materials.size()) : first.name;
-    if (channels.base) {
-        result.base_color = {1, 1, 1, 1};
-        result.base_color_texture = add_image(asset, images.base, name + "_baseColor");
-    }
-    if (channels.metallic_roughness || channels.occlusion) {
-        const TextureRef orm =
-            add_image(asset, images.occlusion_roughness_metallic, name + "_occlusionRoughnessMetallic");
-        if (channels.occlusion) result.occlusion_texture = orm;
-        if (channels.metallic_roughness) {
-            result.metallic = result.roughness = 1;
-            result.metallic_roughness_texture = orm;
-        }
-    }
-    if (channels.emissive) {
-        result.emissive = {1, 1, 1};
-        result.emissive_texture = add_image(asset, images.emissive, name + "_emissive");
-    }
-    return result;
-}
-
-void warn_of_normal_maps(BakeJob& job, const MaterialGroups& groups) {
-    for (const MaterialGroup& group : groups.groups) {
-        for (Index m : group.materials) {
+void warn_of_normal_maps(BakeJob& job, const MaterialGroups& groups, const std::vector<GroupPage>& pages) {
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        if (pages[g].channels.normal) continue;
+        for (Index m : groups.groups[g].materials) {
             if (!material_or_default(job.source, m).normal_texture) continue;
-            job.warn(material_title(job.source, m) + ": the normal map is not baked anew and was left out");
+            job.warn(material_title(job.source, m) + ": the normal map was left out");
         }
     }
 }
@@ -122,18 +95,71 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
     return result;
 }
 
+// Texels per length: of the page over the source's, both root mean squares over the small surface.
+double relative_density(const BakeJob& job, const SourceSurface& surface, const GroupPage& page) {
+    double own = 0, wanted = 0;
+    for (std::size_t i = 0; i < page.faces.size(); ++i) {
+        const PageFace& at = page.faces[i];
+        const SmallPart& part = job.parts[at.part];
+        const Triangle& t = part.small->mesh.triangles[at.face];
+        const auto corner = [&](std::size_t k) { return engine::to_eigen(part.small->mesh.positions[t[k]]); };
+        const auto& uv = page.atlas->atlas.places[i].uv;
+        const double area = engine::area_vector(corner(0), corner(1), corner(2)).norm();
+        const double texels = std::abs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
+                                       (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+        constexpr double third = 1.0 / 3;
+        const double density =
+            surface.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);
+        if (!std::isfinite(area * density * density)) continue;
+        own += texels;
+        wanted += area * density * density;
+    }
+    return wanted > 0 ? std::sqrt(own / wanted) : 0;
+}
+
+void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& page, PageImages& images) {
+    const Atlas& atlas = page.atlas->atlas;
+    const Index material = static_cast<Index>(job.result.asset.materials.size());
+    BakedPage baked = page.atlas->summary;
+    baked.material = page.name;
+    baked.density = relative_density(job, surface, page);
+    baked.samples = images.samples;
+    baked.uncertain_texels = images.uncertain_texels;
+    job.result.report.pages.push_back(std::move(baked));
+    if (page.atlas->summary.faces_alone > 0) {
+        job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +
+                 " faces lie alone: the bound on the work for their charts was reached");
+    }
+    if (job.options.bake.correspondence == Recording::on) {
+        job.result.correspondence.push_back({material, atlas.width, atlas.height, std::move(images.origins)});
+    }
+}
+
+// Tangents of the corners of all parts, where there is a normal map.
+std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::vector<GroupPage>& pages,
+                                                const std::vector<std::vector<Vec2f>>& uvs) {
+    std::vector<std::vector<Vec4f>> result(job.parts.size());
+    for (const GroupPage& page : pages) {
+        if (!page.atlas || !page.channels.normal) continue;
+        for (std::size_t begin = 0, end = 0; begin < page.faces.size(); begin = end) {
+            const Index part = page.faces[begin].part;
+            std::vector<Index> faces;
+            for (; end < page.faces.size() && page.faces[end].part == part; ++end) {
+                faces.push_back(page.faces[end].face);
+            }
+            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], result[part]);
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 bool bake_pages(BakeJob& job) {
     const MaterialGroups groups = group_materials(job.source, Bake::per_triangle);
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
-    for (const GroupPage& page : pages) {
-        wanted.base = wanted.base || page.channels.base;
-        wanted.metallic_roughness = wanted.metallic_roughness || page.channels.metallic_roughness;
-        wanted.occlusion = wanted.occlusion || page.channels.occlusion;
-        wanted.emissive = wanted.emissive || page.channels.emissive;
-    }
+    for (const GroupPage& page : pages) wanted = wanted | page.channels;
     const SourceSurface surface(job.source, wanted);
     double pieces = 0;
     for (GroupPage& page : pages) {
@@ -142,7 +168,9 @@ bool bake_pages(BakeJob& job) {
         if (!page.atlas) return false;
         pieces += static_cast<double>(page.atlas->pieces());
     }
-    warn_of_normal_maps(job, groups);
+    warn_of_normal_maps(job, groups, pages);
+    std::vector<std::vector<Vec2f>> uvs = corner_uvs(job, pages);
+    std::vector<std::vector<Vec4f>> tangents = corner_tangents(job, pages, uvs);
     Asset& out = job.result.asset;
     double done = 0;
     for (std::size_t g = 0; g < pages.size(); ++g) {
@@ -152,23 +180,16 @@ bool bake_pages(BakeJob& job) {
         if (page.atlas) {
             images = bake_page(job, surface,
                                {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
-                                page.faces, page.channels, first.alpha_mode},
+                                page.faces, tangents, page.channels, first.alpha_mode},
                                done, pieces);
             done += static_cast<double>(page.atlas->pieces());
         }
-        if (page.atlas) {
-            job.result.report.pages.push_back(page.atlas->summary);
-            job.result.report.pages.back().material = first.name;
-            if (page.atlas->summary.faces_alone > 0) {
-                job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +
-                         " faces lie alone: the bound on the work for their charts was reached");
-            }
-        }
-        out.materials.push_back(page_material(out, first, page.atlas ? page.channels : Channels{}, images));
+        if (page.atlas) add_to_report(job, surface, page, images);
+        out.materials.push_back(
+            page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{}, images));
     }
-    std::vector<std::vector<Vec2f>> uvs = corner_uvs(job, pages);
     for (const SmallPart& part : job.parts) {
-        CornerLayers layers{job.normals[part.index].normals, {}, {}};
+        CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) layers.uvs.push_back(std::move(uvs[part.index]));
         JoinedPart joined = join_corners(part, layers);
         transfer_skin_and_morphs(part, joined);

@@ -9,9 +9,11 @@
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
-namespace {
 
 using engine::to_eigen;
+using engine::Vector3;
+
+namespace {
 
 double face_area(const Part& part, std::size_t f) {
     const Triangle& t = part.triangles[f];
@@ -46,7 +48,7 @@ Pixels decode_for(const Asset& asset, Index image, Index material) {
 
 }  // namespace
 
-SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset_(asset) {
+SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset_(asset), wanted_(wanted) {
     std::vector<bool> used(asset.materials.size() + 1, false);
     for (const Part& part : asset.parts) {
         for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -69,10 +71,17 @@ SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset
         if (used[m] && wanted.emissive) {
             surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index);
         }
+        if (used[m] && wanted.normal && !material.unlit) {
+            surface.normal = slot(material.normal_texture, Encoding::data, index);
+        }
         surfaces_.push_back(surface);
     }
     scales_.resize(asset.parts.size());
-    for (std::size_t p = 0; p < asset.parts.size(); ++p) measure(asset.parts[p], scales_[p]);
+    tangents_.resize(asset.parts.size());
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        measure(asset.parts[p], scales_[p]);
+        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p]);
+    }
 }
 
 SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material) {
@@ -103,8 +112,9 @@ void SourceSurface::measure(const Part& part, PartScale& scale) const {
     scale.uv_per_length.resize(part.uvs.size());
     for (std::size_t set = 0; set < part.uvs.size(); ++set) {
         const bool needed = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) {
-            const auto uses = [&](const Slot& slot) { return slot.image && slot.use->uv_set == set; };
-            return uses(s.base) || uses(s.metallic_roughness) || uses(s.occlusion) || uses(s.emissive);
+            const auto slots = s.slots();
+            return std::any_of(slots.begin(), slots.end(),
+                               [&](const Slot* slot) { return slot->image && slot->use->uv_set == set; });
         });
         if (!needed) continue;
         std::vector<float>& ratio = scale.uv_per_length[set];
@@ -161,15 +171,38 @@ Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spac
     return result;
 }
 
+Vector3 SourceSurface::normal(Index p, const SurfacePoint& point, double spacing, const Vector3& side) const {
+    const Part& part = asset_.parts[p];
+    const Vector3 smooth = smooth_normal(part, point);
+    Vector3 result = smooth;
+    const Surface& s = surface(face_material(part, point.face));
+    if (s.normal.image) {
+        const Linear c = fetch(s.normal, p, point, spacing);
+        const double scale = s.material->normal_scale;
+        const Vector3 bent(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0), 2 * c[2] - 1.0);
+        std::array<FrameCorner, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = {corner_normal(part, point.face, i), tangents_[p][std::size_t{3} * point.face + i]};
+        }
+        result = blend_frames(corners, point.barycentric).to_mesh(bent);
+        const double length = result.norm();
+        result = length > 1e-6 && std::isfinite(length) ? Vector3(result / length) : smooth;
+    }
+    const bool from_behind =
+        smooth.dot(side) < 0 && winding_normal(part.positions, part.triangles[point.face]).dot(side) < 0;
+    return from_behind ? Vector3(-result) : result;
+}
+
 double SourceSurface::texel_density(Index p, Index face) const {
     const Part& part = asset_.parts[p];
     const Surface& s = surface(face_material(part, face));
     double density = 0;
-    for (const Slot* slot : {&s.base, &s.metallic_roughness, &s.occlusion, &s.emissive}) {
+    for (const Slot* slot : s.slots()) {
         if (!slot->image || slot->use->uv_set >= part.uvs.size()) continue;
         density = std::max(density, scales_[p].uv_per_length[slot->use->uv_set][face] * slot->texels_per_uv);
     }
-    return density > 0 ? density : scales_[p].untextured;
+    const bool geometry = wanted_.normal && !s.normal.image;
+    return density > 0 && !geometry ? density : std::max(density, scales_[p].untextured);
 }
 
 }  // namespace faqem::detail

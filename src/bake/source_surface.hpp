@@ -2,6 +2,7 @@
 /// \file
 /// The original's appearance at a point of its surface.
 
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "bake/groups.hpp"
 #include "bake/sampling.hpp"
+#include "bake/source_normals.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace faqem::detail {
@@ -22,8 +24,14 @@ struct Appearance {
 
 /// Channels of a material that images can hold.
 struct Channels {
-    bool base = false, metallic_roughness = false, occlusion = false, emissive = false;
-    bool any() const { return base || metallic_roughness || occlusion || emissive; }
+    bool base = false, metallic_roughness = false, occlusion = false, emissive = false, normal = false;
+    bool any() const { return base || metallic_roughness || occlusion || emissive || normal; }
+
+    /// Those of both.
+    Channels operator|(const Channels& o) const {
+        return {base || o.base, metallic_roughness || o.metallic_roughness, occlusion || o.occlusion,
+                emissive || o.emissive, normal || o.normal};
+    }
 };
 
 /// Decodes the images that the asset's materials show and reads them. Immutable once built.
@@ -39,8 +47,15 @@ public:
     /// \param spacing   distance to the next sample, in the part's units: what is finer is averaged
     Appearance sample(Index part, const SurfacePoint& point, double spacing) const;
 
+    /// The normal that the original is lit with, in the part's coordinates: its normal map's where it has
+    /// one. A face that is wound the other way than `side`, and whose normals look away from it too, is seen
+    /// from behind: its normal is turned round, as viewers do. \param side  the small face's normal
+    engine::Vector3 normal(Index part, const SurfacePoint& point, double spacing,
+                           const engine::Vector3& side) const;
+
     /// Texels per length at a face, those of its material's finest texture. Faces without a texture are given
-    /// as many as make two texels per face of the part.
+    /// as many as make two texels per face of the part; those that get a normal map and have none, at least
+    /// as many.
     double texel_density(Index part, Index face) const;
 
 private:
@@ -52,7 +67,11 @@ private:
     };
     struct Surface {  // a material
         const Material* material = nullptr;
-        Slot base, metallic_roughness, occlusion, emissive;
+        Slot base, metallic_roughness, occlusion, emissive, normal;
+
+        std::array<const Slot*, 5> slots() const {
+            return {&base, &metallic_roughness, &occlusion, &emissive, &normal};
+        }
     };
     struct PartScale {
         std::vector<std::vector<float>>
@@ -68,9 +87,11 @@ private:
     }
 
     const Asset& asset_;
+    const Channels wanted_;
     std::map<std::pair<Index, Encoding>, std::unique_ptr<const MipImage>> images_;
-    std::vector<Surface> surfaces_;  ///< by material, the default one last
-    std::vector<PartScale> scales_;  ///< by part
+    std::vector<Surface> surfaces_;             ///< by material, the default one last
+    std::vector<PartScale> scales_;             ///< by part
+    std::vector<std::vector<Vec4f>> tangents_;  ///< by part and corner; empty where there is no normal map
 };
 
 }  // namespace faqem::detail

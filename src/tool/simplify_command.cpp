@@ -25,7 +25,7 @@ using detail::Stopwatch;
 
 /// The command line as it was given.
 struct Arguments : SimplifyArguments {
-    std::string in, out, report, history;
+    std::string in, out, report, history, correspondence;
     bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -35,7 +35,8 @@ struct Arguments : SimplifyArguments {
 void check_outputs(const Arguments& arguments) {
     check_ending(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
     std::vector<std::filesystem::path> taken = {arguments.in};
-    for (const std::string& file : {arguments.out, arguments.report, arguments.history}) {
+    for (const std::string& file :
+         {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
         if (file.empty()) continue;
         check_output(file, taken, arguments.overwrite());
         for (const auto& other : taken) {
@@ -51,6 +52,12 @@ void write_histories(const Arguments& arguments, const std::vector<CollapseHisto
     std::ostringstream out;
     for (const CollapseHistory& history : histories) write(history, out);
     write_output(arguments.history, out.view(), arguments.overwrite());
+}
+
+void write_correspondence(const Arguments& arguments, const std::vector<PageOrigins>& pages) {
+    std::ostringstream out;
+    write(pages, out);
+    write_output(arguments.correspondence, out.view(), arguments.overwrite());
 }
 
 void print_counts(std::ostream& out, const Report& report) {
@@ -107,6 +114,7 @@ void save_result(const Arguments& arguments, LightAsset& light) {
     const Unattended unattended;
     const Stopwatch watch;
     if (!arguments.history.empty()) write_histories(arguments, light.histories);
+    if (!arguments.correspondence.empty()) write_correspondence(arguments, light.correspondence);
     const std::vector<std::string> losses = save(light.asset, arguments.out, arguments.overwrite());
     light.report.warnings.insert(light.report.warnings.end(), losses.begin(), losses.end());
     light.report.seconds.save = watch.seconds();
@@ -115,6 +123,11 @@ void save_result(const Arguments& arguments, LightAsset& light) {
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     if (!arguments.history.empty()) options.history = Recording::on;
+    if (!arguments.correspondence.empty()) {
+        if (options.bake.kind != Bake::per_triangle)
+            throw OptionError("--correspondence needs --bake per-triangle");
+        options.bake.correspondence = Recording::on;
+    }
     check_outputs(arguments);
     handle_interrupts();
     const Stopwatch watch;
@@ -152,6 +165,8 @@ void add_run_options(CLI::App& command, Arguments& a) {
         ->check(CLI::Range(0, 1024));
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
+    command.add_option("--correspondence", a.correspondence,
+                       "Write where each texel of the new atlas lies on the original to this file");
     command.add_flag("--force", a.force, "Replace files that exist");
     command.add_flag("--quiet", a.quiet, "No summary, no progress bar");
 }

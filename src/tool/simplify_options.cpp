@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -20,8 +21,16 @@ constexpr std::array<std::pair<std::string_view, Bake>, 6> bakes = {{{"auto", Ba
                                                                      {"vertex", Bake::vertex},
                                                                      {"keep", Bake::keep},
                                                                      {"none", Bake::none}}};
-constexpr std::array<std::pair<std::string_view, Mapping>, 2> mappings = {
-    {{"projection", Mapping::projection}, {"lineage", Mapping::lineage}}};
+constexpr std::array<std::pair<std::string_view, Mapping>, 3> mappings = {
+    {{"projection", Mapping::projection}, {"lineage", Mapping::lineage}, {"closest", Mapping::closest}}};
+
+constexpr std::array<std::pair<std::string_view, NormalMap>, 3> normal_maps = {
+    {{"auto", NormalMap::automatic}, {"on", NormalMap::on}, {"off", NormalMap::off}}};
+
+constexpr std::array<std::pair<std::string_view, Normals>, 3> normals = {
+    {{"transfer", Normals::transfer}, {"smooth", Normals::smooth}, {"flat", Normals::flat}}};
+constexpr std::array<std::pair<std::string_view, ImageFormat>, 3> image_formats = {
+    {{"png", ImageFormat::png}, {"jpeg", ImageFormat::jpeg}, {"source", ImageFormat::source}}};
 
 constexpr std::array<std::pair<std::string_view, Budget>, 2> budgets = {
     {{"scene", Budget::scene}, {"mesh", Budget::mesh}}};
@@ -50,6 +59,28 @@ double number(const std::string& text, const char* option) {
 Length length(const std::string& text, const char* option) {
     if (!text.ends_with('%')) return model_units(number(text, option));
     return of_diagonal(number(text.substr(0, text.size() - 1), option) / 100);
+}
+
+/// `kind` or `kind:NUMBER`. \return the number, nothing if there is none
+std::optional<double> suffix_number(std::string& text, std::string_view kind, const char* option) {
+    if (text.compare(0, kind.size() + 1, std::string(kind) + ":") != 0) return std::nullopt;
+    const double value = number(text.substr(kind.size() + 1), option);
+    text = kind;
+    return value;
+}
+
+void read_normals(std::string text, BakeOptions& bake) {
+    if (const auto angle = suffix_number(text, "smooth", "--normals")) bake.crease_angle = *angle;
+    bake.normals = named(normals, text, "--normals");
+}
+
+void read_image_format(std::string text, BakeOptions& bake) {
+    if (const auto quality = suffix_number(text, "jpeg", "--image-format")) {
+        if (!(*quality >= 1 && *quality <= 100 && *quality == std::floor(*quality)))
+            throw OptionError("--image-format: the quality must be a whole number from 1 to 100");
+        bake.jpeg_quality = static_cast<std::uint32_t>(*quality);
+    }
+    bake.image_format = named(image_formats, text, "--image-format");
 }
 
 std::string preset_names() {
@@ -90,7 +121,18 @@ void add_look_options(CLI::App& command, SimplifyArguments& a) {
         "Where colours go: per-triangle (default), atlas (charts), auto (one of these), vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
                        "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
-    command.add_option("--mapping", a.mapping, "Way back to the original: projection (default), lineage");
+    command.add_option("--normal-map", a.normal_map,
+                       "Normal map of a new texture: auto (where the source has one or its normals differ; "
+                       "default), on, off");
+    command.add_option(
+        "--normals", a.normals,
+        "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
+        "to ANGLE degrees, 40), flat");
+    command.add_option("--image-format", a.image_format,
+                       "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
+                       "images they are baked from)");
+    command.add_option("--mapping", a.mapping,
+                       "Way back to the original: projection (default), lineage, closest");
 }
 
 void add_topology_options(CLI::App& command, SimplifyArguments& a) {
@@ -130,6 +172,11 @@ Options make_options(const SimplifyArguments& arguments) {
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
     if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
     if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
+    if (!arguments.normal_map.empty()) {
+        options.bake.normal_map = named(normal_maps, arguments.normal_map, "--normal-map");
+    }
+    if (!arguments.normals.empty()) read_normals(arguments.normals, options.bake);
+    if (!arguments.image_format.empty()) read_image_format(arguments.image_format, options.bake);
     if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
     if (arguments.link) options.topology.link = LinkCondition::on;
     if (arguments.lock_border) options.topology.border = Border::locked;
@@ -160,7 +207,8 @@ std::string options_text(const Options& o) {
         {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
         {index(t.link), index(t.border), index(t.group_borders), index(t.weld), number(t.weld_distance),
          index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
-        {index(o.bake.kind), o.bake.texture_size, index(o.bake.mapping), o.bake.samples, o.bake.crease_angle}}
+        {index(o.bake.kind), o.bake.texture_size, index(o.bake.mapping), o.bake.samples, o.bake.crease_angle,
+         index(o.bake.normal_map), index(o.bake.normals), index(o.bake.image_format), o.bake.jpeg_quality}}
         .dump();
 }
 

@@ -190,7 +190,11 @@ TEST_CASE("damaged images are errors") {
 }
 
 TEST_CASE("images of other kinds are unsupported, by name") {
-    CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("RIFF1234WEBPVP8 ")); }), "image/webp"));
+    if (detail::can_decode_image("image/webp"))
+        CHECK_THROWS_AS(decode(image_of("RIFF1234WEBPVP8 ")), InputError);
+    else
+        CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("RIFF1234WEBPVP8 ")); }),
+                       "image/webp"));
     CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("\xabKTX 20\xbb\r\n\x1a\n")); }),
                    "image/ktx2"));
     CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("")); }), "neither PNG nor JPEG"));

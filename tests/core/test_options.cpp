@@ -103,5 +103,16 @@ TEST_CASE("baking options have their ranges") {
         CHECK(complaint([&](Options& o) { o.bake.crease_angle = bad; }) ==
               "crease_angle must be in [0, 180] degrees");
     }
-    CHECK(complaint([](Options& o) { o.bake = {Bake::none, 64, Mapping::lineage, 8, 180}; }) == "accepted");
+    for (const std::uint32_t bad : {0u, 101u}) {
+        CHECK(complaint([&](Options& o) { o.bake.jpeg_quality = bad; }) ==
+              "jpeg_quality must be in [1, 100]");
+    }
+    CHECK(complaint([](Options& o) {
+              o.bake = {.kind = Bake::none,
+                        .texture_size = 64,
+                        .mapping = Mapping::closest,
+                        .samples = 8,
+                        .crease_angle = 180,
+                        .jpeg_quality = 1};
+          }) == "accepted");
 }

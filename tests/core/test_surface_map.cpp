@@ -214,6 +214,37 @@ TEST_CASE("samples of one side of a thin plate never map to the other") {
     }
 }
 
+TEST_CASE("closest finds what brute force finds, on whichever side that is") {
+    const Pillow p = pillow(6, 0.05);
+    const CollapseHistory history = squeezed_pillow(p, {});
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::closest);
+    std::size_t other_side = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        SurfacePoint last;
+        for (const Vec3& w : spread(5)) {
+            const Vec3 p0 = small_point(small, f, w);
+            double least = 1e300;
+            for (const Triangle& t : p.faces) {
+                // Fine enough: the grid's faces are 1 wide.
+                for (const Vec3& v : spread(40)) {
+                    least = std::min(
+                        least, distance(p0, mix(v, p.positions[t[0]], p.positions[t[1]], p.positions[t[2]])));
+                }
+            }
+            const SurfacePoint found = map.map(f, w);
+            const double d = distance(original_point(history, found), p0);
+            CHECK(d <= least + 1e-12);
+            CHECK(d >= least - 0.03);
+            CHECK(found.step == MapStep::closest);
+            other_side += (found.face < p.top_faces()) != (history.kept_faces[f] < p.top_faces());
+            if (last.face != no_index) CHECK(map.map_near(f, w, last).face == found.face);
+            last = found;
+        }
+    }
+    CHECK(other_side > 0);
+}
+
 TEST_CASE("samples stay in their material group") {
     std::vector<Vec3> positions;
     for (int j = 0; j < 4; ++j) {

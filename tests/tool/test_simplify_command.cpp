@@ -69,12 +69,36 @@ TEST_CASE("simplify writes a lighter model, a report and a summary") {
 TEST_CASE("every choice on the command line is taken") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
-    for (const char* arguments :
-         {"--ratio 0.5", "--preset qem", "--preset paper", "--preset stmw", "--preset fast",
-          "--preset balanced", "--preset best", "--bake vertex", "--bake keep", "--bake none",
-          "--bake per-triangle --mapping lineage", "--mapping projection", "--link", "--lock-border",
-          "--weld 0.001", "--threads 1",
-          "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"}) {
+    for (const char* arguments : {"--ratio 0.5",
+                                  "--preset qem",
+                                  "--preset paper",
+                                  "--preset stmw",
+                                  "--preset fast",
+                                  "--preset balanced",
+                                  "--preset best",
+                                  "--bake vertex",
+                                  "--bake keep",
+                                  "--bake none",
+                                  "--bake per-triangle --mapping lineage",
+                                  "--mapping projection",
+                                  "--link",
+                                  "--lock-border",
+                                  "--weld 0.001",
+                                  "--threads 1",
+                                  "--mapping closest",
+                                  "--normal-map auto",
+                                  "--normal-map on",
+                                  "--normal-map off",
+                                  "--normals transfer",
+                                  "--normals smooth",
+                                  "--normals smooth:30",
+                                  "--normals flat",
+                                  "--image-format png",
+                                  "--image-format jpeg",
+                                  "--image-format jpeg:50",
+                                  "--image-format source",
+                                  "--correspondence map.bin",
+                                  "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"}) {
         CAPTURE(arguments);
         const Outcome outcome = run(
             folder, std::string("simplify in.glb out.glb --force --quiet --texture-size 64 ") + arguments);
@@ -86,6 +110,29 @@ TEST_CASE("every choice on the command line is taken") {
     CHECK(faqem::load(folder / "none.glb").images.empty());
     run(folder, "simplify in.glb vertex.glb --bake vertex --quiet");
     CHECK(!faqem::load(folder / "vertex.glb").parts.at(0).colors.empty());
+}
+
+TEST_CASE("the look of the result follows the command line, and the report tells of its pages") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    const Outcome outcome = run(folder,
+                                "simplify in.glb out.glb --texture-size 64 --normal-map on --image-format "
+                                "jpeg:60 --correspondence map.bin --report r.json");
+    CHECK(outcome.code == 0);
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    CHECK(light.materials.at(0).normal_texture);
+    CHECK(!light.parts.at(0).tangents.empty());
+    for (const faqem::Image& image : light.images) CHECK(image.mime_type == "image/jpeg");
+    const Json pages = Json::parse(read(folder / "r.json"))["pages"];
+    REQUIRE(pages.size() == 1);
+    for (const char* key :
+         {"material", "width", "height", "fill", "density", "samples", "uncertain_texels"}) {
+        CAPTURE(key);
+        CHECK(pages[0].contains(key));
+    }
+    CHECK(pages[0]["samples"]["history"] > 0);
+    const std::size_t texels = pages[0]["width"].get<std::size_t>() * pages[0]["height"].get<std::size_t>();
+    CHECK(fs::file_size(folder / "map.bin") == 24 + 20 * texels);
 }
 
 TEST_CASE("every output format is written") {

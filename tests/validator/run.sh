@@ -9,6 +9,10 @@ mkdir -p "$work"
 for bake in per-triangle vertex keep none; do
     "$faqem" simplify "$work/model.glb" "$work/$bake.glb" --ratio 0.2 --bake $bake --texture-size 256 --quiet
 done
+"$faqem" simplify "$work/model.glb" "$work/normal-map.glb" --ratio 0.2 --texture-size 256 --normal-map on \
+    --image-format jpeg --quiet
+"$faqem" simplify "$work/normal-map.glb" "$work/kept-normal-map.glb" --ratio 0.5 --bake keep --quiet
+"$faqem" simplify "$work/normal-map.glb" "$work/twice.glb" --ratio 0.5 --texture-size 256 --normals flat --quiet
 "$faqem" simplify "$work/model.glb" "$work/files.gltf" --ratio 0.2 --texture-size 256 --quiet
 # Through OBJ and back: no scene graph, materials made anew.
 "$faqem" simplify "$work/model.glb" "$work/plain.obj" --ratio 0.5 --texture-size 256 --quiet

@@ -1,0 +1,98 @@
+#include "bake/page_material.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace faqem::detail {
+namespace {
+
+using Slot = TextureRef Material::*;
+
+// Adds images of one page to the result.
+class ImageWriter {
+public:
+    ImageWriter(BakeJob& job, const MaterialGroup& group, std::string name)
+        : job_(job), group_(group), name_(std::move(name)) {}
+
+    /// \param from  textures of the source that the image is baked from
+    TextureRef add(const Pixels& pixels, const char* suffix, Content content,
+                   std::initializer_list<Slot> from) const {
+        Asset& asset = job_.result.asset;
+        TextureRef ref;
+        ref.image = static_cast<Index>(asset.images.size());
+        ref.wrap_u = ref.wrap_v = Wrap::clamp;
+        const std::string name = name_ + suffix;
+        asset.images.push_back(as_jpeg(pixels, from)
+                                   ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content)
+                                   : encode_png(pixels, name));
+        return ref;
+    }
+
+private:
+    bool as_jpeg(const Pixels& pixels, std::initializer_list<Slot> from) const {
+        if (pixels.has_alpha) return false;
+        switch (job_.options.bake.image_format) {
+            case ImageFormat::png:
+                return false;
+            case ImageFormat::jpeg:
+                return true;
+            case ImageFormat::source:
+                break;
+        }
+        bool any = false;
+        for (const Index m : group_.materials) {
+            for (const Slot slot : from) {
+                const TextureRef& use = material_or_default(job_.source, m).*slot;
+                if (!use) continue;
+                if (job_.source.images[use.image].mime_type != "image/jpeg") return false;
+                any = true;
+            }
+        }
+        return any;
+    }
+
+    BakeJob& job_;
+    const MaterialGroup& group_;
+    std::string name_;
+};
+
+}  // namespace
+
+Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
+                       const PageImages& images) {
+    Material result = group.material;
+    result.rebaked = true;
+    result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
+        result.occlusion_texture = result.emissive_texture = {};
+    result.normal_scale = result.occlusion_strength = 1;
+    const ImageWriter writer(
+        job, group,
+        result.name.empty() ? "material" + std::to_string(job.result.asset.materials.size()) : result.name);
+    if (channels.base) {
+        result.base_color = {1, 1, 1, 1};
+        result.base_color_texture =
+            writer.add(images.base, "_baseColor", Content::colour, {&Material::base_color_texture});
+    }
+    if (channels.metallic_roughness || channels.occlusion) {
+        const TextureRef orm =
+            writer.add(images.occlusion_roughness_metallic, "_occlusionRoughnessMetallic", Content::data,
+                       {&Material::metallic_roughness_texture, &Material::occlusion_texture});
+        if (channels.occlusion) result.occlusion_texture = orm;
+        if (channels.metallic_roughness) {
+            result.metallic = result.roughness = 1;
+            result.metallic_roughness_texture = orm;
+        }
+    }
+    if (channels.emissive) {
+        result.emissive = {1, 1, 1};
+        result.emissive_texture =
+            writer.add(images.emissive, "_emissive", Content::colour, {&Material::emissive_texture});
+    }
+    if (channels.normal) {
+        result.normal_texture =
+            writer.add(images.normal, "_normal", Content::data, {&Material::normal_texture});
+    }
+    return result;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// From the small surface to the original by closest points: what a baker without history does.
+
+#include "bvh.hpp"
+#include "faqem/history.hpp"
+#include "faqem/surface_map.hpp"
+#include "mapping_replay.hpp"
+
+namespace faqem::detail {
+
+/// The closest point of the whole original, with no regard to sides, sheets or groups. On thin walls that is
+/// the wrong side as often as not.
+class ClosestPoints {
+public:
+    explicit ClosestPoints(const CollapseHistory& history);
+
+    /// Of faces at the same distance the one with the smallest index. O(log faces) typically
+    SurfacePoint map(Index face, const Vec3& barycentric) const;
+
+    /// The same answer, sooner: `near` bounds the distance.
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
+
+private:
+    Vec3 place(Index face, const Vec3& barycentric) const;
+    SurfacePoint found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const;
+
+    const CollapseHistory& history_;
+    Replay replay_;
+    Bvh tree_;
+};
+
+}  // namespace faqem::detail
