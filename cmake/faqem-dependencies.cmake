@@ -5,7 +5,8 @@
 #   core      header-only templates             Eigen
 #   faqem     compiled presets                  threads (Eigen and nanoflann while building)
 #   openmesh  OpenMesh door                     OpenMesh
-#   asset     files                             tinygltf and OpenImageIO, hidden inside
+#   asset     files                             tinygltf and OpenImageIO, hidden inside; Draco and meshoptimizer
+#                                               where FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT say so
 #   bake      baker                             as asset
 
 # Components that a component links to.
@@ -55,6 +56,12 @@ macro(faqem_find_dependencies)
             find_package(Threads REQUIRED)
             faqem_find_openimageio()
             faqem_find_tinygltf()
+            if(FAQEM_HAS_DRACO)
+                find_package(draco CONFIG REQUIRED)
+            endif()
+            if(FAQEM_HAS_MESHOPT)
+                find_package(meshoptimizer CONFIG REQUIRED)
+            endif()
         else()
             message(FATAL_ERROR "faqem has no component named ${faqem_component}")
         endif()

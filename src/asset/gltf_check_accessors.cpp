@@ -1,5 +1,6 @@
 #include "asset/gltf_accessor.hpp"
 #include "asset/gltf_checker.hpp"
+#include "asset/gltf_compressed.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -16,10 +17,6 @@ void check_buffers(const GltfChecker& checker) {
             checker.fail(step(where, "byteLength"), "is 0");
         const Json& uri = member(buffers[i], "uri");
         if (!uri.is_null() && !uri.is_string()) checker.fail(step(where, "uri"), "is not a string");
-        if (buffers[i].contains("extensions") &&
-            member(member(buffers[i]["extensions"], "EXT_meshopt_compression"), "fallback") == true &&
-            uri.is_null())
-            checker.fail_unsupported(where, "EXT_meshopt_compression compressed data is not supported yet");
     }
 }
 
@@ -36,6 +33,8 @@ void check_views(const GltfChecker& checker) {
         if (offset > size || length > size - offset)
             checker.fail(where, "needs " + bytes_text(length) + " from byte " + std::to_string(offset) +
                                     ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
+        if (is_placeholder(member(checker.document, "buffers")[buffer]))
+            check_meshopt(checker, views[i], where);
         const auto stride = checker.number(views[i], where, "byteStride");
         if (stride && (*stride < 4 || *stride > max_stride || *stride % 4 != 0))
             checker.fail(step(where, "byteStride"),
@@ -82,6 +81,7 @@ void check_sparse_layout(const GltfChecker& checker, const Json& sparse, const s
 std::uint64_t total_bytes(const Json& document) {
     std::uint64_t total = 0;
     for (const Json& buffer : member(document, "buffers")) {
+        if (is_placeholder(buffer)) continue;
         const auto length = buffer["byteLength"].get<std::uint64_t>();
         total = length > UINT64_MAX - total ? UINT64_MAX : total + length;
     }
@@ -129,8 +129,11 @@ void check_accessors(const GltfChecker& checker) {
     check_views(checker);
     const Json& accessors = member(checker.document, "accessors");
     const std::uint64_t file_bytes = total_bytes(checker.document);
+    const std::uint64_t packed =
+        file_bytes < UINT64_MAX / most_per_byte ? file_bytes * most_per_byte : UINT64_MAX;
+    const std::vector<char> draco = draco_accessors(checker.document);
     for (std::uint64_t i = 0; i < accessors.size(); ++i)
-        check_accessor(checker, accessors[i], step("/accessors", i), file_bytes);
+        check_accessor(checker, accessors[i], step("/accessors", i), draco[i] ? packed : file_bytes);
 }
 
 }  // namespace faqem::detail

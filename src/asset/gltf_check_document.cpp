@@ -3,6 +3,8 @@
 #include <string_view>
 
 #include "asset/gltf_checker.hpp"
+#include "asset/gltf_compressed.hpp"
+#include "asset/image.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -10,10 +12,6 @@ namespace {
 constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "bufferViews", "cameras",
                                          "images",    "materials",  "meshes",  "nodes",       "samplers",
                                          "scenes",    "skins",      "textures"};
-
-/// Extensions that change how data is stored in a way we cannot read.
-constexpr std::array<std::string_view, 3> undecoded = {"KHR_draco_mesh_compression",
-                                                       "EXT_meshopt_compression", "KHR_texture_basisu"};
 
 /// Required extensions that we read, or that only decorate what we pass through.
 constexpr std::array<std::string_view, 8> supported = {
@@ -50,8 +48,13 @@ void check_required_extensions(const GltfChecker& checker) {
     for (std::uint64_t i = 0; i < required.size(); ++i) {
         const auto name = required[i].get<std::string>();
         const std::string where = step("/extensionsRequired", i);
-        if (contains(undecoded, name))
-            checker.fail_unsupported(where, name + " compressed data is not supported yet");
+        if (name == draco_name || name == meshopt_name) {
+            if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder(name));
+            continue;
+        }
+        if (name == "KHR_texture_basisu")
+            checker.fail_unsupported(
+                where, name + ": KTX2 images are not supported, only " + decodable_images() + " are");
         if (!contains(supported, name) && !starts_with(name, "KHR_materials_"))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }

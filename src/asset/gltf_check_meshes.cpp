@@ -2,6 +2,8 @@
 
 #include "asset/gltf_accessor.hpp"
 #include "asset/gltf_checker.hpp"
+#include "asset/gltf_compressed.hpp"
+#include "asset/image.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -95,11 +97,7 @@ void check_primitive(const GltfChecker& checker, const Json& primitive, const st
     check_variants(checker, primitive, where);
 
     // Optional Draco may come with plain data beside it, or leave the accessors without any.
-    if (member(primitive, "extensions").contains("KHR_draco_mesh_compression"))
-        for (const Json& accessor : attributes)
-            if (!member(checker.document, "accessors")[accessor.get<std::uint64_t>()].contains("bufferView"))
-                checker.fail_unsupported(where,
-                                         "KHR_draco_mesh_compression compressed data is not supported yet");
+    if (needs_draco(checker.document, primitive)) check_draco(checker, primitive, where);
 }
 
 void check_texture_info(const GltfChecker& checker, const Json& info, const std::string& where) {
@@ -141,8 +139,9 @@ void check_texture(const GltfChecker& checker, const Json& texture, const std::s
     const Json& extensions = checker.object(texture, where, "extensions");
     for (const auto& [name, extension] : extensions.items()) {
         const auto other = checker.reference(extension, where + "/extensions/" + name, "source", "images");
-        if (other && !source)
-            checker.fail_unsupported(where, "its only image is in " + name + ", which is not supported yet");
+        if (other && !source && !(name == "EXT_texture_webp" && can_decode_image("image/webp")))
+            checker.fail_unsupported(
+                where, "its only image is in " + name + ", only " + decodable_images() + " are supported");
     }
 }
 
@@ -151,6 +150,10 @@ void check_image(const GltfChecker& checker, const Json& image, const std::strin
     if (!uri.is_null() && !uri.is_string()) checker.fail(step(where, "uri"), "is not a string");
     const auto view = checker.reference(image, where, "bufferView", "bufferViews");
     if (view.has_value() == uri.is_string()) checker.fail(where, "must have either a uri or a bufferView");
+    if (view &&
+        is_placeholder(member(checker.document,
+                              "buffers")[index_of(member(checker.document, "bufferViews")[*view], "buffer")]))
+        checker.fail(where, "lies in a buffer that has no bytes");
     if (view && number_of(member(checker.document, "bufferViews")[*view], "byteLength", 0) > max_image_bytes)
         checker.fail_unsupported(where, "images of 2 GiB are not supported");
 }

@@ -9,6 +9,7 @@
 #include "asset/file.hpp"
 #include "asset/gltf_accessor.hpp"
 #include "asset/gltf_checker.hpp"
+#include "asset/gltf_compressed.hpp"
 #include "asset/gltf_framing.hpp"
 #include "asset/image.hpp"
 #include "faqem/error.hpp"
@@ -65,6 +66,7 @@ std::vector<std::uint8_t> read_uri(const Resources& resources, const std::string
 
 std::vector<std::uint8_t> buffer_bytes(const Resources& resources, std::uint64_t index) {
     const Json& buffer = resources.document["buffers"][index];
+    if (is_placeholder(buffer)) return {0};
     const std::string where = step("/buffers", index), file = resources.file.string();
     const auto length = buffer["byteLength"].get<std::uint64_t>();
     const std::string uri = string_of(buffer, "uri");
@@ -131,11 +133,17 @@ bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, i
     return true;
 }
 
-/// The document with every URI replaced by a token that only our callbacks understand.
+/// The document with every URI replaced by a token that only our callbacks understand. Buffers without bytes
+/// are given one, and accessors that Draco data will fill a view: tinygltf insists on both.
 std::string tokenised(const Json& document) {
     Json copy = document;
-    for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i)
+    for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
+        if (is_placeholder(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
         copy["buffers"][i]["uri"] = std::string(buffer_token) + std::to_string(i);
+    }
+    const std::vector<char> draco = draco_accessors(document);
+    for (std::uint64_t i = 0; i < draco.size(); ++i)
+        if (draco[i] && !copy["accessors"][i].contains("bufferView")) copy["accessors"][i]["bufferView"] = 0;
     for (std::uint64_t i = 0; i < array_size(copy, "images"); ++i)
         if (copy["images"][i].contains("uri"))
             copy["images"][i]["uri"] = std::string(image_token) + std::to_string(i);
@@ -208,6 +216,7 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     Resources resources{document, frame, file, loaded.warnings};
     loaded.model = parse_fenced(document, resources);
     take_resources(loaded);
+    decompress(*loaded.source, loaded.file);
     check_sparse(*loaded.source, loaded.file);
     return loaded;
 }

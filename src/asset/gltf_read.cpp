@@ -5,6 +5,7 @@
 
 #include "asset/file.hpp"
 #include "asset/gltf.hpp"
+#include "asset/image.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -17,11 +18,11 @@ void check_image_types(const Asset& asset, const SourceDocument& source, const s
             if (!*ref) continue;
             const std::string& type = source.images[ref->image].mime_type;
             const std::string where = step("/images", ref->image);
-            if (type == "image/ktx2")
-                throw UnsupportedError(file, where,
-                                       "is KTX2 (KHR_texture_basisu), which is not supported yet");
-            if (!type.empty() && type != "image/png" && type != "image/jpeg")
-                throw UnsupportedError(file, where, "is " + type + ", only PNG and JPEG are supported");
+            if (!type.empty() && !can_decode_image(type))
+                throw UnsupportedError(
+                    file, where,
+                    "is " + (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
+                        ", only " + decodable_images() + " are supported");
         }
 }
 

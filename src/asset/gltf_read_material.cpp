@@ -24,15 +24,24 @@ Wrap wrap_of(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
+/// The plain image of a texture, else the WebP one.
+Index image_of(const SourceDocument& source, std::size_t index) {
+    const Json& texture = source.document["textures"][index];
+    const Index plain = index_of(texture, "source");
+    return plain != no_index ? plain
+                             : index_of(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
+}
+
 /// \tparam Info  one of tinygltf's three texture infos
 template <class Info>
 TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
     TextureRef ref;
     if (info.index < 0) return ref;
     const tinygltf::Texture& texture = loaded.model.textures[static_cast<std::size_t>(info.index)];
-    const auto image = static_cast<std::size_t>(texture.source);
+    const Index source = image_of(*loaded.source, static_cast<std::size_t>(info.index));
+    const auto image = static_cast<std::size_t>(source);
     // A texture without an image is drawn like none at all. Missing images were reported when they were read.
-    if (texture.source < 0 || loaded.source->images[image].encoded.empty()) return ref;
+    if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;
     ref.image = static_cast<Index>(image);
     ref.uv_set = static_cast<std::uint32_t>(info.texCoord);
     if (texture.sampler >= 0) {

@@ -90,9 +90,12 @@ Index make_texture(GltfWriter& writer, const TextureRef& ref) {
     const Index image = asset_image(writer, ref.image);
     const auto [entry, is_new] =
         writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
-    if (is_new)
-        entry->second =
-            append(writer, "textures", {{"sampler", make_sampler(writer, ref)}, {"source", image}});
+    if (is_new) {
+        Json json = {{"sampler", make_sampler(writer, ref)}};
+        const bool webp = writer.asset.images[ref.image].mime_type == "image/webp";
+        (webp ? json["extensions"]["EXT_texture_webp"] : json)["source"] = image;
+        entry->second = append(writer, "textures", std::move(json));
+    }
     return entry->second;
 }
 

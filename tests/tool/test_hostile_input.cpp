@@ -144,7 +144,7 @@ TEST_CASE("hostile: references that leave the folder, by name, by code, by link,
 }
 
 TEST_CASE("hostile: required extensions and other versions are unsupported") {
-    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "ACME_teapots"}) {
+    for (const char* name : {"KHR_texture_basisu", "ACME_teapots"}) {
         GltfBuilder builder = square_gltf();
         builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
         check_refused(builder, {name}, 4);
