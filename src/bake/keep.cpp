@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "bake/job.hpp"
 #include "bake/normal_map.hpp"
@@ -55,15 +56,13 @@ std::vector<Index> kept_materials(const SmallPart& part) {
 std::vector<Vec4f> kept_tangents(const BakeJob& job, const SmallPart& part,
                                  const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<Vec4f> result;
-    const std::vector<Index> materials = kept_materials(part);
-    for (Index m = 0; m < job.source.materials.size(); ++m) {
-        const TextureRef& use = job.source.materials[m].normal_texture;
+    std::map<Index, std::vector<Index>> faces_of;
+    for (Index f = 0; f < part.faces(); ++f) {
+        faces_of[face_material(*part.source, part.small->history.kept_faces[f])].push_back(f);
+    }
+    for (const auto& [material, faces] : faces_of) {
+        const TextureRef& use = material_or_default(job.source, material).normal_texture;
         if (!use || use.uv_set >= uvs.size()) continue;
-        std::vector<Index> faces;
-        for (Index f = 0; f < materials.size(); ++f) {
-            if (materials[f] == m) faces.push_back(f);
-        }
-        if (faces.empty()) continue;
         std::vector<Vec2f> moved = uvs[use.uv_set];
         if (part.source->tangents.empty()) {
             const UvTransform transform = uv_transform(use);

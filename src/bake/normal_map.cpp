@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bake/directions.hpp"
 #include "bake/source_normals.hpp"
 #include "bake/tangents.hpp"
 
@@ -15,8 +16,6 @@ using engine::Vector3;
 
 // Below this mean angle, degrees, a normal map from geometry shows less than its bytes are worth.
 constexpr double least_deviation = 5;
-
-Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
 struct Deviation {
     double sum = 0, area = 0;
@@ -75,11 +74,9 @@ void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span
     corners.reserve(3 * faces.size());
     for (const Index f : faces) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3& p = mesh.positions[mesh.triangles[f][i]];
             const std::size_t c = std::size_t{3} * f + i;
-            corners.push_back({{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])},
-                               normals.normals[c],
-                               uvs[c]});
+            corners.push_back(
+                {to_float(to_eigen(mesh.positions[mesh.triangles[f][i]])), normals.normals[c], uvs[c]});
         }
     }
     tangents.resize(3 * part.faces(), Vec4f{});

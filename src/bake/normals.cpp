@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/directions.hpp"
 #include "bake/source_normals.hpp"
-#include "faqem/engine/vector.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {
@@ -16,15 +16,6 @@ using engine::Vector3;
 constexpr double inset = 0.02;
 // Vertices with more creases than this keep the rest of their corners apart, so that the work stays bounded.
 constexpr std::size_t most_clusters = 64;
-
-Vector3 unit_or_zero(const Vector3& n) {
-    const double length = n.norm();
-    return length > 0 && std::isfinite(length) ? Vector3(n / length) : Vector3::Zero();
-}
-
-Vec3f to_float(const Vector3& n) {
-    return {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
-}
 
 // Angle times area: a large flat face keeps its normal next to a narrow bevel, and how a fan is cut up does
 // not matter.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/directions.hpp"
 #include "bake/fill.hpp"
 #include "faqem/engine/vector.hpp"
 
@@ -155,10 +156,23 @@ private:
             const auto& normals = page.job_.normals[face.part].normals;
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::size_t c = std::size_t{3} * face.face + i;
-                const Vec3f& n = normals[c];
-                frames[i] = {{n[0], n[1], n[2]}, page.request_.tangents[face.part][c]};
+                frames[i] = {to_vector(normals[c]), page.request_.tangents[face.part][c]};
             }
-            side = winding_normal(mesh.positions, mesh.triangles[face.face]);
+            normals_of_part = &normals;
+        }
+
+        // The source's normal where the last sample was, in tangent space. One that lies across an edge is
+        // turned with its face into this triangle's plane: at a crease it would lean over by the whole fold.
+        Vector3 bent_normal(const SourceSurface& surface, const SmallPoint& at) const {
+            const TangentFrame here = blend_frames(frames, own_weights(at));
+            const Vector3 side = winding_normal(mesh.positions, mesh.triangles[at.face]);
+            const Vector3 normal = surface.normal(face.part, trails[at.trail].last, spacing, side);
+            if (at.trail == 0) return here.from_mesh(normal);
+            Vector3 there = Vector3::Zero();
+            for (std::size_t i = 0; i < 3; ++i) {
+                there += at.weights[i] * to_vector((*normals_of_part)[std::size_t{3} * at.face + i]);
+            }
+            return here.from_mesh(Eigen::Quaterniond::FromTwoVectors(there, here.normal) * normal);
         }
 
         // The right corner is the one whose UV is level with one other corner and plumb with the other.
@@ -247,8 +261,8 @@ private:
         const double spacing;
         std::array<Fold, 3> folds;          // by corner opposite
         std::array<FrameCorner, 3> frames;  // for the normal map
-        Vector3 side = Vector3::Zero();     // the triangle's normal
-        std::array<Trail, 4> trails;        // the triangle's own, then those across
+        const std::vector<Vec3f>* normals_of_part = nullptr;
+        std::array<Trail, 4> trails;  // the triangle's own, then those across
     };
 
     // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
@@ -285,10 +299,7 @@ private:
             sum.off_middle = off_middle;
             sum.origin = {painter.face.part, trail.last};
         }
-        if (!request_.channels.normal) return;
-        sum.normal +=
-            blend_frames(painter.frames, painter.own_weights(at))
-                .from_mesh(surface_.normal(painter.face.part, trail.last, painter.spacing, painter.side));
+        if (request_.channels.normal) sum.normal += painter.bent_normal(surface_, at);
     }
 
     void write(std::uint32_t x, std::uint32_t y, const Texel& texel) {

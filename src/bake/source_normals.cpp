@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "bake/directions.hpp"
 #include "bake/groups.hpp"
 #include "bake/tangents.hpp"
 
@@ -12,17 +13,6 @@ namespace {
 
 using engine::to_eigen;
 using engine::Vector3;
-
-Vector3 unit_or_zero(const Vector3& n) {
-    const double length = n.norm();
-    return length > 0 && std::isfinite(length) ? Vector3(n / length) : Vector3::Zero();
-}
-
-Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
-
-Vec3f to_float(const Vector3& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
 bool has_tangents(const Part& part, std::size_t face) {
     if (part.tangents.empty()) return false;

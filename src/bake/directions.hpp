@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Normals and tangents between the arrays of files and Eigen.
+
+#include <cmath>
+
+#include "faqem/engine/vector.hpp"
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+inline engine::Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+
+inline Vec3f to_float(const engine::Vector3& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// Zero where there is no direction.
+inline engine::Vector3 unit_or_zero(const engine::Vector3& v) {
+    const double length = v.norm();
+    return length > 0 && std::isfinite(length) ? engine::Vector3(v / length) : engine::Vector3::Zero();
+}
+
+}  // namespace faqem::detail
