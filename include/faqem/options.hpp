@@ -135,6 +135,11 @@ enum class Bake {
     none,          ///< geometry only: factors stay, textures go
 };
 
+/// Does it lay the small mesh out on new images?
+constexpr bool makes_atlas(Bake kind) {
+    return kind == Bake::automatic || kind == Bake::atlas || kind == Bake::per_triangle;
+}
+
 /// How a point of the small surface finds its place on the original.
 enum class Mapping {
     projection,  ///< successive projection through the collapse history (after Liu et al. 2024)

@@ -75,7 +75,7 @@ struct BakedPage {
     std::uint64_t faces = 0;
     std::uint64_t charts = 0;       ///< pieces: charts; of `per_triangle`, cells
     std::uint64_t faces_alone = 0;  ///< that could not be laid into a chart within the bound on the work
-    double fill = 0;                ///< share of the page under triangles
+    double fill = 0;                ///< share of the page's texels that show a triangle, margins included
     double density = 0;  ///< texels per length over the source's; both root mean squares over the surface
     double stretch = 1;  ///< mean over the area; 1: none
     /// By MapStep: how many samples found their place on the original how.

@@ -81,8 +81,8 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
     validate(options);
     check_asset(source);
     check(source, small);
-    if (options.bake.correspondence == Recording::on && options.bake.kind != Bake::per_triangle) {
-        throw OptionError("correspondence needs a new atlas (Bake::per_triangle)");
+    if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
+        throw OptionError("correspondence needs a new atlas (Bake::atlas, per_triangle or automatic)");
     }
     BakeJob job{source, options, {}, {}, {}};
     job.result.report = small.report;

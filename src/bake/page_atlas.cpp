@@ -214,16 +214,6 @@ bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const s
     return true;
 }
 
-// Share of a page under its triangles.
-double fill_of(const Atlas& atlas) {
-    double twice = 0;
-    for (const AtlasPlace& place : atlas.places) {
-        const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
-        twice += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    }
-    return twice / 2 / (double(atlas.width) * atlas.height);
-}
-
 }  // namespace
 
 std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
@@ -238,7 +228,6 @@ std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface
     summary.width = result.atlas.width;
     summary.height = result.atlas.height;
     summary.faces = faces.size();
-    summary.fill = fill_of(result.atlas);
     return result;
 }
 

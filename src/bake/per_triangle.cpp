@@ -122,6 +122,7 @@ void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& 
     const Index material = static_cast<Index>(job.result.asset.materials.size());
     BakedPage baked = page.atlas->summary;
     baked.material = page.name;
+    baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
     baked.density = relative_density(job, surface, page);
     baked.samples = images.samples;
     baked.uncertain_texels = images.uncertain_texels;

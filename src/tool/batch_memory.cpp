@@ -51,9 +51,7 @@ std::uint64_t predicted_peak(const std::filesystem::path& model, std::uint64_t b
                              const Options& options) {
     // The process and its threads, and for each texel of a page what baking several textures takes.
     double peak = 64e6;
-    const Bake kind = options.bake.kind;
-    if (kind == Bake::automatic || kind == Bake::atlas || kind == Bake::per_triangle)
-        peak += 36.0 * options.bake.texture_size * options.bake.texture_size;
+    if (makes_atlas(options.bake.kind)) peak += 36.0 * options.bake.texture_size * options.bake.texture_size;
     const double faces = static_cast<double>(bytes) / face_bytes(model);
     return static_cast<std::uint64_t>(peak + faces * peak_bytes_per_face(options));
 }

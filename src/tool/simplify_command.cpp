@@ -124,8 +124,8 @@ int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
-        if (options.bake.kind != Bake::per_triangle)
-            throw OptionError("--correspondence needs --bake per-triangle");
+        if (!makes_atlas(options.bake.kind))
+            throw OptionError("--correspondence needs a new atlas: --bake auto, atlas or per-triangle");
         options.bake.correspondence = Recording::on;
     }
     check_outputs(arguments);

@@ -80,7 +80,7 @@ TEST_CASE("charts split few vertices, and the report says what the page is like"
     CHECK(charts.asset.parts[0].positions.size() < 1.5 * double(source.parts[0].positions.size()));
     CHECK(triangles.asset.parts[0].positions.size() > 2 * source.parts[0].positions.size());
     REQUIRE(charts.report.pages.size() == 1);
-    const AtlasPage& page = charts.report.pages[0];
+    const BakedPage& page = charts.report.pages[0];
     CHECK(page.material == "paint");
     CHECK(page.kind == Bake::atlas);
     CHECK(page.faces == source.parts[0].triangles.size());

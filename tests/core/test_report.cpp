@@ -50,7 +50,7 @@ TEST_CASE("the report as JSON holds every count") {
     report.virtual_edges = 11;
     report.components_pruned = 12;
     report.faces_pruned = 13;
-    report.pages = {{"paint", Bake::atlas, 512, 256, 90, 7, 2, 0.5, 0.75, 1.25}};
+    report.pages = {{"paint", Bake::atlas, 512, 256, 90, 7, 2, 0.5, 0.75, 1.25, {30, 20, 10}, 5}};
     report.warnings = {"a \"quoted\" line\n"};
     report.seconds.weld = 0.25;
     const auto json = nlohmann::json::parse(to_json(report));
@@ -64,7 +64,9 @@ TEST_CASE("the report as JSON holds every count") {
                                              {"faces_alone", 2},
                                              {"fill", 0.5},
                                              {"density", 0.75},
-                                             {"stretch", 1.25}});
+                                             {"stretch", 1.25},
+                                             {"samples", {{"history", 30}, {"relaxed", 20}, {"closest", 10}}},
+                                             {"uncertain_texels", 5}});
     CHECK(json["preset"] == "stmw");
     CHECK(json["faces_in"] == 1'000'000'007);
     CHECK(json["faces_out"] == 2);
