@@ -44,6 +44,13 @@ macro(faqem_find_openimageio)
     endif()
 endmacro()
 
+# Debian's Draco exports another tinygltf, of another layout. Saying that tinygltf needs Draco puts it first in every
+# link, and whoever comes first is taken. Draco's archive would not do: its members are taken before any shared library.
+macro(faqem_find_draco)
+    find_package(draco CONFIG REQUIRED)
+    set_property(TARGET tinygltf::tinygltf APPEND PROPERTY INTERFACE_LINK_LIBRARIES draco::draco)
+endmacro()
+
 macro(faqem_find_dependencies)
     foreach(faqem_component IN ITEMS ${ARGN})
         if(faqem_component STREQUAL "core")
@@ -57,7 +64,7 @@ macro(faqem_find_dependencies)
             faqem_find_openimageio()
             faqem_find_tinygltf()
             if(FAQEM_HAS_DRACO)
-                find_package(draco CONFIG REQUIRED)
+                faqem_find_draco()
             endif()
             if(FAQEM_HAS_MESHOPT)
                 find_package(meshoptimizer CONFIG REQUIRED)
