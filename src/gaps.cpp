@@ -73,8 +73,10 @@ void GapsThere::measure_turns(double tolerance, std::uint32_t threads) {
     });
 }
 
-void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads) {
-    const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
+void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads,
+                       std::span<const std::uint8_t> swapped) {
+    std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
+    for (std::size_t f = 0; f < swapped.size(); ++f) moved[f] |= swapped[f];
     positions_.assign(positions.begin(), positions.end());
     if (tree_) {
         tree_->refit(positions_, triangles_);

@@ -75,9 +75,12 @@ public:
 
     /// As GapsThere::move_to(). O(faces), and O(log faces) for each point whose closest face, or one that has
     /// come nearer, has moved, typically
-    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
+    /// \param swapped  of each triangle, or empty: nonzero has other corners than the last time
+    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads,
+                 std::span<const std::uint8_t> swapped = {});
 
     std::size_t size() const { return points_.size(); }
+    const OrientedPoint& point(std::size_t i) const { return points_[i]; }
     /// Where on the moving mesh the point nearest to point i is.
     const Spot& spot(std::size_t i) const { return gaps_[i].spot; }
     /// From there to point i.

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 
+#include "edge_swap.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -16,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the history format is written byte for byte");
 static_assert(sizeof(Vec3) == 24 && sizeof(Triangle) == 12);
 
-constexpr std::array<char, 8> magic = {'F', 'A', 'Q', 'E', 'M', 'H', '0', '2'};
+constexpr std::array<char, 8> magic = {'F', 'A', 'Q', 'E', 'M', 'H', '0', '3'};
 
 [[noreturn]] void fail(const std::string& section, const std::string& what) {
     throw InputError("history", section, what);
@@ -105,10 +106,13 @@ std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
 }
 
 void check_patches(const CollapseHistory& h) {
-    if (h.patch_begin.size() != h.collapses.size() + 1 || h.patch_begin.front() != 0 ||
+    if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
         h.patch_begin.back() != h.patch_faces.size() ||
         !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end())) {
         fail("patch_begin", "must rise from 0 to the number of patch faces");
+    }
+    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
+        if (h.patch(k).size() != 2) fail(numbered("patch_begin", k), "a swap has two faces");
     }
     for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
         const Index f = h.patch_faces[i];
@@ -143,6 +147,27 @@ std::vector<Index> final_versions(const CollapseHistory& h) {
     return last;
 }
 
+// All faces over the vertices of the small mesh after the last swap; what was not kept has no_index corners.
+std::vector<Triangle> small_faces(const CollapseHistory& h) {
+    const std::vector<Index> vertex = kept_vertex(h);
+    const std::vector<Index> last = final_versions(h);
+    std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
+    for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
+        const Index f = h.kept_faces[i];
+        const Triangle& t = h.triangles[f];
+        faces[f] = {vertex[last[t[0]]], vertex[last[t[1]]], vertex[last[t[2]]]};
+        for (const Index v : faces[f]) {
+            if (v == no_index) fail(numbered("kept_faces", i), "has a vertex that was not kept");
+        }
+    }
+    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
+        Triangle &s = faces[h.patch(k)[0]], &t = faces[h.patch(k)[1]];
+        if (s[0] == no_index || t[0] == no_index || !detail::swap_edge(s, t))
+            fail(numbered("patch_begin", k), "a swap of faces that share no edge");
+    }
+    return faces;
+}
+
 void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i) {
         const Index v = h.kept_versions[i];
@@ -151,17 +176,12 @@ void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used)
     if (!h.kept_positions.empty() && h.kept_positions.size() != h.kept_versions.size()) {
         fail("kept_positions", "needs one entry per kept version or none");
     }
-    const std::vector<Index> vertex = kept_vertex(h);
-    const std::vector<Index> last = final_versions(h);
     for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
         const Index f = h.kept_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
             fail(numbered("kept_faces", i), "no such face");
-        for (const Index v : h.triangles[f]) {
-            if (vertex[last[v]] == no_index)
-                fail(numbered("kept_faces", i), "has a vertex that was not kept");
-        }
     }
+    small_faces(h);
 }
 
 }  // namespace
@@ -184,11 +204,9 @@ TriangleMesh replay(const CollapseHistory& history) {
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         mesh.positions.push_back(history.kept_position(i));
     }
-    const std::vector<Index> vertex = kept_vertex(history);
-    const std::vector<Index> last = final_versions(history);
+    const std::vector<Triangle> faces = small_faces(history);
     for (const Index f : history.kept_faces) {
-        const Triangle& t = history.triangles[f];
-        mesh.triangles.push_back({vertex[last[t[0]]], vertex[last[t[1]]], vertex[last[t[2]]]});
+        mesh.triangles.push_back(faces[f]);
         if (!history.face_groups.empty()) mesh.face_groups.push_back(history.face_groups[f]);
     }
     return mesh;

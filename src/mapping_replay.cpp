@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "edge_swap.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -88,7 +90,8 @@ Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
     return bound;
 }
 
-// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version.
+// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or swaps
+// its edge.
 template <class Before>
 std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& before) {
     std::vector<Triangle> now = history.triangles;
@@ -102,6 +105,12 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
                 if (v == c.first || v == c.second) v = made;
             }
         }
+    }
+    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
+        const std::span<const Index> patch = history.patch(k);
+        const std::uint64_t begin = history.patch_begin[k];
+        for (std::size_t i = 0; i < 2; ++i) before(k, begin + i, now[patch[i]]);
+        swap_edge(now[patch[0]], now[patch[1]]);
     }
     return now;
 }
@@ -136,7 +145,7 @@ Replay replay_patches(const CollapseHistory& history) {
     result.bounds.resize(entries);
     result.previous.resize(entries);
     result.umbrella.resize(entries);
-    result.mean_edge.reserve(history.collapses.size());
+    result.mean_edge.reserve(history.patch_count());
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
@@ -148,7 +157,7 @@ Replay replay_patches(const CollapseHistory& history) {
             latest = static_cast<Index>(k);
         });
     Labeller labeller;
-    for (std::size_t k = 0; k < history.collapses.size(); ++k) {
+    for (std::size_t k = 0; k < history.patch_count(); ++k) {
         const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
         const std::span<const Triangle> corners = std::span(result.corners).subspan(begin, size);
         labeller.label(corners, std::span(result.umbrella).subspan(begin, size));

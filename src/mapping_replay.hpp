@@ -20,15 +20,16 @@ struct Bound {
 struct Replay {
     std::vector<Vec3> positions;  ///< of all versions, originals first
 
-    std::vector<Triangle> corners;       ///< per entry: corner versions of its face just before the collapse
-    std::vector<Bound> bounds;           ///< per entry: around those corners
-    std::vector<Index> previous;         ///< per entry: the latest earlier collapse that touched its face
+    std::vector<Triangle>
+        corners;                  ///< per entry: corner versions of its face just before the collapse or swap
+    std::vector<Bound> bounds;    ///< per entry: around those corners
+    std::vector<Index> previous;  ///< per entry: the latest earlier patch that had its face
     std::vector<std::uint8_t> umbrella;  ///< per entry: component of its patch over edges with two faces
-    std::vector<float> mean_edge;        ///< per collapse: mean edge length of its patch
+    std::vector<float> mean_edge;        ///< per patch: mean edge length
 
     std::vector<Triangle> kept_corners;               ///< per face of the small mesh: corner versions
     std::vector<std::array<Vec3, 3>> kept_positions;  ///< per face of the small mesh: where they are
-    std::vector<Index> kept_last;  ///< per face of the small mesh: last collapse that touched it, or no_index
+    std::vector<Index> kept_last;  ///< per face of the small mesh: last patch that had it, or no_index
 };
 
 /// What is needed by the walk over vertices: positions, kept_corners and kept_positions. O(size of the

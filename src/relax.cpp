@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "better_edges.hpp"
+#include "edge_swap.hpp"
 #include "fit.hpp"
 #include "fold_guard.hpp"
 #include "gaps.hpp"
@@ -17,6 +20,8 @@ namespace {
 using engine::Vector3;
 
 constexpr int steps = 4;
+/// Times that the vertices settle; edges are swapped in between.
+constexpr int rounds = 2;
 /// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
 constexpr double power = 0.5;
 constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
@@ -60,31 +65,40 @@ std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::si
     return border;
 }
 
+double area(const Patchwork& mesh) {
+    double twice = 0;
+    for (const Triangle& t : mesh.triangles) {
+        if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
+    }
+    return twice / 2;
+}
+
 class Relaxation {
 public:
     Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
                double least_turn, std::uint32_t threads)
-        : light_(light),
-          least_turn_(least_turn),
+        : least_turn_(least_turn),
           threads_(threads),
           original_(original),
-          start_(light.positions.begin(), light.positions.end()),
-          positions_(start_),
-          guard_(light, least_fold),
-          fixed_(on_border(light.triangles, start_.size())),
-          there_(original_, light.triangles, spots(light)),
-          back_(even_points(), light.triangles),
-          corners_(oriented_vertices(original), light.triangles) {
+          triangles_(light.triangles.begin(), light.triangles.end()),
+          positions_(light.positions.begin(), light.positions.end()),
+          fixed_(on_border(light.triangles, positions_.size())),
+          back_(even_points(), triangles_),
+          corners_(oriented_vertices(original), triangles_) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
-    std::vector<Vector3> operator()() {
-        if (there_.size() == 0 || back_.size() == 0) return start_;
+    /// Moves the vertices.
+    void settle() {
+        start_ = positions_;
+        guard_.emplace(Patchwork{start_, triangles_}, least_fold);
+        there_.emplace(original_, triangles_, spots({start_, triangles_}));
+        if (there_->size() == 0 || back_.size() == 0) return;
         measure();
         const std::vector<Fit> first = fits_;
         const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
-            move(fitting_step(light_.triangles, pulls(), fixed_, power));
+            move(fitting_step(triangles_, pulls(), fixed_, power));
             measure_pulls();
         }
         measure();
@@ -94,8 +108,24 @@ public:
             measure();
         }
         draw_in();
-        return positions_;
     }
+
+    /// Swaps edges where that helps. \pre settle()
+    std::vector<EdgeSwap> swap_edges(std::span<const Index> groups) {
+        if (there_->size() == 0 || back_.size() == 0) return {};
+        const std::vector<EdgeSwap> swaps = better_edges({positions_, triangles_, fixed_, groups}, original_,
+                                                         back_, corners_, area(original_.mesh), threads_);
+        std::vector<std::uint8_t> swapped(triangles_.size(), 0);
+        for (const EdgeSwap& swap : swaps) {
+            swap_edge(triangles_[swap[0]], triangles_[swap[1]]);
+            swapped[swap[0]] = swapped[swap[1]] = 1;
+        }
+        back_.move_to(positions_, threads_, swapped);
+        corners_.move_to(positions_, threads_, swapped);
+        return swaps;
+    }
+
+    std::vector<Vector3> take_positions() { return std::move(positions_); }
 
 private:
     /// How well faces of the light mesh fit.
@@ -133,8 +163,8 @@ private:
     std::vector<Fit> around_vertices(std::span<const Fit> fits) const {
         std::vector<Fit> sums(start_.size());
         for (std::size_t f = 0; f < fits.size(); ++f) {
-            if (light_.triangles[f][0] == no_index) continue;
-            for (const Index v : light_.triangles[f]) sums[v].add(fits[f]);
+            if (triangles_[f][0] == no_index) continue;
+            for (const Index v : triangles_[f]) sums[v].add(fits[f]);
         }
         return sums;
     }
@@ -153,7 +183,8 @@ private:
 
     std::vector<OrientedPoint> even_points() const {
         std::vector<OrientedPoint> points;
-        for (const Spot& spot : evenly_spread(original_.mesh, more_back * point_count(light_))) {
+        for (const Spot& spot :
+             evenly_spread(original_.mesh, more_back * point_count({positions_, triangles_}))) {
             points.push_back(
                 {spot.on(original_.mesh.positions, original_.mesh.triangles), original_.normals[spot.face]});
         }
@@ -162,26 +193,26 @@ private:
 
     std::vector<Pull> pulls() const {
         std::vector<Pull> all;
-        all.reserve(there_.size() + back_.size());
-        for (std::size_t i = 0; i < there_.size(); ++i) all.push_back(there_.pull(i));
+        all.reserve(there_->size() + back_.size());
+        for (std::size_t i = 0; i < there_->size(); ++i) all.push_back(there_->pull(i));
         for (std::size_t i = 0; i < back_.size(); ++i) all.push_back(back_.pull(i));
         return all;
     }
 
     void measure_pulls() {
-        there_.move_to(positions_, threads_);
+        there_->move_to(positions_, threads_);
         back_.move_to(positions_, threads_);
     }
 
     /// Finds how well the faces fit where the vertices are now.
     void measure() {
         measure_pulls();
-        there_.measure_turns(tie_tolerance, threads_);
+        there_->measure_turns(tie_tolerance, threads_);
         corners_.move_to(positions_, threads_);
-        fits_.assign(light_.triangles.size(), {});
-        for (std::size_t i = 0; i < there_.size(); ++i) {
-            const double distance = there_.gap(i).squaredNorm();
-            fits_[there_.spot(i).face].add({distance, distance, least_turn_counted + there_.turn(i)});
+        fits_.assign(triangles_.size(), {});
+        for (std::size_t i = 0; i < there_->size(); ++i) {
+            const double distance = there_->gap(i).squaredNorm();
+            fits_[there_->spot(i).face].add({distance, distance, least_turn_counted + there_->turn(i)});
         }
         for (std::size_t i = 0; i < back_.size(); ++i) {
             const double distance = back_.gap(i).squaredNorm();
@@ -217,10 +248,10 @@ private:
     /// Faces that have turned too far, or look away from a neighbour that they did not look away from.
     template <class Visit>
     void for_each_bad_face(std::span<const Vector3> positions, Visit&& visit) const {
-        for (const Triangle& t : light_.triangles) {
+        for (const Triangle& t : triangles_) {
             if (t[0] != no_index && !keeps_its_side(t, positions)) visit(t);
         }
-        guard_.for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
+        guard_->for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
     }
 
     bool keeps_its_side(const Triangle& t, std::span<const Vector3> positions) const {
@@ -237,10 +268,9 @@ private:
             std::vector<std::uint8_t> held(start_.size(), 1);
             for (std::size_t f = 0; f < fits_.size(); ++f) {
                 if (!(fits_[f].farthest > draw_from * draw_from * before.farthest)) continue;
-                for (const Index v : light_.triangles[f]) held[v] = fixed_[v];
+                for (const Index v : triangles_[f]) held[v] = fixed_[v];
             }
-            if (!draw_in(before, fitting_step(light_.triangles, pulls_around(held), held, draw_power)))
-                return;
+            if (!draw_in(before, fitting_step(triangles_, pulls_around(held), held, draw_power))) return;
         }
     }
 
@@ -260,10 +290,10 @@ private:
 
     /// Of faces with a vertex that is not held.
     std::vector<Pull> pulls_around(std::span<const std::uint8_t> held) const {
-        std::vector<std::uint8_t> counts(light_.triangles.size(), 0);
+        std::vector<std::uint8_t> counts(triangles_.size(), 0);
         for (std::size_t f = 0; f < counts.size(); ++f) {
-            if (light_.triangles[f][0] == no_index) continue;
-            for (const Index v : light_.triangles[f]) counts[f] |= !held[v];
+            if (triangles_[f][0] == no_index) continue;
+            for (const Index v : triangles_[f]) counts[f] |= !held[v];
         }
         std::vector<Pull> all;
         const auto add = [&](const auto& gaps) {
@@ -271,7 +301,7 @@ private:
                 if (counts[gaps.spot(i).face]) all.push_back(gaps.pull(i));
             }
         };
-        add(there_);
+        add(*there_);
         add(back_);
         add(corners_);
         return all;
@@ -284,8 +314,7 @@ private:
         bool any = false;
         for (std::size_t f = 0; f < fits_.size(); ++f) {
             const Fit& fit = fits_[f];
-            if (fit.farthest > limit && fit.farthest > first[f].farthest)
-                any |= put_back(light_.triangles[f]);
+            if (fit.farthest > limit && fit.farthest > first[f].farthest) any |= put_back(triangles_[f]);
         }
         const std::vector<Fit> before_around = around_vertices(first), around = around_vertices(fits_);
         for (Index v = 0; v < around.size(); ++v) {
@@ -311,14 +340,14 @@ private:
         return true;
     }
 
-    const Patchwork& light_;
     double least_turn_;
     std::uint32_t threads_;
     StillSurface original_;
+    std::vector<Triangle> triangles_;  // of the light mesh
     std::vector<Vector3> start_, positions_;
-    FoldGuard guard_;
     std::vector<std::uint8_t> fixed_;
-    GapsThere there_;
+    std::optional<FoldGuard> guard_;
+    std::optional<GapsThere> there_;
     GapsBack back_;          // from points spread by area: they pull, and say how well the faces fit
     GapsBack corners_;       // from the vertices: among them are the farthest points
     std::vector<Fit> fits_;  // of the faces of the light mesh
@@ -328,7 +357,23 @@ private:
 
 std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
                            std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads) {
-    return Relaxation(original, light, fixed, least_turn, threads)();
+    Relaxation relaxation(original, light, fixed, least_turn, threads);
+    relaxation.settle();
+    return relaxation.take_positions();
+}
+
+Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
+                       std::span<const Index> groups, double least_turn, std::uint32_t threads) {
+    Relaxation relaxation(original, light, fixed, least_turn, threads);
+    Relaxed result;
+    relaxation.settle();
+    for (int round = 1; round < rounds; ++round) {
+        const std::vector<EdgeSwap> swaps = relaxation.swap_edges(groups);
+        result.swaps.insert(result.swaps.end(), swaps.begin(), swaps.end());
+        relaxation.settle();
+    }
+    result.positions = relaxation.take_positions();
+    return result;
 }
 
 }  // namespace faqem::detail

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "gaps.hpp"
+#include "better_edges.hpp"
 
 namespace faqem::detail {
 
@@ -26,5 +26,17 @@ namespace faqem::detail {
 std::vector<engine::Vector3> relax(const Patchwork& original, const Patchwork& light,
                                    std::span<const std::uint8_t> fixed, double least_turn,
                                    std::uint32_t threads);
+
+/// What relax_and_swap() did.
+struct Relaxed {
+    std::vector<engine::Vector3> positions;  ///< of all vertices of light
+    std::vector<EdgeSwap> swaps;             ///< in the order in which they were made
+};
+
+/// relax(), and again after the swap of edges where that brings the surfaces closer.
+/// \param groups  of the triangles of light, or empty: edges between groups are not swapped
+/// The other parameters are those of relax(). Complexity: that of relax(), some times over.
+Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
+                       std::span<const Index> groups, double least_turn, std::uint32_t threads);
 
 }  // namespace faqem::detail

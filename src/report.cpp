@@ -76,6 +76,7 @@ std::string to_json(const Report& report) {
     json["components_pruned"] = report.components_pruned;
     json["faces_pruned"] = report.faces_pruned;
     json["vertices_relaxed"] = report.vertices_relaxed;
+    json["edges_swapped"] = report.edges_swapped;
     json["virtual_edges"] = report.virtual_edges;
     json["pages"] = nlohmann::ordered_json::array();
     for (const BakedPage& page : report.pages) {

@@ -8,6 +8,7 @@
 
 #include "collect.hpp"
 #include "cost_curve.hpp"
+#include "edge_swap.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/importance.hpp"
@@ -306,11 +307,23 @@ private:
             const bool is_seam = !work.wedges.empty() && work.wedges.is_seam(work.complex, v);
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
-        const std::vector<Vector3> relaxed = detail::relax(ground_.whole(), {now, result_.mesh.triangles},
-                                                           fixed, settings_.least_turn, options_.threads);
-        for (std::size_t v = 0; v < now.size(); ++v) {
-            if (relaxed[v] != now[v]) relaxed_.emplace_back(v, prepared_.to_model(relaxed[v]));
+        TriangleMesh& mesh = result_.mesh;
+        const detail::Patchwork light{now, mesh.triangles};
+        detail::Relaxed relaxed;
+        if (work.wedges.empty()) {
+            relaxed = detail::relax_and_swap(ground_.whole(), light, fixed, mesh.face_groups,
+                                             settings_.least_turn, options_.threads);
+        } else {  // a swap would have to say what the corners' attributes are
+            relaxed.positions =
+                detail::relax(ground_.whole(), light, fixed, settings_.least_turn, options_.threads);
         }
+        for (std::size_t v = 0; v < now.size(); ++v) {
+            if (relaxed.positions[v] != now[v])
+                relaxed_.emplace_back(v, prepared_.to_model(relaxed.positions[v]));
+        }
+        for (const auto& [s, t] : relaxed.swaps) detail::swap_edge(mesh.triangles[s], mesh.triangles[t]);
+        swaps_ = std::move(relaxed.swaps);
+        result_.report.edges_swapped = swaps_.size();
     }
 
     void take_relaxed() {
@@ -340,6 +353,11 @@ private:
         history.face_groups.assign(mesh_.face_groups.begin(), mesh_.face_groups.end());
         history.kept_versions = std::move(kept_versions);
         history.kept_faces = result_.face_origin;
+        for (const auto& [s, t] : swaps_) {
+            history.patch_faces.insert(history.patch_faces.end(),
+                                       {history.kept_faces[s], history.kept_faces[t]});
+            history.patch_begin.push_back(history.patch_faces.size());
+        }
         // The history and the mesh say the same, to the last bit.
         for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
             const Index v = history.kept_versions[i];
@@ -360,6 +378,7 @@ private:
     SimplifyResult result_;
     std::vector<Index> slots_;                           // slot of each vertex of the result
     std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go
+    std::vector<detail::EdgeSwap> swaps_;                // faces of the result
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ Distance distance(const Original& original, const SimplifyResult& result, double
     const Settings exact = settings(options);
     const bool exact_weld = exact.weld == Weld::none || exact.weld_distance == 0;
     if (exact_weld && report.collapses == 0 && report.components_deleted == 0 &&
-        report.vertices_relaxed == 0) {
+        report.vertices_relaxed == 0 && report.edges_swapped == 0) {
         return {};
     }
     return original.distance(result.mesh.view(), allowed, look, options.threads);

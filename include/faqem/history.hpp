@@ -37,8 +37,10 @@ struct CollapseHistory {
     std::vector<Index> face_groups;   ///< empty, or F0 groups
     std::vector<Collapse> collapses;  ///< in order
     /// Faces that touched a collapse, just before it: collapse k's are
-    /// patch_faces[patch_begin[k] .. patch_begin[k + 1]), those that vanish in it included.
-    std::vector<std::uint64_t> patch_begin;  ///< collapses.size() + 1, starts with 0
+    /// patch_faces[patch_begin[k] .. patch_begin[k + 1]), those that vanish in it included. The patches
+    /// beyond the collapses are edge swaps after all of them: two faces (a, b, c) and (b, a, d) that became
+    /// (a, d, c) and (b, c, d), not necessarily from that corner on (preset best).
+    std::vector<std::uint64_t> patch_begin;  ///< number of patches + 1, starts with 0
     std::vector<Index> patch_faces;
     std::vector<DeletedFace> deleted_faces;  ///< by time
     std::vector<Index> kept_versions;        ///< version of each vertex of the small mesh, in its order
@@ -48,6 +50,8 @@ struct CollapseHistory {
     std::vector<Vec3> kept_positions;
 
     bool empty() const { return kept_faces.empty(); }
+    /// Collapses, then swaps.
+    std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
         return std::span(patch_faces).subspan(patch_begin[k], patch_begin[k + 1] - patch_begin[k]);
     }

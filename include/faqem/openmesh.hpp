@@ -9,6 +9,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cassert>
+#include <utility>
 #include <vector>
 
 #include "faqem/error.hpp"
@@ -118,7 +119,24 @@ void move(Mesh& mesh, typename Mesh::VertexHandle v, const Vec3& p) {
                                            static_cast<Scalar>(p[2])));
 }
 
-/// Repeats the collapses and deletions of `history` on the mesh it came from.
+/// Swaps the edge between faces f and g as the history tells it: f keeps the vertex where its halfedge on
+/// that edge begins. OpenMesh may give the two new faces the other handles: then these are exchanged.
+template <class Mesh>
+void swap_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHandle& g) {
+    for (const auto h : mesh.fh_range(f)) {
+        if (mesh.opposite_face_handle(h) != g) continue;
+        const auto from = mesh.from_vertex_handle(h);
+        assert(mesh.is_flip_ok(mesh.edge_handle(h)));
+        mesh.flip(mesh.edge_handle(h));
+        bool stays = false;
+        for (const auto v : mesh.fv_range(f)) stays |= v == from;
+        if (!stays) std::swap(f, g);
+        return;
+    }
+    assert(!"the faces of a swap share an edge");
+}
+
+/// Repeats the collapses, deletions and swaps of `history` on the mesh it came from.
 template <class Mesh>
 void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& history) {
     std::vector<typename Mesh::VertexHandle> handle(history.positions.size() + history.collapses.size());
@@ -147,6 +165,10 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     for (const Index f : history.kept_faces) kept[f] = 1;
     for (std::size_t f = 0; f < kept.size(); ++f) {
         if (!kept[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
+    }
+    std::vector<typename Mesh::FaceHandle> faces = arrays.faces;
+    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
+        swap_edge(mesh, faces[history.patch(k)[0]], faces[history.patch(k)[1]]);
     }
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         const Index version = history.kept_versions[i];

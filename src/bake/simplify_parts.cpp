@@ -59,6 +59,7 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.faces_pruned += part.faces_pruned;
     sum.components_deleted += part.components_deleted;
     sum.vertices_relaxed += part.vertices_relaxed;
+    sum.edges_swapped += part.edges_swapped;
     sum.virtual_edges += part.virtual_edges;
     for (const std::string& warning : part.warnings) sum.warnings.push_back(title + ": " + warning);
     sum.seconds.weld += part.seconds.weld;

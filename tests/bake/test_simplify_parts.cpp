@@ -148,6 +148,7 @@ TEST_CASE("the counts of the report are sums over the parts") {
     CHECK(sum.collapses == a.collapses + b.collapses);
     CHECK(sum.vertices_relaxed == a.vertices_relaxed + b.vertices_relaxed);
     CHECK(sum.vertices_relaxed > 0);
+    CHECK(sum.edges_swapped == a.edges_swapped + b.edges_swapped);
 }
 
 TEST_CASE("components are pruned from every part, which keeps its largest") {

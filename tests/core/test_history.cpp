@@ -38,6 +38,18 @@ CollapseHistory with_deleted_part() {
     return h;
 }
 
+// The unit square with its diagonal swapped.
+CollapseHistory swapped() {
+    CollapseHistory h;
+    h.positions = test::quad().positions;
+    h.triangles = test::quad().triangles;
+    h.patch_begin = {0, 2};
+    h.patch_faces = {0, 1};
+    h.kept_versions = {0, 1, 2, 3};
+    h.kept_faces = {0, 1};
+    return h;
+}
+
 std::string bytes(const CollapseHistory& history) {
     std::ostringstream out;
     write(history, out);
@@ -151,6 +163,34 @@ TEST_CASE("where the kept vertices went is written and read, or refused where th
           "history: kept_positions: needs one entry per kept version or none");
 }
 
+TEST_CASE("a swap is written, read and replayed") {
+    CollapseHistory history = swapped();
+    const TriangleMesh mesh = replay(read(bytes(history)));
+    //  3---2        3---2
+    //  | / |   ->   | \ |
+    //  0---1        0---1
+    CHECK(mesh.triangles == std::vector<Triangle>{{2, 3, 1}, {0, 1, 3}});
+    history.patch_faces.insert(history.patch_faces.end(), {1, 0});
+    history.patch_begin.push_back(4);
+    validate(history);
+    CHECK(replay(history).triangles == std::vector<Triangle>{{3, 0, 2}, {1, 2, 0}});
+}
+
+TEST_CASE("a swap needs two faces with one edge in common") {
+    CollapseHistory history = swapped();
+    history.patch_faces = {0, 0};
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: patch_begin[0]: a swap of faces that share no edge");
+    history.patch_faces = {0};
+    history.patch_begin = {0, 1};
+    CHECK(complaint([&] { validate(history); }) == "history: patch_begin[0]: a swap has two faces");
+    history = small();  // face 0 is not kept
+    history.patch_faces.insert(history.patch_faces.end(), {0, 1});
+    history.patch_begin.push_back(4);
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: patch_begin[1]: a swap of faces that share no edge");
+}
+
 TEST_CASE("columns of different length are refused, empty ones too") {
     const std::string text = bytes(with_deleted_part());
     // From the end: kept_faces 1, kept_versions 3, deleted faces 1, their times 1.
@@ -183,7 +223,7 @@ TEST_CASE("lying indices are refused, and the first of them named") {
               h.patch_begin.push_back(2);
           }) == "history: collapses[1]: version collapsed twice");
     for (const std::vector<std::uint64_t>& bad :
-         {std::vector<std::uint64_t>{}, {0}, {0, 1}, {1, 2}, {0, 3}, {0, 0, 2}, {0, ~0ull}}) {
+         {std::vector<std::uint64_t>{}, {0}, {0, 1}, {1, 2}, {0, 3}, {0, 2, 1}, {0, ~0ull}}) {
         CHECK(changed([&](H& h) { h.patch_begin = bad; }) ==
               "history: patch_begin: must rise from 0 to the number of patch faces");
     }

@@ -160,6 +160,28 @@ TEST_CASE("in a plane, projection finds the very same point") {
     CHECK(area == Approx(2.75));
 }
 
+TEST_CASE("points of faces whose edge was swapped are found where they are") {
+    //  3---2        3---2
+    //  | / |   ->   | \ |
+    //  0---1        0---1
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    CollapseHistory history = hand.finish();
+    history.patch_faces = {0, 1};
+    history.patch_begin = {0, 2};
+    validate(history);
+    const TriangleMesh small = replay(history);
+    REQUIRE(small.triangles == std::vector<Triangle>{{2, 3, 1}, {0, 1, 3}});
+    for (const Mapping mapping : {Mapping::projection, Mapping::closest}) {
+        const SurfaceMap map(history, mapping);
+        for (Index f = 0; f < 2; ++f) {
+            for (const Vec3& w : spread(7)) {
+                const SurfacePoint p = map.map(f, w);
+                CHECK(distance(original_point(history, p), small_point(small, f, w)) < 1e-15);
+            }
+        }
+    }
+}
+
 TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
     const CollapseHistory history = grid_with_two_collapses();
     const TriangleMesh small = small_mesh(history);

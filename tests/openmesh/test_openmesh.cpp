@@ -134,6 +134,21 @@ TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshe
     CHECK(is_consistent(mesh));
 }
 
+TEST_CASE("the OpenMesh door swaps the edges that the array door swaps") {
+    Soup soup = torus(40);
+    for (std::size_t v = 0; v < soup.positions.size(); ++v) {
+        for (std::size_t k = 0; k < 3; ++k) soup.positions[v][k] += 0.02 * std::sin(double(v * (3 * k + 7)));
+    }
+    faqem::Options options{.target = faqem::ratio(0.1), .preset = faqem::Preset::best};
+    Mesh mesh = build(soup);
+    const faqem::Report report = faqem::simplify(mesh, options);
+    CHECK(report.edges_swapped > 0);
+    options.topology.link = faqem::LinkCondition::strict;
+    options.topology.weld = faqem::Weld::none;
+    CHECK(face_set(mesh) == face_set(faqem::simplify({soup.positions, soup.triangles}, options).mesh));
+    CHECK(is_consistent(mesh));
+}
+
 TEST_CASE("the OpenMesh door keeps an error as the array door does") {
     const Soup soup = torus(32);
     faqem::Options options{.max_error = faqem::of_diagonal(0.01)};

@@ -1,0 +1,315 @@
+#include "better_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "edge_swap.hpp"
+#include "parallel.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Vector3;
+
+/// As much of the sum must be left at most.
+constexpr double least_gain = 0.98;
+/// The farthest point of the quadrilateral may come this near to the farthest of all, as a share of squares.
+constexpr double far_share = 0.5;
+/// Of the area of the quadrilateral that each new face must have.
+constexpr double least_area = 1e-3;
+/// Cosines: of new faces to the mean of the old ones, between the new faces, and to the faces around.
+constexpr double least_turn = 0.2, least_bend = -0.2, least_fold = -0.9;
+/// Barycentric weights of points that are spread over a face.
+constexpr std::array<Vec3, 10> pattern = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                           {0.2, 0.6, 0.2},
+                                           {0.2, 0.2, 0.6},
+                                           {0.6, 0.2, 0.2},
+                                           {0.1, 0.45, 0.45},
+                                           {0.45, 0.1, 0.45},
+                                           {0.45, 0.45, 0.1},
+                                           {0.075, 0.85, 0.075},
+                                           {0.075, 0.075, 0.85},
+                                           {0.85, 0.075, 0.075}}};
+
+/// How well a surface fits.
+struct Error {
+    double sum = 0;       ///< integral of d^2.5
+    double turn = 0;      ///< integral of the distances between the unit normals
+    double farthest = 0;  ///< squared
+
+    void add(double distance_squared, double weight) {
+        sum += weight * std::pow(distance_squared, 1.25);
+        farthest = std::max(farthest, distance_squared);
+    }
+    void add(const Error& other) {
+        sum += other.sum;
+        turn += other.turn;
+        farthest = std::max(farthest, other.farthest);
+    }
+    bool is_better_than(const Error& other, double far_enough) const {
+        if (!(sum <= least_gain * other.sum)) return false;
+        if (!(farthest <= std::max(other.farthest, far_enough))) return false;
+        return !(turn > other.turn) || sum * turn <= other.sum * other.turn;
+    }
+};
+
+struct Side {
+    Index low, high, face;
+};
+
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
+    std::vector<Side> sides;
+    for (Index f = 0; f < triangles.size(); ++f) {
+        const Triangle& t = triangles[f];
+        if (t[0] == no_index) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+            sides.push_back({low, high, f});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
+    });
+    return sides;
+}
+
+class EdgeSearch {
+public:
+    EdgeSearch(const LightMesh& light, const StillSurface& original, const GapsBack& even,
+               const GapsBack& corners, double area, std::uint32_t threads)
+        : light_(light),
+          original_(original),
+          even_(even),
+          corners_(corners),
+          weight_(area / static_cast<double>(std::max<std::size_t>(even.size(), 1))),
+          threads_(threads),
+          sides_(sorted_sides(light.triangles)) {
+        bind();
+    }
+
+    std::vector<EdgeSwap> operator()() {
+        std::vector<Candidate> candidates = find_candidates();
+        parallel_blocks(candidates.size(), 64, threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) look_back(candidates[i]);
+        });
+        std::erase_if(candidates, [](const Candidate& c) { return !(c.after.sum <= c.before.sum); });
+        measure_faces(candidates);
+        parallel_blocks(candidates.size(), 16, threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) look_there(candidates[i]);
+        });
+        return choose(candidates);
+    }
+
+private:
+    struct Candidate {
+        EdgeSwap faces;
+        Quadrilateral corners;
+        Error before, after;
+        double gain = 0;
+    };
+
+    Vector3 area_vector(const Triangle& t) const { return detail::area_vector(light_.positions, t); }
+    const Vector3& at(Index v) const { return light_.positions[v]; }
+    ClosestPoint closest(const Vector3& p, const Triangle& t) const {
+        return closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2]));
+    }
+
+    /// Sorts the points of the original by the faces that they are closest to: vertices after even points.
+    void bind() {
+        const std::size_t points = even_.size() + corners_.size();
+        const auto face = [&](std::size_t i) {
+            return i < even_.size() ? even_.spot(i).face : corners_.spot(i - even_.size()).face;
+        };
+        begin_.assign(light_.triangles.size() + 1, 0);
+        for (std::size_t i = 0; i < points; ++i) {
+            const double d =
+                i < even_.size() ? even_.gap(i).squaredNorm() : corners_.gap(i - even_.size()).squaredNorm();
+            farthest_ = std::max(farthest_, d);
+            ++begin_[face(i) + std::size_t{1}];
+        }
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        bound_.resize(points);
+        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+        for (std::size_t i = 0; i < points; ++i) bound_[next[face(i)]++] = i;
+    }
+
+    bool has_edge(Index v, Index w) const {
+        const Side wanted{std::min(v, w), std::max(v, w), 0};
+        const auto found = std::lower_bound(
+            sides_.begin(), sides_.end(), wanted,
+            [](const Side& a, const Side& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+        return found != sides_.end() && found->low == wanted.low && found->high == wanted.high;
+    }
+
+    std::vector<Candidate> find_candidates() const {
+        std::vector<Candidate> all;
+        for (std::size_t i = 0, end; i < sides_.size(); i = end) {
+            const Side& side = sides_[i];
+            for (end = i + 1;
+                 end < sides_.size() && sides_[end].low == side.low && sides_[end].high == side.high;)
+                ++end;
+            if (end != i + 2 || (light_.fixed[side.low] && light_.fixed[side.high])) continue;
+            const EdgeSwap faces = {side.face, sides_[i + 1].face};
+            if (!light_.groups.empty() && light_.groups[faces[0]] != light_.groups[faces[1]]) continue;
+            const auto q = quadrilateral(light_.triangles[faces[0]], light_.triangles[faces[1]]);
+            if (q && !has_edge(q->c, q->d) && is_sound(*q)) all.push_back({faces, *q, {}, {}});
+        }
+        return all;
+    }
+
+    /// Would the new faces be no slivers, and look where the old ones did?
+    bool is_sound(const Quadrilateral& q) const {
+        const Vector3 old = area_vector(q.first()) + area_vector(q.second());
+        const Vector3 s = area_vector(q.first_swapped()), t = area_vector(q.second_swapped());
+        const double before = area_vector(q.first()).norm() + area_vector(q.second()).norm();
+        for (const Vector3& n : {s, t}) {
+            if (!(n.norm() > least_area * before) || !(n.dot(old) > least_turn * n.norm() * old.norm()))
+                return false;
+        }
+        if (!(s.dot(t) > least_bend * s.norm() * t.norm())) return false;
+        return !folds(q.c, q.a, s) && !folds(q.a, q.d, s) && !folds(q.d, q.b, t) && !folds(q.b, q.c, t);
+    }
+
+    /// Would a new face on v and w look away from the one beyond that edge?
+    bool folds(Index v, Index w, const Vector3& area) const {
+        bool any = false;
+        for_each_face_on(v, w, [&](const Side& side) {
+            const Vector3 n = area_vector(light_.triangles[side.face]);
+            any |= n.dot(area) < least_fold * n.norm() * area.norm();
+        });
+        return any;
+    }
+
+    template <class Visit>
+    void for_each_face_on(Index v, Index w, Visit&& visit) const {
+        const Index low = std::min(v, w), high = std::max(v, w);
+        auto side = std::lower_bound(
+            sides_.begin(), sides_.end(), std::pair(low, high),
+            [](const Side& a, const std::pair<Index, Index>& b) { return std::pair(a.low, a.high) < b; });
+        for (; side != sides_.end() && side->low == low && side->high == high; ++side) visit(*side);
+    }
+
+    /// From the original's points that are closest to the two faces.
+    void look_back(Candidate& c) const {
+        const Quadrilateral& q = c.corners;
+        const std::array<Triangle, 2> old = {q.first(), q.second()},
+                                      now = {q.first_swapped(), q.second_swapped()};
+        const auto normals = [&](const std::array<Triangle, 2>& faces) {
+            return std::array<Vector3, 2>{area_vector(faces[0]).normalized(),
+                                          area_vector(faces[1]).normalized()};
+        };
+        const std::array<Vector3, 2> old_normals = normals(old), now_normals = normals(now);
+        for (const Index f : c.faces) {
+            for (std::size_t i = begin_[f]; i < begin_[f + std::size_t{1}]; ++i) {
+                const bool is_corner = bound_[i] >= even_.size();
+                const OrientedPoint& p =
+                    is_corner ? corners_.point(bound_[i] - even_.size()) : even_.point(bound_[i]);
+                add(p, old, old_normals, is_corner ? 0 : weight_, c.before);
+                add(p, now, now_normals, is_corner ? 0 : weight_, c.after);
+            }
+        }
+    }
+
+    void add(const OrientedPoint& p, const std::array<Triangle, 2>& faces,
+             const std::array<Vector3, 2>& normals, double weight, Error& error) const {
+        const double first = closest(p.position, faces[0]).distance_squared,
+                     second = closest(p.position, faces[1]).distance_squared;
+        error.add(std::min(first, second), weight);
+        error.turn += weight * (p.normal - normals[second < first]).norm();
+    }
+
+    /// To the original from points of a face.
+    Error from(const Triangle& t) const {
+        Error error;
+        const Vector3 area = area_vector(t), normal = area.normalized();
+        const double weight = 0.5 * area.norm() / static_cast<double>(pattern.size());
+        for (const Vec3& w : pattern) {
+            const Vector3 p = w[0] * at(t[0]) + w[1] * at(t[1]) + w[2] * at(t[2]);
+            const Bvh::Hit hit = original_.tree.closest(engine::to_array(p));
+            error.add(hit.distance_squared, weight);
+            error.turn += weight * (original_.normals[hit.face] - normal).norm();
+        }
+        return error;
+    }
+
+    double from_middle(Index v, Index w) const {
+        return original_.tree.closest(engine::to_array(Vector3(0.5 * (at(v) + at(w))))).distance_squared;
+    }
+
+    /// Each face as it is, once, though it may be a candidate over three edges.
+    void measure_faces(std::span<const Candidate> candidates) {
+        std::vector<Index> wanted;
+        for (const Candidate& c : candidates) wanted.insert(wanted.end(), c.faces.begin(), c.faces.end());
+        std::sort(wanted.begin(), wanted.end());
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+        from_face_.resize(light_.triangles.size());
+        parallel_blocks(wanted.size(), 64, threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                from_face_[wanted[i]] = from(light_.triangles[wanted[i]]);
+            }
+        });
+    }
+
+    /// From points of the faces to the original, if that can still turn out well.
+    void look_there(Candidate& c) const {
+        const Quadrilateral& q = c.corners;
+        for (const Index f : c.faces) c.before.add(from_face_[f]);
+        c.before.farthest = std::max(c.before.farthest, from_middle(q.a, q.b));
+        const double far_enough = far_share * farthest_;
+        for (const Triangle& t : {q.first_swapped(), q.second_swapped()}) {
+            c.after.add(from(t));
+            if (!(c.after.sum <= least_gain * c.before.sum)) return;
+        }
+        c.after.farthest = std::max(c.after.farthest, from_middle(q.c, q.d));
+        if (c.after.is_better_than(c.before, far_enough)) c.gain = c.before.sum - c.after.sum;
+    }
+
+    /// The best ones of which no two touch.
+    std::vector<EdgeSwap> choose(std::vector<Candidate>& candidates) const {
+        std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+        std::vector<EdgeSwap> chosen;
+        std::vector<std::uint8_t> swapped(light_.triangles.size(), 0);
+        std::set<std::pair<Index, Index>> made;
+        for (const Candidate& c : candidates) {
+            const Quadrilateral& q = c.corners;
+            bool is_free = true;
+            for (const auto& [v, w] : {std::pair(q.a, q.b), std::pair(q.b, q.c), std::pair(q.c, q.a),
+                                       std::pair(q.a, q.d), std::pair(q.d, q.b)}) {
+                for_each_face_on(v, w, [&](const Side& side) { is_free &= !swapped[side.face]; });
+            }
+            if (!is_free || !made.insert(std::minmax(q.c, q.d)).second) continue;
+            for (const Index f : c.faces) swapped[f] = 1;
+            chosen.push_back(c.faces);
+        }
+        return chosen;
+    }
+
+    const LightMesh& light_;
+    const StillSurface& original_;
+    const GapsBack& even_;
+    const GapsBack& corners_;
+    double weight_;  // area of an even point
+    std::uint32_t threads_;
+    std::vector<Side> sides_;
+    double farthest_ = 0;             // squared
+    std::vector<std::size_t> begin_;  // of each face in bound_
+    std::vector<std::size_t> bound_;  // points by face
+    std::vector<Error> from_face_;    // of faces of candidates
+};
+
+}  // namespace
+
+std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
+                                   const GapsBack& corners, double area, std::uint32_t threads) {
+    return EdgeSearch(light, original, even, corners, area, threads)();
+}
+
+}  // namespace faqem::detail

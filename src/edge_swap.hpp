@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The edge swap: two triangles trade the diagonal of their quadrilateral.
+
+#include <cstddef>
+#include <optional>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// The corners of triangles (a, b, c) and (b, a, d).
+struct Quadrilateral {
+    Index a, b, c, d;
+
+    Triangle first() const { return {a, b, c}; }
+    Triangle second() const { return {b, a, d}; }
+    Triangle first_swapped() const { return {a, d, c}; }
+    Triangle second_swapped() const { return {b, c, d}; }
+};
+
+/// Nothing where the triangles do not share one edge alone, or are wound differently.
+inline std::optional<Quadrilateral> quadrilateral(const Triangle& s, const Triangle& t) {
+    std::optional<Quadrilateral> found;
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t l = 0; l < 3; ++l) {
+            const Quadrilateral q{s[k], s[(k + 1) % 3], s[(k + 2) % 3], t[(l + 2) % 3]};
+            if (t[l] != q.b || t[(l + 1) % 3] != q.a) continue;
+            if (found || q.a == q.b || q.c == q.d) return std::nullopt;
+            found = q;
+        }
+    }
+    return found;
+}
+
+/// Swaps the edge that s and t share. \return false: they share none that can be, and nothing happens
+inline bool swap_edge(Triangle& s, Triangle& t) {
+    const std::optional<Quadrilateral> q = quadrilateral(s, t);
+    if (!q) return false;
+    s = q->first_swapped();
+    t = q->second_swapped();
+    return true;
+}
+
+}  // namespace faqem::detail

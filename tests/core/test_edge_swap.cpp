@@ -1,0 +1,52 @@
+#include "edge_swap.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace faqem;
+using detail::swap_edge;
+
+//    2            2
+//   / \          /|\       the edge 0-1 becomes 2-3
+//  0---1   ->   0 | 1
+//   \ /          \|/
+//    3            3
+
+TEST_CASE("edge swap: the diagonal moves, and the winding stays") {
+    Triangle s = {0, 1, 2}, t = {1, 0, 3};
+    REQUIRE(swap_edge(s, t));
+    CHECK(s == Triangle{0, 3, 2});
+    CHECK(t == Triangle{1, 2, 3});
+}
+
+TEST_CASE("edge swap: it does not matter where the corners begin") {
+    for (int k = 0; k < 9; ++k) {
+        Triangle s = {0, 1, 2}, t = {1, 0, 3};
+        std::rotate(s.begin(), s.begin() + k % 3, s.end());
+        std::rotate(t.begin(), t.begin() + k / 3, t.end());
+        REQUIRE(swap_edge(s, t));
+        CHECK(s == Triangle{0, 3, 2});
+        CHECK(t == Triangle{1, 2, 3});
+    }
+}
+
+TEST_CASE("edge swap: two of them give the faces back, each as the other") {
+    Triangle s = {0, 1, 2}, t = {1, 0, 3};
+    swap_edge(s, t);
+    REQUIRE(swap_edge(s, t));
+    CHECK(s == Triangle{3, 1, 0});
+    CHECK(t == Triangle{2, 0, 1});
+}
+
+TEST_CASE("edge swap: nothing happens where no single edge is shared in opposite directions") {
+    const auto stays = [](Triangle s, Triangle t) {
+        const Triangle old_s = s, old_t = t;
+        return !swap_edge(s, t) && s == old_s && t == old_t;
+    };
+    CHECK(stays({0, 1, 2}, {3, 4, 5}));
+    CHECK(stays({0, 1, 2}, {1, 3, 4}));
+    CHECK(stays({0, 1, 2}, {0, 1, 3}));  // wound differently
+    CHECK(stays({0, 1, 2}, {1, 0, 2}));  // back to back: all three
+    CHECK(stays({0, 1, 2}, {0, 1, 2}));
+    CHECK(stays({0, 0, 2}, {0, 0, 3}));
+}
