@@ -152,6 +152,7 @@ enum class Normals {
     transfer,  ///< the original's, through the map
     smooth,    ///< those of the result's own faces, averaged up to the crease angle
     flat,      ///< those of the result's own faces, one by one
+    none,      ///< left out, with Bake::none only: for what reads nothing but geometry
 };
 
 /// How baked images are encoded. Images with alpha are PNG in any case.

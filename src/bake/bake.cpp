@@ -42,21 +42,28 @@ void check(const Asset& source, const SmallParts& small) {
     }
 }
 
+// Bare geometry asks the original nothing, unless skins or morph targets come along.
+bool needs_map(const Part& part, const BakeOptions& bake) {
+    const bool is_bare = bake.kind == Bake::none && bake.normals != Normals::transfer;
+    return !is_bare || !part.joints.empty() || !part.morph_targets.empty();
+}
+
 // Maps and normals.
 void map_parts(BakeJob& job, const SmallParts& small) {
     double done = 0;
     for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
         job.poll(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
         SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
-        if (part.faces() > 0) {
+        if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
             part.map = std::make_unique<const SurfaceMap>(part.small->history, job.options.bake.mapping);
         }
         job.parts.push_back(std::move(part));
     }
     for (const SmallPart& part : job.parts) {
         job.poll(Phase::map, 1);
-        job.normals.push_back(part.map ? make_normals(part, job.options.bake, job.options.threads)
-                                       : CornerNormals{});
+        const bool has_normals = part.faces() > 0 && job.options.bake.normals != Normals::none;
+        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.options.threads)
+                                          : CornerNormals{});
     }
 }
 

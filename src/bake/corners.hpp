@@ -17,7 +17,7 @@ struct SmallPart {
     Index index = 0;  ///< into Asset::parts
     const Part* source = nullptr;
     const SimplifyResult* small = nullptr;
-    std::unique_ptr<const SurfaceMap> map;  ///< null where the small mesh has no faces
+    std::unique_ptr<const SurfaceMap> map;  ///< null where the small mesh has no faces, or nothing is asked
 
     std::size_t faces() const { return small->mesh.triangles.size(); }
 };

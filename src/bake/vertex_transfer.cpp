@@ -108,7 +108,7 @@ void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined) {
                 to.morph_targets[m].positions.push_back(
                     blend(target.positions, from.triangles[point.face], point.barycentric));
             }
-            if (target.normals.empty()) continue;
+            if (target.normals.empty() || to.normals.empty()) continue;
             const SurfacePoint own =
                 small.map->map(static_cast<Index>(corner / 3), near_corner(corner % 3, 0.02));
             to.morph_targets[m].normals.push_back(

@@ -27,8 +27,10 @@ constexpr std::array<std::pair<std::string_view, Mapping>, 3> mappings = {
 constexpr std::array<std::pair<std::string_view, NormalMap>, 3> normal_maps = {
     {{"auto", NormalMap::automatic}, {"on", NormalMap::on}, {"off", NormalMap::off}}};
 
-constexpr std::array<std::pair<std::string_view, Normals>, 3> normals = {
-    {{"transfer", Normals::transfer}, {"smooth", Normals::smooth}, {"flat", Normals::flat}}};
+constexpr std::array<std::pair<std::string_view, Normals>, 4> normals = {{{"transfer", Normals::transfer},
+                                                                          {"smooth", Normals::smooth},
+                                                                          {"flat", Normals::flat},
+                                                                          {"none", Normals::none}}};
 constexpr std::array<std::pair<std::string_view, ImageFormat>, 3> image_formats = {
     {{"png", ImageFormat::png}, {"jpeg", ImageFormat::jpeg}, {"source", ImageFormat::source}}};
 
@@ -127,7 +129,7 @@ void add_look_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option(
         "--normals", a.normals,
         "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
-        "to ANGLE degrees, 40), flat");
+        "to ANGLE degrees, 40), flat, none (with --bake none: geometry alone)");
     command.add_option("--image-format", a.image_format,
                        "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
                        "images they are baked from)");

@@ -65,6 +65,15 @@ TEST_CASE("flat normals are those of the faces, at any angle") {
     }
 }
 
+TEST_CASE("normals can be left out where nothing is baked, and no vertex is split then") {
+    const Part part = normals_of(Normals::none, 40);
+    CHECK(part.normals.empty());
+    CHECK(part.positions.size() == 6);
+    Options options;
+    options.bake.normals = Normals::none;
+    CHECK_THROWS_AS(bake(roof(), unchanged(roof()), options), OptionError);
+}
+
 TEST_CASE("baked images are PNG, JPEG, or as what they are baked from") {
     Asset asset = textured_square(ramp(64));
     CHECK(base_image(bake(asset, unchanged(asset), {})).mime_type == "image/png");
