@@ -7,8 +7,10 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "asset/image_size.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -31,7 +33,6 @@ constexpr std::array<Kind, 7> kinds = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png
                                         {{"GIF8", 4}, 0, "image/gif", ".gif"},
                                         {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
-constexpr std::uint64_t max_side = 16384;
 constexpr std::uint64_t max_decoded_bytes = std::uint64_t{1} << 30;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -42,24 +43,39 @@ std::string title(const Image& image) { return image.name.empty() ? "image" : "i
     throw InputError(image.uri, title(image), what);
 }
 
-void check_size(const Image& image, const OIIO::ImageSpec& spec) {
-    const bool positive = spec.width > 0 && spec.height > 0 && spec.depth == 1 && spec.nchannels > 0;
-    const auto width = static_cast<std::uint64_t>(spec.width),
-               height = static_cast<std::uint64_t>(spec.height);
-    if (!positive || width > max_side || height > max_side || width * height * 4 > max_decoded_bytes)
-        fail(image, "is " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                        " pixels, at most 16384 x 16384 are read");
+std::string text_of(const ImageSize& size) {
+    return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
-/// Deflate makes at most 1032 bytes of one (zlib, "Technical Details"). A PNG too short for its pixels is
-/// found out before there is memory for them.
-void check_png_length(const Image& image, const OIIO::ImageSpec& spec) {
+void check_size(const Image& image, const ImageSize& size) {
+    if (size.width == 0 || size.height == 0 || size.width > max_image_side || size.height > max_image_side ||
+        size.pixels() * 4 > max_decoded_bytes)
+        fail(image, "is " + text_of(size) + " pixels, at most " + text_of({max_image_side, max_image_side}) +
+                        " are read");
+}
+
+[[noreturn]] void fail_length(const Image& image, const ImageSize& size) {
+    fail(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
+                    text_of(size) + " pixels");
+}
+
+/// Decoders take memory by what the header says, some of them when they open an image.
+void check_header(const Image& image) {
+    const std::optional<ImageSize> size = declared_size(image.encoded);
+    if (!size) fail(image, "is damaged: its header does not say how large it is");
+    check_size(image, *size);
+    if (!can_hold(image.encoded, *size)) fail_length(image, *size);
+}
+
+/// What the decoder is going to make. A PNG too short for its pixels is found out before there is memory for
+/// them: deflate makes at most 1032 bytes of one (zlib, "Technical Details").
+void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::string& format) {
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
+        fail(image, "is not a picture of one layer");
+    const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
+    check_size(image, size);
     const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-    if (pixels * bits / 8 / 1032 > image.encoded.size())
-        fail(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
-                        std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
+    if (format == "png" && size.pixels() * bits / 8 / 1032 > image.encoded.size()) fail_length(image, size);
 }
 
 /// Spreads 1 to 4 channels to RGBA from the last pixel to the first, in place.
@@ -150,6 +166,7 @@ Pixels decode(const Image& image) {
         throw UnsupportedError(image.uri, detail::title(image),
                                (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") +
                                    ", only " + detail::decodable_images() + " are");
+    detail::check_header(image);
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::string format = type.substr(6);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -159,8 +176,7 @@ Pixels decode(const Image& image) {
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (!input->open("memory." + format, spec, config))
         detail::fail(image, detail::first_line(input->geterror()));
-    detail::check_size(image, spec);
-    if (format == "png") detail::check_png_length(image, spec);
+    detail::check_spec(image, spec, format);
 
     Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(spec.width);

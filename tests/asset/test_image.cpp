@@ -176,6 +176,41 @@ TEST_CASE("a PNG too short for its pixels is refused before there is memory for 
     CHECK(contains(message, "cannot hold 16384 x 16384 pixels"));
 }
 
+TEST_CASE("a JPEG or WebP too short for its pixels is refused before there is memory for them") {
+    // Up to its first frame, which is all that is looked at.
+    const auto jpeg = [](const std::string& size) {
+        return bytes_of_hex(
+                   "ffd8"
+                   "fffe0004ffc0"
+                   "00ffc0000b08" +
+                   size + "01011100") +
+               std::string(100, '\0');
+    };
+    const auto refused = [](const std::string& bytes) {
+        return message_of<InputError>([&] { decode(image_of(bytes)); });
+    };
+    CHECK(contains(refused(jpeg("40003fff")), "image 'x': is damaged: 122 bytes cannot hold 16383 x 16384"));
+    CHECK(contains(refused(jpeg("4001"
+                                "0001")),
+                   "is 1 x 16385 pixels, at most 16384 x 16384"));
+    CHECK(contains(refused(jpeg("0000"
+                                "0001")),
+                   "is 1 x 0 pixels"));
+    CHECK(contains(refused("\xff\xd8\xff\xe0"), "does not say how large it is"));
+    if (!detail::can_decode_image("image/webp")) return;
+    const auto webp = [](const std::string& chunk) {
+        return "RIFF" + std::string(4, '\x7f') + "WEBP" + chunk + std::string(4, '\0');
+    };
+    // 16384 x 16384, lossless; 16383 x 16383; a canvas of 16383 x 16777216
+    CHECK(contains(refused(webp("VP8L" + bytes_of_hex("0d0000002fffffff0f") + std::string(9, '\0'))),
+                   "cannot hold 16384 x 16384"));
+    CHECK(contains(refused(webp("VP8 " + bytes_of_hex("0d0000000000009d012aff3fff3f"))),
+                   "cannot hold 16383 x 16383"));
+    CHECK(contains(refused(webp("VP8X" + bytes_of_hex("0a00000010000000fe3f00ffffff"))),
+                   "is 16383 x 16777216 pixels"));
+    CHECK(contains(refused(webp("JUNK" + std::string(20, '\0'))), "does not say how large it is"));
+}
+
 TEST_CASE("damaged images are errors") {
     const Image whole = encode_png(Pixels{64, 64, Bytes(64 * 64 * 4, 77), true}, "x");
     for (const std::size_t size : {std::size_t{8}, std::size_t{20}, whole.encoded.size() / 2}) {
