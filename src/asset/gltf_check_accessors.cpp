@@ -130,7 +130,7 @@ void check_accessors(const GltfChecker& checker) {
     const Json& accessors = member(checker.document, "accessors");
     const std::uint64_t file_bytes = total_bytes(checker.document);
     const std::uint64_t packed =
-        file_bytes < UINT64_MAX / most_per_byte ? file_bytes * most_per_byte : UINT64_MAX;
+        always_believed + std::min(file_bytes, UINT64_MAX / most_per_byte - always_believed) * most_per_byte;
     const std::vector<char> draco = draco_accessors(checker.document);
     for (std::uint64_t i = 0; i < accessors.size(); ++i)
         check_accessor(checker, accessors[i], step("/accessors", i), draco[i] ? packed : file_bytes);

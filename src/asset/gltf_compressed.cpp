@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "faqem/error.hpp"
@@ -15,6 +15,12 @@ constexpr std::uint64_t most_meshopt_ratio = 128;  // the vertex codec makes at 
 [[maybe_unused]] std::span<const std::uint8_t> part_of(const std::vector<std::uint8_t>& buffer,
                                                        const Json& holder) {
     return std::span(buffer).subspan(number_of(holder, "byteOffset", 0), number_of(holder, "byteLength", 0));
+}
+
+std::uint64_t buffer_bytes(const SourceDocument& source) {
+    std::uint64_t sum = 0;
+    for (const auto& buffer : source.buffers) sum += buffer.size();
+    return sum;
 }
 
 /// Adds bytes as a buffer of their own. \return its index
@@ -30,16 +36,18 @@ void erase_extension(Json& holder, const char* name) {
     if (holder["extensions"].empty()) holder.erase("extensions");
 }
 
-void unpack_views(SourceDocument& source, [[maybe_unused]] const std::string& file) {
+void unpack_views(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("bufferViews")) return;
+    [[maybe_unused]] Allowance left(most_meshopt_ratio * buffer_bytes(source), file);
     Json& views = source.document["bufferViews"];
     for (std::uint64_t i = 0; i < views.size(); ++i) {
 #ifdef FAQEM_WITH_MESHOPT
         const Json& packed = meshopt_of(source.document, views[i]);
         if (!packed.is_null()) {
-            std::vector<std::uint8_t> bytes =
-                decode_meshopt(packed, part_of(source.buffers[index_of(packed, "buffer")], packed), file,
-                               step("/bufferViews", i));
+            const std::string where = step("/bufferViews", i);
+            left.take(number_of(views[i], "byteLength", 0), where, meshopt_name);
+            std::vector<std::uint8_t> bytes = decode_meshopt(
+                packed, part_of(source.buffers[index_of(packed, "buffer")], packed), file, where);
             views[i]["buffer"] = add_buffer(source, std::move(bytes));
             views[i].erase("byteOffset");
         }
@@ -60,11 +68,22 @@ void set_bytes(SourceDocument& source, Json& accessor, std::vector<std::uint8_t>
     views.push_back({{"buffer", buffer}, {"byteLength", size}});
 }
 
-std::vector<std::uint8_t> as_type(const std::vector<std::uint32_t>& corners, ComponentType type) {
+/// Nothing where the type is too small for a corner.
+std::optional<std::vector<std::uint8_t>> as_type(const std::vector<std::uint32_t>& corners,
+                                                 ComponentType type) {
     const std::uint32_t size = component_size(static_cast<std::uint64_t>(type));
+    const std::uint64_t end = std::uint64_t{1} << 8 * size;
+    if (std::any_of(corners.begin(), corners.end(), [end](std::uint32_t v) { return v >= end; })) return {};
     std::vector<std::uint8_t> bytes(corners.size() * size);
     for (std::size_t i = 0; i < corners.size(); ++i) std::memcpy(&bytes[i * size], &corners[i], size);
     return bytes;
+}
+
+/// Corners and vertices; all attributes have as many of these.
+std::uint64_t draco_elements(const Json& document, const Json& primitive) {
+    const Json& accessors = document["accessors"];
+    const auto count = [&](std::uint64_t accessor) { return number_of(accessors[accessor], "count", 0); };
+    return count(index_of(primitive, "indices")) + count(primitive["attributes"].front().get<Index>());
 }
 
 void unpack_primitive(SourceDocument& source, const Json& primitive, const std::string& file,
@@ -87,24 +106,31 @@ void unpack_primitive(SourceDocument& source, const Json& primitive, const std::
         decode_draco(part_of(source.buffers[index_of(view, "buffer")], view),
                      number_of(accessors[targets.front()], "count", 0), number_of(indices, "count", 0),
                      attributes, file, where);
+    auto typed = as_type(corners, static_cast<ComponentType>(number_of(indices, "componentType", 0)));
+    if (!typed)
+        throw InputError(file, where,
+                         std::string(draco_name) + ": has vertices beyond the type of the indices");
     for (std::size_t i = 0; i < targets.size(); ++i)
         set_bytes(source, accessors[targets[i]], std::move(attributes[i].bytes));
-    set_bytes(source, indices,
-              as_type(corners, static_cast<ComponentType>(number_of(indices, "componentType", 0))));
+    set_bytes(source, indices, std::move(*typed));
 }
 
 #endif
 
-void unpack_primitives(SourceDocument& source, [[maybe_unused]] const std::string& file) {
+void unpack_primitives(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("meshes")) return;
+    [[maybe_unused]] Allowance left(always_believed + most_per_byte * buffer_bytes(source), file);
     Json& meshes = source.document["meshes"];
     for (std::uint64_t m = 0; m < meshes.size(); ++m) {
         if (!meshes[m].contains("primitives")) continue;
         Json& primitives = meshes[m]["primitives"];
         for (std::uint64_t p = 0; p < primitives.size(); ++p) {
 #ifdef FAQEM_WITH_DRACO
-            if (needs_draco(source.document, primitives[p]))
-                unpack_primitive(source, primitives[p], file, step(step("/meshes", m) + "/primitives", p));
+            if (needs_draco(source.document, primitives[p])) {
+                const std::string where = step(step("/meshes", m) + "/primitives", p);
+                left.take(draco_elements(source.document, primitives[p]), where, draco_name);
+                unpack_primitive(source, primitives[p], file, where);
+            }
 #endif
             erase_extension(primitives[p], draco_name);
         }
@@ -112,6 +138,14 @@ void unpack_primitives(SourceDocument& source, [[maybe_unused]] const std::strin
 }
 
 }  // namespace
+
+void Allowance::take(std::uint64_t amount, const std::string& where, const char* extension) {
+    if (amount > left_)
+        throw InputError(
+            file_, where,
+            std::string(extension) + ": is more than all buffers can hold, with what is before it");
+    left_ -= amount;
+}
 
 bool can_decode([[maybe_unused]] std::string_view extension) {
 #ifdef FAQEM_WITH_MESHOPT

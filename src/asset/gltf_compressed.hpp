@@ -44,11 +44,27 @@ void check_draco(const GltfChecker& checker, const Json& primitive, const std::s
 /// By accessor: nonzero where Draco data may vouch for its count. Asks nothing of the meshes' validity.
 std::vector<char> draco_accessors(const Json& document);
 
-/// At most so many elements per compressed byte are believed.
-inline constexpr std::uint64_t most_per_byte = 4096;
+/// So many elements of a Draco mesh are believed of few bytes, and so many of each byte in all: a header may
+/// say anything, and memory is taken by what it says.
+inline constexpr std::uint64_t always_believed = std::uint64_t{1} << 22, most_per_byte = 256;
+
+/// How much may still be unpacked of a file: that grows with the bytes there are, not with how often they are
+/// referred to.
+class Allowance {
+public:
+    /// \param file  for messages; borrowed
+    Allowance(std::uint64_t amount, const std::string& file) : left_(amount), file_(file) {}
+    /// \throws InputError  less is left
+    void take(std::uint64_t amount, const std::string& where, const char* extension);
+
+private:
+    std::uint64_t left_;
+    const std::string& file_;
+};
 
 /// Unpacks every compressed view and primitive that has no plain data into new buffers, and takes the
-/// extensions out of the document. \pre the document is valid \throws InputError  damaged data
+/// extensions out of the document. \pre the document is valid \throws InputError  damaged data, or more than
+/// all buffers can hold
 void decompress(SourceDocument& source, const std::string& file);
 
 /// The elements of a meshopt view. \param extension  checked \throws InputError

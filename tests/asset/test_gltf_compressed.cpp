@@ -2,13 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "asset/gltf_builder.hpp"
+#include "asset/gltf_compressed_builder.hpp"
 #include "asset/image.hpp"
 
-#ifdef FAQEM_WITH_DRACO
-#include <draco/compression/encode.h>
-#include <draco/mesh/triangle_soup_mesh_builder.h>
-#endif
 #ifdef FAQEM_WITH_MESHOPT
 #include <meshoptimizer.h>
 #endif
@@ -17,35 +13,6 @@ using namespace faqem;
 using namespace faqem::testing;
 
 namespace {
-
-// A view for `count` elements of `stride` bytes that lies in buffer 1, which has no bytes, and is packed in
-// buffer 0.
-[[maybe_unused]] std::size_t packed_view(GltfBuilder& builder, const std::vector<unsigned char>& packed,
-                                         std::size_t count, std::size_t stride, const char* mode,
-                                         std::size_t& end) {
-    const Json from = builder.json["bufferViews"][builder.view(packed)];
-    builder.json["bufferViews"].erase(builder.json["bufferViews"].size() - 1);
-    const Json extension = {{"buffer", 0},
-                            {"byteOffset", from["byteOffset"]},
-                            {"byteLength", packed.size()},
-                            {"byteStride", stride},
-                            {"count", count},
-                            {"mode", mode}};
-    const std::size_t offset = end;
-    end += (count * stride + 3) / 4 * 4;
-    return builder.add("bufferViews", {{"buffer", 1},
-                                       {"byteOffset", offset},
-                                       {"byteLength", count * stride},
-                                       {"extensions", {{"EXT_meshopt_compression", extension}}}});
-}
-
-[[maybe_unused]] Json& packed_of(GltfBuilder& builder, std::size_t view) {
-    return builder.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
-}
-
-void name_extension(GltfBuilder& builder, const char* name) {
-    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
-}
 
 void check_square(const Asset& asset) {
     REQUIRE(asset.parts.size() == 1);
@@ -78,39 +45,6 @@ TEST_CASE("without a decoder the error names the extension and the library") {
 }
 
 #ifdef FAQEM_WITH_MESHOPT
-
-namespace {
-
-// The square, its vertices and indices packed.
-GltfBuilder packed_square() {
-    GltfBuilder builder;
-    std::vector<unsigned char> vertices(meshopt_encodeVertexBufferBound(4, 12)), indices;
-    vertices.resize(
-        meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), square.data(), 4, sizeof(Vec3f)));
-    const std::vector<unsigned> corners(square_corners.begin(), square_corners.end());
-    indices.resize(meshopt_encodeIndexBufferBound(6, 4));
-    indices.resize(meshopt_encodeIndexBuffer(indices.data(), indices.size(), corners.data(), 6));
-    std::size_t end = 0;
-    const auto positions =
-        builder.add("accessors", {{"bufferView", packed_view(builder, vertices, 4, 12, "ATTRIBUTES", end)},
-                                  {"componentType", f32},
-                                  {"type", "VEC3"},
-                                  {"count", 4}});
-    builder.json["bufferViews"][0]["byteStride"] = 12;
-    const auto order =
-        builder.add("accessors", {{"bufferView", packed_view(builder, indices, 6, 2, "TRIANGLES", end)},
-                                  {"componentType", u16},
-                                  {"type", "SCALAR"},
-                                  {"count", 6}});
-    builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", order}});
-    builder.json["buffers"] = {
-        {{"byteLength", builder.bin.size()}},
-        {{"byteLength", end}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
-    name_extension(builder, "EXT_meshopt_compression");
-    return builder;
-}
-
-}  // namespace
 
 TEST_CASE("meshopt: compressed vertices and triangles are read, and written plain") {
     const Asset asset = load_glb(packed_square());
@@ -176,6 +110,37 @@ TEST_CASE("meshopt: sizes that so few bytes cannot hold are refused before there
     CHECK(contains(refusal(builder), "/accessors/0/count"));
 }
 
+TEST_CASE("meshopt: the same bytes are not unpacked again and again") {
+    GltfBuilder builder = packed_square();
+    const Json view = builder.json["bufferViews"][0];
+    for (int i = 0; i < 1000; ++i) builder.json["bufferViews"].push_back(view);
+    CHECK(contains(refusal(builder), "EXT_meshopt_compression: is more than all buffers can hold"));
+}
+
+TEST_CASE("meshopt: every truncation and every changed byte is an error or a mesh, never a crash") {
+    const GltfBuilder good = packed_square();
+    for (const std::size_t view : {0u, 1u}) {
+        GltfBuilder of_view = good;
+        const Json packed = packed_of(of_view, view);
+        const auto offset = packed["byteOffset"].get<std::size_t>();
+        const auto length = packed["byteLength"].get<std::size_t>();
+        for (std::size_t i = 0; i < length; ++i) {
+            GltfBuilder cut = good;
+            packed_of(cut, view)["byteLength"] = i;
+            INFO(view << " cut at " << i);
+            CHECK(contains(refusal(cut), "/bufferViews/" + std::to_string(view)));
+            for (const int change : {1, 0x80, 0xff}) {
+                GltfBuilder builder = good;
+                builder.bin[offset + i] = static_cast<char>(builder.bin[offset + i] ^ change);
+                try {
+                    load_glb(builder);
+                } catch (const Error&) {
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("meshopt: octahedral normals and exponential positions are filtered") {
     const float x = 0.6f, y = -0.8f;
     const float normal[4] = {x, y, 0, 0};
@@ -193,44 +158,6 @@ TEST_CASE("meshopt: octahedral normals and exponential positions are filtered") 
 
 #endif
 #ifdef FAQEM_WITH_DRACO
-
-namespace {
-
-enum class Method { edgebreaker = 1, sequential = 0 };
-
-// The square in Draco, no plain data beside it.
-GltfBuilder draco_square(Method method) {
-    draco::TriangleSoupMeshBuilder soup;
-    soup.Start(2);
-    const int at = soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-    for (int f = 0; f < 2; ++f) {
-        const auto corner = [&](int c) { return square[square_corners[std::size_t(3 * f + c)]].data(); };
-        soup.SetAttributeValuesForFace(at, draco::FaceIndex(std::uint32_t(f)), corner(0), corner(1),
-                                       corner(2));
-    }
-    const std::unique_ptr<draco::Mesh> mesh = soup.Finalize();
-    draco::Encoder encoder;
-    encoder.SetEncodingMethod(int(method));
-    draco::EncoderBuffer buffer;
-    REQUIRE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
-    GltfBuilder builder;
-    const auto view = builder.view(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
-    const auto positions = builder.add("accessors", {{"componentType", f32}, {"type", "VEC3"}, {"count", 4}});
-    const auto corners = builder.add("accessors", {{"componentType", u16}, {"type", "SCALAR"}, {"count", 6}});
-    const Json extension = {{"bufferView", view},
-                            {"attributes", {{"POSITION", mesh->attribute(at)->unique_id()}}}};
-    builder.mesh({{"attributes", {{"POSITION", positions}}},
-                  {"indices", corners},
-                  {"extensions", {{"KHR_draco_mesh_compression", extension}}}});
-    name_extension(builder, "KHR_draco_mesh_compression");
-    return builder;
-}
-
-Json& draco_of(GltfBuilder& builder) {
-    return builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
-}
-
-}  // namespace
 
 TEST_CASE("draco: compressed meshes are read, and written plain") {
     for (const Method method : {Method::edgebreaker, Method::sequential}) {
@@ -256,6 +183,46 @@ TEST_CASE("draco: counts that differ from the accessors' are refused before anyt
         builder.json["accessors"][0]["count"] = std::uint64_t{1} << 40;
         CHECK(contains(refusal(builder), "/accessors/0/count"));
     }
+}
+
+TEST_CASE("draco: counts and ids that no file has are refused, by element") {
+    for (const std::uint64_t huge : {std::uint64_t{1} << 62, UINT64_MAX}) {
+        for (const std::size_t accessor : {0u, 1u}) {
+            GltfBuilder builder = draco_square(Method::sequential);
+            builder.json["accessors"][accessor]["count"] = huge;
+            CHECK(contains(refusal(builder), "/accessors/" + std::to_string(accessor) + "/count: is " +
+                                                 std::to_string(huge) + " without a bufferView"));
+        }
+    }
+    for (const Json& id : {Json(std::uint64_t{1} << 32), Json(-1), Json(0.5), Json("0")}) {
+        GltfBuilder builder = draco_square(Method::sequential);
+        draco_of(builder)["attributes"]["POSITION"] = id;
+        CHECK(contains(refusal(builder),
+                       "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/"
+                       "attributes/POSITION: is not an unsigned 32-bit integer"));
+    }
+    GltfBuilder builder = draco_square(Method::sequential);
+    builder.json["accessors"][1]["count"] = 3'000'000;
+    CHECK(contains(refusal(builder), "has 2 faces, the indices are 3000000"));
+    builder.json["accessors"][1]["count"] = 5'000'000;
+    CHECK(contains(refusal(builder), "/accessors/1/count"));
+}
+
+TEST_CASE("draco: what is unpacked may not grow with how often the same bytes are referred to") {
+    const std::string file = "a.glb";
+    detail::Allowance left(10, file);
+    left.take(7, "/meshes/0", "X");
+    left.take(3, "/meshes/1", "X");
+    CHECK_THROWS_WITH(left.take(1, "/meshes/2", "X"),
+                      "a.glb: /meshes/2: X: is more than all buffers can hold, with what is before it");
+    CHECK_THROWS_AS(left.take(UINT64_MAX, "", ""), InputError);
+}
+
+TEST_CASE("draco: corners that the type of the indices cannot name are refused, not cut off") {
+    GltfBuilder strip = draco_strip(300);
+    CHECK(load_glb(strip).parts[0].triangles.size() == 300);
+    strip.json["accessors"][1]["componentType"] = u8;
+    CHECK(contains(refusal(strip), "has vertices beyond the type of the indices"));
 }
 
 TEST_CASE("draco: damaged and contradictory data is refused, by primitive") {
@@ -307,16 +274,7 @@ TEST_CASE("draco: every truncation and every changed byte is an error or a mesh,
 #endif
 
 TEST_CASE("textures whose only image is WebP are read where OpenImageIO can, and stay WebP") {
-    // 1 x 1, lossless, one red pixel.
-    const std::vector<std::uint8_t> webp = {
-        'R', 'I', 'F', 'F',  0x1a, 0, 0, 0,    'W', 'E',  'B',  'P',  'V',  'P',  '8',  'L', 0x0d,
-        0,   0,   0,   0x2f, 0,    0, 0, 0x10, 7,   0x10, 0x11, 0x11, 0x88, 0x88, 0xfe, 7,   0};
-    GltfBuilder builder = square_gltf();
-    builder.add("images", {{"bufferView", builder.view(webp)}, {"mimeType", "image/webp"}});
-    builder.json["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
-    builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
-    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
-    name_extension(builder, "EXT_texture_webp");
+    const GltfBuilder builder = webp_square();
     if (!detail::can_decode_image("image/webp")) {
         CHECK(contains(refusal<UnsupportedError>(builder), "EXT_texture_webp"));
         return;
