@@ -90,9 +90,14 @@ Part part_of(fuzz::Input& in, std::size_t materials) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::Input in(fuzz::Bytes(data, size));
     Options options = fuzz::options_of(in);
-    const std::uint8_t bits = in.byte();
-    options.bake.kind = static_cast<Bake>(bits % 4);
-    options.bake.mapping = bits & 4 ? Mapping::lineage : Mapping::projection;
+    const std::uint8_t bits = in.byte(), kinds = in.byte(), more = in.byte();
+    options.bake.kind = static_cast<Bake>(kinds % 6);
+    options.bake.mapping = static_cast<Mapping>(kinds / 6 % 3);
+    options.bake.normals = static_cast<Normals>(kinds / 18 % 3);
+    options.bake.normal_map = static_cast<NormalMap>(more % 3);
+    options.bake.image_format = static_cast<ImageFormat>(more / 3 % 3);
+    options.bake.crease_angle = more / 9 * 8;
+    if (makes_atlas(options.bake.kind) && bits & 4) options.bake.correspondence = Recording::on;
     options.bake.texture_size = bits & 8 ? 128 : 64;
     options.bake.samples = bits & 16 ? 2 : 1;
     options.budget = bits & 32 ? Budget::mesh : Budget::scene;
@@ -103,6 +108,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const LightAsset light = simplify(asset, options);
         fuzz::expect_sound(light.asset);
+        for (const PageOrigins& page : light.correspondence)
+            fuzz::expect(page.texels.size() == std::size_t{page.width} * page.height, "every texel's origin");
         if (fuzz::face_count(light.asset) > 0) fuzz::written_and_read(light.asset, "a.glb");
     } catch (const InputError&) {
     } catch (const OptionError&) {

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 seconds=${1:?usage: tests/fuzz/run.sh SECONDS [TARGET...]}
 shift
 build=build/fuzz
-[ $# -gt 0 ] || set -- bake glb gltf history image mtl obj off ply simplify stl
+[ $# -gt 0 ] || set -- bake blocks glb gltf history image mtl obj off ply simplify stl
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds"
 scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # files are written and read again: not on a disk
 trap 'rm -rf "$scratch"' EXIT

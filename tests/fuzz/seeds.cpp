@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "asset/gltf_builder.hpp"
+#include "asset/gltf_compressed_builder.hpp"
 #include "bake/scenes.hpp"
 #include "faqem/bake.hpp"
 
@@ -100,6 +100,16 @@ void gltf_seeds() {
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     write("strip", strip);
+    write("webp", testing::webp_square());
+#ifdef FAQEM_WITH_DRACO
+    for (const testing::Method method : {testing::Method::edgebreaker, testing::Method::sequential})
+        for (const int bits : {0, 11})
+            write("draco-" + std::to_string(int(method)) + "-" + std::to_string(bits),
+                  testing::draco_square(method, bits));
+#endif
+#ifdef FAQEM_WITH_MESHOPT
+    write("meshopt", testing::packed_square());
+#endif
 }
 
 /// Files of the other formats, as we write them and as others do.
@@ -169,12 +179,14 @@ void image_seeds() {
     write("opaque.png", encode_png(pixels, ""));
     pixels.has_alpha = true;
     write("alpha.png", encode_png(pixels, ""));
+    put("image", "small.webp",
+        {reinterpret_cast<const char*>(testing::small_webp.data()), testing::small_webp.size()});
 }
 
 /// These targets take any bytes: the first says which preset, the rest is drawn.
 void drawn_seeds() {
     std::mt19937 random(1);
-    for (const std::string target : {"simplify", "bake"})
+    for (const std::string target : {"simplify", "blocks", "bake"})
         for (char number = 0; number < 24; ++number) {
             std::string bytes(1, number);
             while (bytes.size() < 400) bytes.push_back(static_cast<char>(random() % 224));

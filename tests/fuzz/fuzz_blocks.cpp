@@ -1,0 +1,194 @@
+// Blocks as simplify() uses them, memoryless and then with distances watched, but of few vertices each: a
+// mesh that is large enough to be cut there would take seconds here.
+
+#include <map>
+#include <utility>
+
+#include "blocks.hpp"
+#include "fuzz/fuzz.hpp"
+#include "ground.hpp"
+#include "presets.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using engine::Complex;
+
+namespace {
+
+using fuzz::expect;
+
+/// A surface of some hundred vertices, and a soup beside it.
+TriangleMesh surface_of(fuzz::Input& in) {
+    TriangleMesh mesh;
+    switch (in.byte() % 8) {
+        case 0:
+            mesh = test::icosphere(3);
+            break;
+        case 1:
+            mesh = test::grid(12 + in.below(20));
+            break;
+        case 2:
+            mesh = test::torus(16 + in.below(24), 10 + in.below(16));
+            break;
+        case 3:
+            mesh = test::globe(10 + in.below(10), 1);
+            break;
+        case 4:
+            mesh = test::cylinder(16 + in.below(24), 10 + in.below(16), 2);
+            break;
+        case 5:
+            mesh = test::soup(in.byte(), 300, 800);
+            break;
+        case 6:
+            mesh = test::both(test::icosphere(2), test::grid(8 + in.below(16)));
+            break;
+        default:
+            break;
+    }
+    if (const std::uint8_t amount = in.byte() % 8)
+        mesh = test::shaken(std::move(mesh), 0.01 * amount, amount);
+    return in.flag() ? mesh : test::both(std::move(mesh), fuzz::mesh_of(in));
+}
+
+engine::LoopOptions loop_of(fuzz::Input& in, const Ground& ground) {
+    constexpr LinkCondition links[] = {LinkCondition::by_size, LinkCondition::on, LinkCondition::off};
+    engine::LoopOptions loop;
+    const std::uint8_t bits = in.byte();
+    loop.rules = {links[bits % 3], bits & 4 ? 0.3 : -1, 1e-8, bits & 8 ? -0.9 : -1};
+    if (bits & 16) loop.distance_weight = ground.area() / (1 + in.byte());
+    return loop;
+}
+
+/// Is every edge of two faces, and are those around each vertex one fan?
+bool is_closed_manifold(std::span<const Triangle> triangles) {
+    std::map<Index, std::map<Index, std::vector<Index>>> rings;  // vertex -> neighbours on its ring
+    for (const Triangle& t : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            auto& ring = rings[t[i]];
+            ring[t[(i + 1) % 3]].push_back(t[(i + 2) % 3]);
+            ring[t[(i + 2) % 3]].push_back(t[(i + 1) % 3]);
+        }
+    }
+    return std::all_of(rings.begin(), rings.end(), [](const auto& of_vertex) {
+        const auto& ring = of_vertex.second;
+        if (std::any_of(ring.begin(), ring.end(), [](const auto& at) { return at.second.size() != 2; }))
+            return false;
+        const Index first = ring.begin()->first;
+        std::size_t steps = 1;
+        for (Index before = first, now = ring.at(first)[0]; now != first; ++steps) {
+            const auto& ends = ring.at(now);
+            const Index next = ends[ends[0] == before ? 1 : 0];
+            before = std::exchange(now, next);
+        }
+        return steps == ring.size();
+    });
+}
+
+int euler(std::span<const Triangle> triangles) {
+    return test::euler(std::vector<Triangle>(triangles.begin(), triangles.end()));
+}
+
+/// Does the steps one after the other, as an engine would have.
+void expect_steps(const BlockInput& input, const BlockSteps& found, const Reduced& reduced) {
+    Complex complex({input.positions.begin(), input.positions.end()},
+                    {input.triangles.begin(), input.triangles.end()});
+    std::vector<std::uint8_t> waits(input.locked.begin(), input.locked.end());
+    for (const Triangle& t : input.triangles) {
+        if (!input.is_between_blocks(t)) continue;
+        for (const Index v : t) waits[v] = 1;
+    }
+    expect(found.patch_begin.size() == found.steps.size(), "a patch for every step");
+    for (std::size_t i = 0; i < found.steps.size(); ++i) {
+        const auto& [survivor, gone, to] = found.steps[i];
+        expect(survivor < input.positions.size() && gone < input.positions.size(), "slots in range");
+        expect(complex.degree(survivor) > 0 && complex.degree(gone) > 0, "vertices that are there");
+        expect(!waits[gone], "what is locked or between blocks stays");
+        expect(!waits[survivor] || to == complex.position(survivor), "what is locked does not move");
+        expect(std::isfinite(to.squaredNorm()), "finite places");
+        std::vector<Index> patch;
+        complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.push_back(f); });
+        const std::size_t begin = found.patch_begin[i];
+        const std::size_t end =
+            i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
+        expect(begin <= end && end <= found.patch_faces.size(), "patches in order");
+        std::vector<Index> told(found.patch_faces.begin() + static_cast<std::ptrdiff_t>(begin),
+                                found.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
+        std::sort(patch.begin(), patch.end());
+        std::sort(told.begin(), told.end());
+        expect(patch == told, "the faces of a step");
+        complex.collapse(survivor, gone, to);
+    }
+    expect(reduced.triangles.size() == complex.face_count(), "the same number of faces");
+    expect(reduced.positions.size() == reduced.vertices.size() &&
+               reduced.places.size() == reduced.vertices.size() &&
+               reduced.into.size() == input.positions.size() &&
+               reduced.faces.size() == reduced.triangles.size(),
+           "whole arrays");
+    for (std::size_t f = 0; f < reduced.faces.size(); ++f) {
+        expect(complex.alive(reduced.faces[f]), "faces that are left");
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = reduced.triangles[f][k];
+            expect(v < reduced.vertices.size(), "vertices in range");
+            expect(reduced.vertices[v] == complex.triangle(reduced.faces[f])[k], "the same corners");
+            expect(reduced.positions[v] == complex.position(reduced.vertices[v]), "the same places");
+        }
+    }
+    for (const Index v : reduced.into) expect(v == no_index || v < reduced.vertices.size(), "lineages");
+}
+
+bool same_steps(const BlockSteps& a, const BlockSteps& b) {
+    return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
+                      [](const BlockStep& x, const BlockStep& y) {
+                          return x.survivor == y.survivor && x.gone == y.gone && x.to == y.to;
+                      }) &&
+           a.patch_faces == b.patch_faces && a.patch_begin == b.patch_begin && a.refusals == b.refusals &&
+           a.rungs == b.rungs;
+}
+
+/// One stage of simplify(): blocks, and what they leave.
+void reduce_in_blocks(Ground& ground, const engine::LoopOptions& loop, std::size_t per_block,
+                      std::size_t least, const BlockTracking* tracking) {
+    const BlockInput input{ground.now().positions, ground.now().triangles, ground.locked(), per_block};
+    const auto steps = [&](std::uint32_t threads) {
+        return simplify_in_blocks(input, loop, least, tracking, Recording::on, threads);
+    };
+    const BlockSteps found = steps(1);
+    for (const std::uint32_t threads : {2u, 3u})
+        expect(same_steps(found, steps(threads)), "the same with any number of threads");
+    Reduced reduced = reduce(input, found.steps);
+    expect_steps(input, found, reduced);
+    expect(found.steps.empty() || reduced.triangles.size() >= least, "as many faces as wanted");
+    if (loop.rules.link == LinkCondition::on && is_closed_manifold(input.triangles)) {
+        expect(is_closed_manifold(reduced.triangles), "a closed manifold stays one");
+        expect(euler(reduced.triangles) == euler(input.triangles), "the same topology");
+    }
+    ground.take(std::move(reduced));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzz::Input in(fuzz::Bytes(data, size));
+    // Smaller blocks would be all border, and left alone.
+    const std::size_t per_block = 40u + in.byte() % 160;
+    const double share = (1 + in.byte()) / 512.0;
+    const std::uint8_t bits = in.byte();
+    const TriangleMesh mesh = surface_of(in);
+    try {
+        const Prepared prepared = prepare(mesh.view(), settings({}));
+        std::vector<std::uint8_t> locked(prepared.positions.size(), 0);
+        if (bits & 1)
+            for (std::uint8_t& l : locked) l = in.byte() < 32;
+        Ground ground(prepared, locked, bits & 2 ? Border::locked : Border::free);
+        ground.remember_original();
+        const engine::LoopOptions loop = loop_of(in, ground);
+        const auto least = [&] {
+            return static_cast<std::size_t>(share * static_cast<double>(ground.now().triangles.size()));
+        };
+        if (!(bits & 4)) reduce_in_blocks(ground, loop, per_block, least(), nullptr);
+        const BlockTracking tracking{*ground.original(), ground.into()};
+        reduce_in_blocks(ground, loop, per_block, least(), &tracking);
+    } catch (const InputError&) {
+    }
+    return 0;
+}
