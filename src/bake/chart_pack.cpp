@@ -61,7 +61,19 @@ struct Extent {
     double height() const { return high_y - low_y; }
 };
 
+// Of numbers beyond this a product is none any more.
+constexpr double farthest = 1e100;
+
+bool is_measurable(const Chart& chart) {
+    return std::all_of(chart.places.begin(), chart.places.end(), [](const Flat& t) {
+        return std::all_of(t.begin(), t.end(), [](const ChartPoint& p) {
+            return std::abs(p.real()) <= farthest && std::abs(p.imag()) <= farthest;
+        });
+    });
+}
+
 Shape shape_of(const Chart& chart) {
+    if (!is_measurable(chart)) return {std::vector<Flat>(chart.places.size()), 0, 0, 0};  // one texel
     const std::vector<ChartPoint> hull = convex_hull(chart);
     ChartPoint best = 1;
     double least = HUGE_VAL;

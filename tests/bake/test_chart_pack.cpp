@@ -209,3 +209,23 @@ TEST_CASE("a mask turned four times is itself, and finds the first room") {
     CHECK((fine->x == 2 && fine->y == 2));
     CHECK_FALSE(sheet.find({201, 1, std::vector<std::uint8_t>(201, 1)}, 0, 16, 1));
 }
+
+TEST_CASE("charts of numbers beyond all range become one texel, and harm no other") {
+    const Made ball = made(test::icosphere(2), 10);
+    for (const double far : {std::nan(""), HUGE_VAL, 1e300, 1e101}) {
+        std::vector<Chart> charts = ball.charts.charts;
+        const auto faces = static_cast<Index>(ball.faces.size());
+        charts.push_back({{faces}, {{ChartPoint(0, 0), ChartPoint(far, 0), ChartPoint(0, far)}}, 1, far});
+        const auto page = pack_charts(charts, faces + 1u, 256);
+        REQUIRE(page);
+        CHECK(page->charts.size() == charts.size());
+        owners(*page);
+        for (const AtlasPlace& place : page->atlas.places) {
+            for (const auto& uv : place.uv) {
+                CHECK((uv[0] >= 0 && uv[0] <= page->atlas.width));
+                CHECK((uv[1] >= 0 && uv[1] <= page->atlas.height));
+            }
+        }
+        CHECK(page->charts.back().single);
+    }
+}
