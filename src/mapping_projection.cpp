@@ -17,17 +17,21 @@ namespace {
 constexpr double least_cosine = 0.17;
 constexpr double umbrella_penalty = 0.3;
 constexpr double sheet_penalty = 1.0;
-constexpr int longest_descent = 6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-bool has_corner(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
-
-bool shares_corner(const Triangle& a, const Triangle& b) {
-    return has_corner(a, b[0]) || has_corner(a, b[1]) || has_corner(a, b[2]);
-}
 
 double distance_squared(const Vector3& p, const Bound& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
+}
+
+std::vector<Index> last_versions(const CollapseHistory& history) {
+    const std::size_t vertices = history.positions.size();
+    std::vector<Index> last(vertices + history.collapses.size());
+    std::iota(last.begin(), last.end(), Index{0});
+    for (std::size_t k = history.collapses.size(); k-- > 0;) {
+        last[history.collapses[k].first] = last[history.collapses[k].second] = last[vertices + k];
+    }
+    last.resize(vertices);
+    return last;
 }
 
 }  // namespace
@@ -35,6 +39,7 @@ double distance_squared(const Vector3& p, const Bound& bound) {
 struct ProjectionWalk::Query {
     Vector3 p0, n0;  // n0 zero: no side to look to
     Triangle corners;
+    double longest_edge = 0;
     Index original = no_index;  // what the small face was
     Index sheet = no_index, group = no_index;
     double sign = 1;
@@ -57,9 +62,10 @@ struct ProjectionWalk::Patch {
 
 ProjectionWalk::ProjectionWalk(const CollapseHistory& history)
     : history_(history),
+      tree_(history.positions, history.triangles),
       replay_(replay_patches(history)),
       sheets_(find_sheets(history.positions, history.triangles)),
-      rings_(history.positions.size(), history.triangles) {}
+      last_(last_versions(history)) {}
 
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
     Query query;
@@ -70,6 +76,8 @@ ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric)
     const Vector3 n = engine::area_vector(a, b, c);
     const double length = n.norm();
     query.n0 = length > 0 ? Vector3(n / length) : Vector3::Zero();
+    query.longest_edge =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     query.original = history_.kept_faces[face];
     query.sheet = sheets_.sheet[query.original];
     query.sign = sheets_.sign[query.original];
@@ -125,13 +133,11 @@ void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const {
     }
 }
 
-SurfacePoint ProjectionWalk::on_original(Index face, const Vector3& p0, MapStep step) const {
+ClosestPoint ProjectionWalk::on_original(Index face, const Vector3& p0) const {
     const Triangle& t = history_.triangles[face];
-    if (t[0] == no_index) return {face, {1, 0, 0}, step};
-    const ClosestPoint hit =
-        closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
-                                  to_eigen(history_.positions[t[2]]));
-    return {face, to_array(hit.barycentric), step};
+    if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, infinity};
+    return closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]),
+                                     to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
 }
 
 bool ProjectionWalk::passes(Index f, const Query& query) const {
@@ -144,50 +150,32 @@ bool ProjectionWalk::passes(Index f, const Query& query) const {
         query);
 }
 
-// Original faces by the last versions of their corners. Versions beyond the vertices are numbered as they
-// are, so that FaceRings can serve.
-const FaceRings& ProjectionWalk::descendants() const {
-    std::call_once(descendants_once_, [this] {
-        std::vector<Index> last(replay_.positions.size());
-        std::iota(last.begin(), last.end(), Index{0});
-        for (std::size_t k = history_.collapses.size(); k-- > 0;) {
-            const Index made = last[history_.positions.size() + k];
-            last[history_.collapses[k].first] = made;
-            last[history_.collapses[k].second] = made;
-        }
-        std::vector<Triangle> triangles = history_.triangles;
-        for (Triangle& t : triangles) {
-            if (t[0] != no_index) t = {last[t[0]], last[t[1]], last[t[2]]};
-        }
-        descendants_ = std::make_unique<const FaceRings>(last.size(), triangles);
+// Has a corner that collapsed into one of the small face's.
+bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
+    const Triangle& t = history_.triangles[original_face];
+    return std::any_of(t.begin(), t.end(), [&](Index v) {
+        const Index last = last_[v];
+        return last == query.corners[0] || last == query.corners[1] || last == query.corners[2];
     });
-    return *descendants_;
 }
 
-// The closest original face that passes the tests and has a corner that collapsed into one of the small
-// face's.
-SurfacePoint ProjectionWalk::closest_descendant(const Query& query) const {
-    Index best = no_index;
-    double least = infinity;
-    for (const Index corner : query.corners) {
-        for (const Index f : descendants().at(corner)) {
-            if (!passes(f, query)) continue;
-            const double d = distance_to_original(f, query.p0);
-            if (d < least || (d == least && f < best)) least = d, best = f;
-        }
-    }
-    return best == no_index ? SurfacePoint{} : on_original(best, query.p0, MapStep::closest);
+SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
+    const Bvh::Hit hit = tree_.closest_if(
+        to_array(query.p0), [&](Index f) { return is_around(f, query) && passes(f, query); },
+        distance_squared);
+    return {hit.face, hit.barycentric, MapStep::closest};
 }
 
-double ProjectionWalk::distance_to_original(Index face, const Vector3& p) const {
-    const Triangle& t = history_.triangles[face];
-    return closest_point_on_triangle(p, to_eigen(history_.positions[t[0]]),
-                                     to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]))
-        .distance_squared;
+// The closest face around that passes the tests, or `face` where none is as close.
+SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step) const {
+    const ClosestPoint here = on_original(face, query.p0);
+    SurfacePoint result = closest_around(query, here.distance_squared);
+    if (result.face == no_index) result = {face, to_array(here.barycentric), step};
+    result.step = step;
+    return result;
 }
 
-SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
-    const Query query = start(face, barycentric);
+ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const {
     Best at{query.original, 0, false, infinity};
     bool relaxed = false;
     for (Index k = replay_.kept_last[face]; k != no_index; k = replay_.previous[at.entry]) {
@@ -199,47 +187,26 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
         at = next;
         relaxed = relaxed || next.relaxed;
     }
-    const MapStep step = relaxed ? MapStep::relaxed : MapStep::history;
-    const SurfacePoint answer = on_original(at.face, query.p0, step);
-    if (!relaxed || passes(at.face, query)) return answer;
-    const SurfacePoint closest = closest_descendant(query);
-    return closest.face != no_index ? closest : answer;
+    at.relaxed = relaxed;
+    return at;
+}
+
+SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
+    const Query query = start(face, barycentric);
+    const Best end = walk(face, query);
+    if (passes(end.face, query)) {
+        return settle(query, end.face, end.relaxed ? MapStep::relaxed : MapStep::history);
+    }
+    const ClosestPoint here = on_original(end.face, query.p0);
+    const double far = std::sqrt(here.distance_squared) + query.longest_edge;
+    const SurfacePoint closest = closest_around(query, far * far);
+    if (closest.face != no_index) return closest;
+    return {end.face, to_array(here.barycentric), MapStep::relaxed};
 }
 
 SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     if (near.step != MapStep::history) return map(face, barycentric);
-    const Query query = start(face, barycentric);
-    const SurfacePoint here = on_original(near.face, query.p0, near.step);
-    if (here.barycentric[0] > 0 && here.barycentric[1] > 0 && here.barycentric[2] > 0) return here;
-    Index found = near.face;
-    if (!descend(query, found)) return map(face, barycentric);
-    return found == near.face ? here : on_original(found, query.p0, MapStep::history);
-}
-
-// From `face` to the closest face around it, again and again. False when it takes too long: then the sample
-// is not as close by as was thought. Every face is looked at once: those around the face before were, and are
-// no closer. Whether a face passes is only asked where it is closer, which few are.
-bool ProjectionWalk::descend(const Query& query, Index& face) const {
-    double least = distance_to_original(face, query.p0);
-    Triangle before = {no_index, no_index, no_index};
-    for (int step = 0; step < longest_descent; ++step) {
-        const Index from = face;
-        const Triangle& at = history_.triangles[from];
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (has_corner(before, at[i])) continue;
-            for (const Index g : rings_.at(at[i])) {
-                const Triangle& t = history_.triangles[g];
-                const bool seen = g == from || shares_corner(t, before) || (i > 0 && has_corner(t, at[0])) ||
-                                  (i > 1 && has_corner(t, at[1]));
-                if (seen) continue;
-                const double d = distance_to_original(g, query.p0);
-                if ((d < least || (d == least && g < face)) && passes(g, query)) least = d, face = g;
-            }
-        }
-        if (face == from) return true;
-        before = at;
-    }
-    return false;
+    return settle(start(face, barycentric), near.face, near.step);
 }
 
 }  // namespace faqem::detail

@@ -31,7 +31,7 @@ class SurfaceMap {
 public:
     /// \param history  of the run that made the small mesh; must outlive the map
     /// \param mapping  how places are found
-    /// Complexity: O(size of the history) time and memory.
+    /// O(size of the history) memory; time as well, and O(n log n) for n faces of the original.
     SurfaceMap(const CollapseHistory& history, Mapping mapping);
     ~SurfaceMap();
     SurfaceMap(SurfaceMap&&) noexcept;
@@ -42,10 +42,9 @@ public:
     /// \return a face of the original and barycentrics on it; never no_index
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// As map(), but faster for many points close together: the search starts at `near` and goes from face to
-    /// neighbour, under the same rules. Where that does not end soon, map() answers. The face found may be
-    /// another than map()'s where several are about as close. \param near  answer for a nearby point of the
-    /// same small face
+    /// As map(), but faster for many points close together: `near` bounds the search instead of a walk. The
+    /// same answer, except where only the walk would find a face that is closer still.
+    /// \param near  answer for a nearby point of the same small face
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:

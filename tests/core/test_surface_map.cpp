@@ -236,6 +236,67 @@ TEST_CASE("samples of one side of a thin plate never map to the other") {
     }
 }
 
+// A step across a grid with some roughness: where the small face cuts the corner of the step, upper, lower
+// and upright faces are about as close.
+TEST_CASE("projection ends at the closest face around that looks the right way") {
+    constexpr Index n = 8;
+    const auto vertex = [](Index i, Index j) { return (n + 1) * j + i; };
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) {
+            const double rough = 0.03 * double((7 * i + 5 * j + i * j) % 5);
+            positions.push_back({i - (i > 4 ? 0.9 : 0.0), double(j), (i > 4 ? 0.7 : 0.0) + rough});
+        }
+    }
+    const std::vector<Triangle> faces = grid_faces(n, vertex);
+    HandHistory hand(positions, faces);
+    for (Index j = 1; j < n; ++j) {
+        Index last = vertex(3, j);
+        for (const Index i : {4u, 5u}) last = hand.collapse(last, vertex(i, j), {i - 0.6, double(j), 0.2});
+    }
+    const CollapseHistory history = hand.finish();
+    std::vector<Index> last(positions.size() + history.collapses.size());
+    for (Index v = 0; v < last.size(); ++v) last[v] = v;
+    for (std::size_t k = history.collapses.size(); k-- > 0;) {
+        last[history.collapses[k].first] = last[history.collapses[k].second] = last[positions.size() + k];
+    }
+    const auto normal = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        const Vec3 cross{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        const double length = std::hypot(cross[0], cross[1], cross[2]);
+        return Vec3{cross[0] / length, cross[1] / length, cross[2] / length};
+    };
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Triangle& corners = small.triangles[f];
+        const Vec3 n0 =
+            normal(small.positions[corners[0]], small.positions[corners[1]], small.positions[corners[2]]);
+        std::set<Index> ends;
+        for (const Index v : faces[history.kept_faces[f]]) ends.insert(last[v]);
+        SurfacePoint near;
+        for (const Vec3& w : spread(5)) {
+            const Vec3 p0 = small_point(small, f, w);
+            double least = 1e300;
+            for (const Triangle& t : faces) {
+                if (ends.count(last[t[0]]) + ends.count(last[t[1]]) + ends.count(last[t[2]]) == 0) continue;
+                const Vec3 m = normal(positions[t[0]], positions[t[1]], positions[t[2]]);
+                if (n0[0] * m[0] + n0[1] * m[1] + n0[2] * m[2] < 0.17) continue;
+                for (const Vec3& v : spread(30)) {
+                    least = std::min(least,
+                                     distance(p0, mix(v, positions[t[0]], positions[t[1]], positions[t[2]])));
+                }
+            }
+            const SurfacePoint found = map.map(f, w);
+            CHECK(distance(original_point(history, found), p0) <= least + 1e-12);
+            if (near.face != no_index) {
+                CHECK(distance(original_point(history, map.map_near(f, w, near)), p0) <= least + 1e-12);
+            }
+            near = found;
+        }
+    }
+}
+
 TEST_CASE("closest finds what brute force finds, on whichever side that is") {
     const Pillow p = pillow(6, 0.05);
     const CollapseHistory history = squeezed_pillow(p, {});
