@@ -3,6 +3,7 @@
 #include <new>
 
 #include "faqem/error.hpp"
+#include "tool/byte_budget.hpp"
 
 namespace faqem::tool {
 
@@ -11,6 +12,7 @@ ExitCode exit_code_of(const std::exception& error) {
     if (dynamic_cast<const UnsupportedError*>(&error)) return exit_unsupported;
     if (dynamic_cast<const InputError*>(&error)) return exit_bad_input;
     if (dynamic_cast<const WriteError*>(&error)) return exit_cannot_write;
+    if (dynamic_cast<const BudgetError*>(&error)) return exit_too_large;
     return exit_internal;
 }
 

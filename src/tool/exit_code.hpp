@@ -19,6 +19,7 @@ enum ExitCode : int {
     exit_cannot_write = 7,
     exit_cancelled = 8,
     exit_batch_incomplete = 9,
+    exit_too_large = 10,
 };
 
 /// The exit code for an exception.

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "stopwatch.hpp"
+#include "tool/byte_budget.hpp"
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/interrupt.hpp"
@@ -26,6 +28,7 @@ using detail::Stopwatch;
 /// The command line as it was given.
 struct Arguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
+    std::uint64_t max_bytes = 0;  ///< 0: any size
     bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -120,6 +123,12 @@ void save_result(const Arguments& arguments, LightAsset& light) {
     light.report.seconds.save = watch.seconds();
 }
 
+std::optional<ByteBudget> byte_budget(const Arguments& arguments) {
+    if (arguments.max_bytes == 0) return std::nullopt;
+    return ByteBudget{arguments.max_bytes, arguments.out,
+                      arguments.image_format.empty() ? Encoding::free : Encoding::as_asked};
+}
+
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     if (!arguments.history.empty()) options.history = Recording::on;
@@ -141,7 +150,7 @@ int run(const Arguments& arguments) {
         PhaseSeconds seconds;
         bar.show(Phase::load, 0);
         const Asset source = load_input(arguments, seconds);
-        light = simplify_model(source, arguments.in, options);
+        light = simplify_model(source, arguments.in, options, byte_budget(arguments));
         light.report.seconds.load = seconds.load;
         light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
                                      source.warnings.end());
@@ -161,6 +170,14 @@ int run(const Arguments& arguments) {
 }
 
 void add_run_options(CLI::App& command, Arguments& a) {
+    command
+        .add_option(
+            "--max-bytes", a.max_bytes,
+            "Largest size of all files of the result together, as 2MB or 500KB: fewer faces and smaller "
+            "images until it fits")
+        ->transform(CLI::AsSizeValue(true))
+        ->check(CLI::PositiveNumber)
+        ->excludes("--max-error");
     command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
         ->check(CLI::Range(0, 1024));
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");

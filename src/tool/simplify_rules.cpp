@@ -17,9 +17,10 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     return asset;
 }
 
-LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options) {
+LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
+                          const std::optional<ByteBudget>& budget) {
     try {
-        return simplify(source, options);
+        return budget ? simplify_within_bytes(source, options, *budget) : simplify(source, options);
     } catch (const UnsupportedError& error) {
         throw UnsupportedError(file.string(), "", error.what());
     } catch (const InputError& error) {

@@ -3,10 +3,12 @@
 /// What simplify and batch hold a model to.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "faqem/bake.hpp"
 #include "faqem/report.hpp"
+#include "tool/byte_budget.hpp"
 #include "tool/exit_code.hpp"
 
 namespace faqem::tool {
@@ -17,8 +19,10 @@ enum class Strictness { lenient, strict };
 /// load(), and a model without triangles is an error. \throws ReadError, InputError, UnsupportedError
 Asset load_model(const std::filesystem::path& file, Strictness strictness);
 
-/// simplify(). What is wrong with an asset is said with the name of its file.
-LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options);
+/// simplify(), within a budget where there is one. What is wrong with an asset is said with the name of its
+/// file.
+LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
+                          const std::optional<ByteBudget>& budget = std::nullopt);
 
 /// Why the result is not to be written, or exit_ok.
 ExitCode why_refused(const Report& report, bool strict_target);
