@@ -1,11 +1,11 @@
 #include "tool/byte_budget.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
+
+#include "tool/temporary_folder.hpp"
 
 namespace faqem::tool {
 
@@ -19,27 +19,6 @@ constexpr int most_runs = 8;
 
 /// Bytes per face change a little from run to run.
 constexpr double aim = 0.98;
-
-/// A folder that is gone afterwards.
-class Folder {
-public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "faqem-size-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw WriteError(name + ": cannot be made");
-        path_ = name;
-    }
-    ~Folder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 bool is_image(const fs::path& file) {
     const std::string ending = file.extension().string();
@@ -141,7 +120,7 @@ private:
 }  // namespace
 
 ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
-    const Folder folder;
+    const TemporaryFolder folder("faqem-size");
     save(asset, folder.path() / file.filename());
     ModelBytes result;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path())) {

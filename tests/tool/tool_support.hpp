@@ -15,31 +15,17 @@
 #include <thread>
 
 #include "faqem/asset.hpp"
+#include "tool/temporary_folder.hpp"
 
 namespace tool_test {
 
 namespace fs = std::filesystem;
 
 /// A folder that is gone afterwards.
-class Folder {
+class Folder : public faqem::tool::TemporaryFolder {
 public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "faqem-tool-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~Folder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
+    Folder() : TemporaryFolder("faqem-tool") {}
+    fs::path operator/(const std::string& name) const { return path() / name; }
 };
 
 inline std::string read(const fs::path& file) {
