@@ -5,11 +5,11 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "edge_swap.hpp"
 #include "parallel.hpp"
+#include "sides.hpp"
 
 namespace faqem::detail {
 
@@ -58,26 +58,6 @@ struct Error {
         return !(turn > other.turn) || sum * turn <= other.sum * other.turn;
     }
 };
-
-struct Side {
-    Index low, high, face;
-};
-
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
-    std::vector<Side> sides;
-    for (Index f = 0; f < triangles.size(); ++f) {
-        const Triangle& t = triangles[f];
-        if (t[0] == no_index) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
-            sides.push_back({low, high, f});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-    });
-    return sides;
-}
 
 class EdgeSearch {
 public:
@@ -140,26 +120,20 @@ private:
     }
 
     bool has_edge(Index v, Index w) const {
-        const Side wanted{std::min(v, w), std::max(v, w), 0};
-        const auto found = std::lower_bound(
-            sides_.begin(), sides_.end(), wanted,
-            [](const Side& a, const Side& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
-        return found != sides_.end() && found->low == wanted.low && found->high == wanted.high;
+        bool any = false;
+        for_each_face_on(v, w, [&](const Side&) { any = true; });
+        return any;
     }
 
     std::vector<Candidate> find_candidates() const {
         std::vector<Candidate> all;
-        for (std::size_t i = 0, end; i < sides_.size(); i = end) {
-            const Side& side = sides_[i];
-            for (end = i + 1;
-                 end < sides_.size() && sides_[end].low == side.low && sides_[end].high == side.high;)
-                ++end;
-            if (end != i + 2 || (light_.fixed[side.low] && light_.fixed[side.high])) continue;
-            const EdgeSwap faces = {side.face, sides_[i + 1].face};
-            if (!light_.groups.empty() && light_.groups[faces[0]] != light_.groups[faces[1]]) continue;
+        for_each_edge(sides_, [&](std::span<const Side> on) {
+            if (on.size() != 2 || (light_.fixed[on[0].low] && light_.fixed[on[0].high])) return;
+            const EdgeSwap faces = {on[0].face, on[1].face};
+            if (!light_.groups.empty() && light_.groups[faces[0]] != light_.groups[faces[1]]) return;
             const auto q = quadrilateral(light_.triangles[faces[0]], light_.triangles[faces[1]]);
             if (q && !has_edge(q->c, q->d) && is_sound(*q)) all.push_back({faces, *q, {}, {}});
-        }
+        });
         return all;
     }
 
@@ -188,11 +162,10 @@ private:
 
     template <class Visit>
     void for_each_face_on(Index v, Index w, Visit&& visit) const {
-        const Index low = std::min(v, w), high = std::max(v, w);
-        auto side = std::lower_bound(
-            sides_.begin(), sides_.end(), std::pair(low, high),
-            [](const Side& a, const std::pair<Index, Index>& b) { return std::pair(a.low, a.high) < b; });
-        for (; side != sides_.end() && side->low == low && side->high == high; ++side) visit(*side);
+        const std::uint64_t edge = Side{std::min(v, w), std::max(v, w)}.edge();
+        auto side = std::lower_bound(sides_.begin(), sides_.end(), edge,
+                                     [](const Side& a, std::uint64_t b) { return a.edge() < b; });
+        for (; side != sides_.end() && side->edge() == edge; ++side) visit(*side);
     }
 
     /// From the original's points that are closest to the two faces.

@@ -9,6 +9,7 @@
 
 #include "edge_swap.hpp"
 #include "faqem/error.hpp"
+#include "final_versions.hpp"
 
 namespace faqem {
 
@@ -136,21 +137,10 @@ std::vector<Index> kept_vertex(const CollapseHistory& h) {
     return vertex;
 }
 
-// The latest version that each version became. A version's successor has a higher number.
-std::vector<Index> final_versions(const CollapseHistory& h) {
-    std::vector<Index> last(h.positions.size() + h.collapses.size());
-    for (std::size_t v = 0; v < last.size(); ++v) last[v] = static_cast<Index>(v);
-    for (std::size_t k = h.collapses.size(); k-- > 0;) {
-        const Index made = last[h.positions.size() + k];
-        last[h.collapses[k].first] = last[h.collapses[k].second] = made;
-    }
-    return last;
-}
-
 // All faces over the vertices of the small mesh after the last swap; what was not kept has no_index corners.
 std::vector<Triangle> small_faces(const CollapseHistory& h) {
     const std::vector<Index> vertex = kept_vertex(h);
-    const std::vector<Index> last = final_versions(h);
+    const std::vector<Index> last = detail::final_versions(h);
     std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
     for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
         const Index f = h.kept_faces[i];

@@ -9,28 +9,23 @@ using engine::to_eigen;
 ClosestPoints::ClosestPoints(const CollapseHistory& history)
     : history_(history), replay_(replay_vertices(history)), tree_(history.positions, history.triangles) {}
 
-Vec3 ClosestPoints::place(Index face, const Vec3& barycentric) const {
-    engine::Vector3 p = engine::Vector3::Zero();
-    for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * to_eigen(replay_.kept_positions[face][i]);
-    return engine::to_array(p);
-}
-
 SurfacePoint ClosestPoints::found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const {
     if (hit.face == no_index) return {history_.kept_faces[face], barycentric, MapStep::closest};
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
 SurfacePoint ClosestPoints::map(Index face, const Vec3& barycentric) const {
-    return found(tree_.closest(place(face, barycentric)), face, barycentric);
+    return found(tree_.closest(engine::to_array(replay_.place(face, barycentric))), face, barycentric);
 }
 
 SurfacePoint ClosestPoints::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     const Triangle& t = history_.triangles[near.face];
     if (t[0] == no_index) return map(face, barycentric);
     const auto& positions = history_.positions;
-    return found(tree_.closest_from(place(face, barycentric), near.face, to_eigen(positions[t[0]]),
-                                    to_eigen(positions[t[1]]), to_eigen(positions[t[2]])),
-                 face, barycentric);
+    return found(
+        tree_.closest_from(engine::to_array(replay_.place(face, barycentric)), near.face,
+                           to_eigen(positions[t[0]]), to_eigen(positions[t[1]]), to_eigen(positions[t[2]])),
+        face, barycentric);
 }
 
 }  // namespace faqem::detail

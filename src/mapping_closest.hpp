@@ -22,7 +22,6 @@ public:
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:
-    Vec3 place(Index face, const Vec3& barycentric) const;
     SurfacePoint found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const;
 
     const CollapseHistory& history_;

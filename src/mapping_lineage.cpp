@@ -24,10 +24,7 @@ LineageWalk::LineageWalk(const CollapseHistory& history)
 
 SurfacePoint LineageWalk::map(Index face, const Vec3& barycentric) const {
     const Triangle& corners = replay_.kept_corners[face];
-    Vector3 p0 = Vector3::Zero();
-    for (std::size_t i = 0; i < 3; ++i) {
-        p0 += barycentric[i] * to_eigen(replay_.kept_positions[face][i]);
-    }
+    const Vector3 p0 = replay_.place(face, barycentric);
     const auto distance = [&](Index v) { return (to_eigen(replay_.positions[v]) - p0).squaredNorm(); };
 
     Index at = corners[0];

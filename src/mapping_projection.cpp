@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "final_versions.hpp"
 #include "triangle.hpp"
 
 namespace faqem::detail {
@@ -21,17 +21,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_squared(const Vector3& p, const Bound& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
-}
-
-std::vector<Index> last_versions(const CollapseHistory& history) {
-    const std::size_t vertices = history.positions.size();
-    std::vector<Index> last(vertices + history.collapses.size());
-    std::iota(last.begin(), last.end(), Index{0});
-    for (std::size_t k = history.collapses.size(); k-- > 0;) {
-        last[history.collapses[k].first] = last[history.collapses[k].second] = last[vertices + k];
-    }
-    last.resize(vertices);
-    return last;
 }
 
 }  // namespace
@@ -65,14 +54,14 @@ ProjectionWalk::ProjectionWalk(const CollapseHistory& history)
       tree_(history.positions, history.triangles),
       replay_(replay_patches(history)),
       sheets_(find_sheets(history.positions, history.triangles)),
-      last_(last_versions(history)) {}
+      last_(final_versions(history)) {}
 
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
     Query query;
     query.corners = replay_.kept_corners[face];
     const std::array<Vec3, 3>& places = replay_.kept_positions[face];
     const Vector3 a = to_eigen(places[0]), b = to_eigen(places[1]), c = to_eigen(places[2]);
-    query.p0 = barycentric[0] * a + barycentric[1] * b + barycentric[2] * c;
+    query.p0 = replay_.place(face, barycentric);
     const Vector3 n = engine::area_vector(a, b, c);
     const double length = n.norm();
     query.n0 = length > 0 ? Vector3(n / length) : Vector3::Zero();

@@ -57,7 +57,7 @@ private:
     Bvh tree_;  // first: making it takes more for a while than it keeps
     Replay replay_;
     Sheets sheets_;
-    std::vector<Index> last_;  ///< by vertex of the original: what became of it in the end
+    std::vector<Index> last_;  ///< by version: what became of it in the end
 };
 
 }  // namespace faqem::detail

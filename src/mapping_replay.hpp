@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "faqem/engine/vector.hpp"
 #include "faqem/history.hpp"
 
 namespace faqem::detail {
@@ -30,6 +31,13 @@ struct Replay {
     std::vector<Triangle> kept_corners;               ///< per face of the small mesh: corner versions
     std::vector<std::array<Vec3, 3>> kept_positions;  ///< per face of the small mesh: where they are
     std::vector<Index> kept_last;  ///< per face of the small mesh: last patch that had it, or no_index
+
+    /// Where a point of the small mesh is. \param barycentric  weights of the face's corners
+    engine::Vector3 place(Index face, const Vec3& barycentric) const {
+        engine::Vector3 p = engine::Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * engine::to_eigen(kept_positions[face][i]);
+        return p;
+    }
 };
 
 /// What is needed by the walk over vertices: positions, kept_corners and kept_positions. O(size of the

@@ -1,59 +1,25 @@
 #include "mapping_sheets.hpp"
 
-#include <algorithm>
-
 #include "faqem/engine/vector.hpp"
+#include "sides.hpp"
 
 namespace faqem::detail {
 namespace {
-
-struct HalfEdge {
-    std::uint64_t key;  // smaller vertex, larger vertex
-    Index face;
-    std::uint8_t corner;
-    bool forward;  // from the smaller to the larger vertex
-
-    bool operator<(const HalfEdge& other) const {
-        if (key != other.key) return key < other.key;
-        if (face != other.face) return face < other.face;
-        return corner < other.corner;
-    }
-};
 
 struct Neighbour {
     Index face = no_index;
     bool same_winding = true;
 };
 
-std::vector<HalfEdge> sorted_half_edges(std::span<const Triangle> triangles) {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * triangles.size());
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-        const Triangle& t = triangles[f];
-        if (t[0] == no_index) continue;
-        for (std::uint8_t c = 0; c < 3; ++c) {
-            const Index a = t[c], b = t[(c + 1) % 3];
-            if (a == b) continue;
-            const std::uint64_t key = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
-            edges.push_back({key, static_cast<Index>(f), c, a < b});
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    return edges;
-}
-
 // Neighbours over the three edges of each face, where the edge has exactly two faces.
 std::vector<Neighbour> neighbours(std::span<const Triangle> triangles) {
-    const std::vector<HalfEdge> edges = sorted_half_edges(triangles);
     std::vector<Neighbour> result(3 * triangles.size());
-    for (std::size_t i = 0, end; i < edges.size(); i = end) {
-        for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
-        if (end - i != 2) continue;
-        const HalfEdge &e = edges[i], &g = edges[i + 1];
-        const bool same = e.forward != g.forward;
-        result[std::size_t{3} * e.face + e.corner] = {g.face, same};
-        result[std::size_t{3} * g.face + g.corner] = {e.face, same};
-    }
+    for_each_edge(sorted_sides(triangles), [&](std::span<const Side> on) {
+        if (on.size() != 2) return;
+        const bool same = on[0].goes_up != on[1].goes_up;
+        result[std::size_t{3} * on[0].face + on[0].corner] = {on[1].face, same};
+        result[std::size_t{3} * on[1].face + on[1].corner] = {on[0].face, same};
+    });
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include "fit.hpp"
 #include "fold_guard.hpp"
 #include "gaps.hpp"
+#include "sides.hpp"
 #include "spots.hpp"
 
 namespace faqem::detail {
@@ -49,19 +50,10 @@ constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange =
 
 /// Vertices on edges with one face.
 std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices) {
-    std::vector<std::pair<Index, Index>> edges;
-    for (const Triangle& t : triangles) {
-        if (t[0] == no_index) continue;
-        for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
-    }
-    std::sort(edges.begin(), edges.end());
     std::vector<std::uint8_t> border(vertices, 0);
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end] == edges[i]) ++end;
-        if (end == i + 1) border[edges[i].first] = border[edges[i].second] = 1;
-        i = end;
-    }
+    for_each_edge(sorted_sides(triangles), [&](std::span<const Side> on) {
+        if (on.size() == 1) border[on[0].low] = border[on[0].high] = 1;
+    });
     return border;
 }
 
