@@ -224,18 +224,10 @@ Bvh::Bvh(std::vector<Corners> triangles) {
             }
         }
     }
-    refit_nodes();
+    fit_boxes();
 }
 
-void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
-    for (Corners& t : triangles_) {
-        const auto [a, b, c] = triangles[t.face];
-        t.a = positions[a], t.b = positions[b], t.c = positions[c];
-    }
-    refit_nodes();
-}
-
-void Bvh::refit_nodes() {
+void Bvh::fit_boxes() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
         Node& node = nodes_[n];

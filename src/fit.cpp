@@ -1,7 +1,6 @@
 #include "fit.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +10,6 @@ namespace {
 
 using engine::Vector3;
 using Matrix3 = Eigen::Matrix3d;
-using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double along_normal = 0.9;
 /// Distances below this share of the mean weigh as if they were that: what fits holds the vertex too.
@@ -20,15 +18,42 @@ constexpr double least_distance = 0.1;
 constexpr double damping = 0.02;
 /// The same, as a share of the mean weight: for vertices that hardly a pull tells about.
 constexpr double mean_damping = 2e-4;
+/// Of conjugate gradients: at most so many iterations, until the residual is this share of the right side.
+constexpr int most_iterations = 60;
+constexpr double least_residual = 1e-3;
 
-/// The part of the system that belongs to one face: blocks of corner pairs and right-hand sides of corners.
-struct FaceSystem {
-    std::array<std::array<Matrix3, 3>, 3> matrix;
-    std::array<Vector3, 3> right;
-    FaceSystem() {
-        for (auto& row : matrix) row.fill(Matrix3::Zero());
-        right.fill(Vector3::Zero());
+/// A symmetric matrix.
+struct Symmetric3 {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+    void add(double factor, const Symmetric3& m) {
+        xx += factor * m.xx, xy += factor * m.xy, xz += factor * m.xz;
+        yy += factor * m.yy, yz += factor * m.yz, zz += factor * m.zz;
     }
+    Vector3 operator*(const Vector3& v) const {
+        return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2],
+                xz * v[0] + yz * v[1] + zz * v[2]};
+    }
+    double trace() const { return xx + yy + zz; }
+    Matrix3 matrix() const {
+        Matrix3 m;
+        m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+        return m;
+    }
+};
+
+/// Of one pull: how much its gap counts in each direction.
+Symmetric3 metric_along(const Vector3& n, double weight) {
+    const double a = weight * along_normal, b = weight * (1 - along_normal);
+    return {a * n[0] * n[0] + b, a * n[0] * n[1], a * n[0] * n[2],
+            a * n[1] * n[1] + b, a * n[1] * n[2], a * n[2] * n[2] + b};
+}
+
+/// The part of the system that belongs to one face.
+struct FaceSystem {
+    std::array<Symmetric3, 3> own;    ///< of each corner with itself
+    std::array<Symmetric3, 3> other;  ///< of corner k with corner k + 1
+    std::array<Vector3, 3> right = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
 };
 
 std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power) {
@@ -39,73 +64,121 @@ std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pu
     for (const Pull& pull : pulls) {
         const double distance = std::max(pull.gap.norm(), least_distance * mean);
         const double w = distance > 0 ? std::pow(distance / mean, power) : 0;
-        const Matrix3 metric = w * (along_normal * pull.normal * pull.normal.transpose() +
-                                    (1 - along_normal) * Matrix3::Identity());
+        const Symmetric3 metric = metric_along(pull.normal, w);
         const Vector3 wanted = metric * pull.gap;
         FaceSystem& face = all[pull.spot.face];
-        for (std::size_t j = 0; j < 3; ++j) {
-            face.right[j] += pull.spot.weight[j] * wanted;
-            for (std::size_t k = 0; k < 3; ++k) {
-                face.matrix[j][k] += (pull.spot.weight[j] * pull.spot.weight[k]) * metric;
-            }
+        const Vec3& weight = pull.spot.weight;
+        for (std::size_t k = 0; k < 3; ++k) {
+            face.right[k] += weight[k] * wanted;
+            face.own[k].add(weight[k] * weight[k], metric);
+            face.other[k].add(weight[k] * weight[(k + 1) % 3], metric);
         }
     }
     return all;
 }
 
-/// Collects the entries of the sparse system.
-struct Assembly {
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right;
+/// The matrix of the system: rows and columns of fixed vertices are left out.
+class System {
+public:
+    System(std::span<const Triangle> triangles, std::span<const Pull> pulls,
+           std::span<const std::uint8_t> fixed, double power)
+        : triangles_(triangles),
+          faces_(face_systems(triangles.size(), pulls, power)),
+          free_(fixed.size()),
+          own_(fixed.size()),
+          inverse_(fixed.size(), Matrix3::Zero()),
+          right_(fixed.size(), Vector3::Zero()) {
+        for (std::size_t v = 0; v < free_.size(); ++v) free_[v] = !fixed[v];
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            if (triangles_[f][0] == no_index) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                own_[triangles_[f][k]].add(1, faces_[f].own[k]);
+                right_[triangles_[f][k]] += faces_[f].right[k];
+            }
+        }
+        hold();
+    }
 
-    explicit Assembly(std::size_t vertices)
-        : right(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(vertices))) {}
-    void add(Index v, Index w, const Matrix3& m) {
-        for (int r = 0; r < 3; ++r) {
-            for (int c = 0; c < 3; ++c) entries.emplace_back(3 * v + r, 3 * w + c, m(r, c));
+    const std::vector<Vector3>& right() const { return right_; }
+
+    void multiply(std::span<const Vector3> x, std::vector<Vector3>& result) const {
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = own_[v] * x[v];
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            const Triangle& t = triangles_[f];
+            if (t[0] == no_index) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index v = t[k], w = t[(k + 1) % 3];
+                result[v] += faces_[f].other[k] * x[w];
+                result[w] += faces_[f].other[k] * x[v];
+            }
+        }
+        for (std::size_t v = 0; v < x.size(); ++v) {
+            if (!free_[v]) result[v].setZero();
         }
     }
+
+    /// The inverse of the blocks on the diagonal.
+    void precondition(std::span<const Vector3> x, std::vector<Vector3>& result) const {
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = inverse_[v] * x[v];
+    }
+
+private:
+    void hold() {
+        double whole_trace = 0;
+        for (std::size_t v = 0; v < free_.size(); ++v) {
+            if (free_[v]) whole_trace += own_[v].trace();
+        }
+        const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(free_.size(), 1));
+        for (std::size_t v = 0; v < free_.size(); ++v) {
+            if (!free_[v]) {
+                right_[v].setZero();
+                continue;
+            }
+            const double hold = (damping * own_[v].trace() + mean_damping * mean_trace) / 3;
+            own_[v].add(hold > 0 ? hold : 1.0, {1, 0, 0, 1, 0, 1});
+            inverse_[v] = own_[v].matrix().inverse();
+        }
+    }
+
+    std::span<const Triangle> triangles_;
+    std::vector<FaceSystem> faces_;
+    std::vector<std::uint8_t> free_;
+    std::vector<Symmetric3> own_;
+    std::vector<Matrix3> inverse_;
+    std::vector<Vector3> right_;
 };
+
+double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
+    double sum = 0;
+    for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
+    return sum;
+}
 
 }  // namespace
 
 std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
                                   std::span<const std::uint8_t> fixed, double power) {
-    const std::vector<FaceSystem> faces = face_systems(triangles.size(), pulls, power);
-    Assembly system(fixed.size());
-    std::vector<double> trace(fixed.size(), 0);
-    double whole_trace = 0;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const Triangle& t = triangles[f];
-        if (t[0] == no_index) continue;
-        for (std::size_t j = 0; j < 3; ++j) {
-            if (fixed[t[j]]) continue;
-            system.right.segment<3>(3 * static_cast<Eigen::Index>(t[j])) += faces[f].right[j];
-            trace[t[j]] += faces[f].matrix[j][j].trace();
-            whole_trace += faces[f].matrix[j][j].trace();
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!fixed[t[k]]) system.add(t[j], t[k], faces[f].matrix[j][k]);
-            }
+    const System system(triangles, pulls, fixed, power);
+    const std::size_t size = fixed.size();
+    std::vector<Vector3> x(size, Vector3::Zero()), residual = system.right(), direction(size), along(size),
+                                                   eased(size);
+    system.precondition(residual, eased);
+    direction = eased;
+    double height = dot(residual, eased);
+    const double enough = least_residual * least_residual * dot(residual, residual);
+    for (int i = 0; i < most_iterations && dot(residual, residual) > enough; ++i) {
+        system.multiply(direction, along);
+        const double length = height / dot(direction, along);
+        for (std::size_t v = 0; v < size; ++v) {
+            x[v] += length * direction[v];
+            residual[v] -= length * along[v];
         }
+        system.precondition(residual, eased);
+        const double next = dot(residual, eased);
+        for (std::size_t v = 0; v < size; ++v) direction[v] = eased[v] + (next / height) * direction[v];
+        height = next;
     }
-    const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(fixed.size(), 1));
-    for (Index v = 0; v < fixed.size(); ++v) {
-        const double hold = (damping * trace[v] + mean_damping * mean_trace) / 3;
-        system.add(v, v, (fixed[v] || !(hold > 0) ? 1.0 : hold) * Matrix3::Identity());
-    }
-    const auto size = static_cast<Eigen::Index>(3 * fixed.size());
-    Sparse matrix(size, size);
-    matrix.setFromTriplets(system.entries.begin(), system.entries.end());
-    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver;
-    solver.setMaxIterations(60);
-    solver.setTolerance(1e-3);
-    solver.compute(matrix);
-    const Eigen::VectorXd solution = solver.solve(system.right);
-    std::vector<Vector3> steps(fixed.size());
-    for (std::size_t v = 0; v < steps.size(); ++v) {
-        steps[v] = solution.segment<3>(3 * static_cast<Eigen::Index>(v));
-    }
-    return steps;
+    return x;
 }
 
 }  // namespace faqem::detail

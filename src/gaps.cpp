@@ -1,5 +1,6 @@
 #include "gaps.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "parallel.hpp"
@@ -11,15 +12,56 @@ namespace {
 
 using engine::Vector3;
 
+/// So many points go together; the first of them is looked for without knowing one before it.
 constexpr std::size_t block = 1024;
+/// Cosine. Inside of a face that looks about the same way another one that is as near would lie upon it, and
+/// have the same normal.
+constexpr double surely_alone = 0.5;
+
+/// Weight of a corner: a point with less of it lies on the side across, but for rounding.
+constexpr double at_side = 1e-9;
+constexpr std::uint8_t inside = 3;
+/// Share of the squared distance: what is nearer by less is so by chance.
+constexpr double nearer_by = 1 - 1e-12;
 
 /// The point of a mesh closest to p.
-/// \param last  the face where it was not long ago, or no_index
-Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index last) {
-    if (last == no_index) return tree.closest(engine::to_array(p));
-    const Triangle& t = mesh.triangles[last];
-    return tree.closest_from(engine::to_array(p), last, mesh.positions[t[0]], mesh.positions[t[1]],
+/// \param near  a face that is thought to be near, or no_index
+Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index near) {
+    if (near == no_index) return tree.closest(engine::to_array(p));
+    const Triangle& t = mesh.triangles[near];
+    return tree.closest_from(engine::to_array(p), near, mesh.positions[t[0]], mesh.positions[t[1]],
                              mesh.positions[t[2]]);
+}
+
+/// The corner nearest to a point of a face, or `inside` where the point is on no side.
+std::uint8_t corner_by(const Vec3& weight) {
+    if (std::ranges::min(weight) > at_side) return inside;
+    return static_cast<std::uint8_t>(std::ranges::max_element(weight) - weight.begin());
+}
+
+/// The point of a mesh closest to p among the faces one comes by from `last`: on to the best of those around
+/// the corner nearest to the closest point, while the distance falls.
+/// \param corner  corner_by() of the point on `last` where one starts
+Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p, Index last,
+              std::uint8_t corner) {
+    const auto closest_on = [&](Index face) {
+        const Triangle& t = mesh.triangles[face];
+        return closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    };
+    ClosestPoint best = closest_on(last);
+    if (corner == inside) corner = corner_by(engine::to_array(best.barycentric));
+    while (corner != inside) {
+        const Index from = last;
+        for (const Index next : around[mesh.triangles[from][corner]]) {
+            if (next == from) continue;
+            const ClosestPoint hit = closest_on(next);
+            if (hit.distance_squared < nearer_by * best.distance_squared) best = hit, last = next;
+        }
+        const std::uint8_t next_corner = corner_by(engine::to_array(best.barycentric));
+        if (last == from && next_corner == corner) break;
+        corner = next_corner;
+    }
+    return {last, engine::to_array(best.barycentric), engine::to_array(best.point), best.distance_squared};
 }
 
 /// Of each triangle: has it a corner that is not where it was? All of them where nothing was before.
@@ -40,15 +82,18 @@ void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t thread
     positions_.assign(positions.begin(), positions.end());
     parallel_blocks(spots_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (moved[spots_[i].face]) measure(i);
+            if (!moved[spots_[i].face]) continue;
+            const Index last = gaps_[i].face, before = i == begin ? no_index : gaps_[i - 1].face;
+            const Vector3 p = spots_[i].on(positions_, triangles_);
+            set(i, p,
+                last == no_index ? nearest(original_.tree, original_.mesh, p, before)
+                                 : walk(original_.around, original_.mesh, p, last, gaps_[i].corner));
         }
     });
 }
 
-void GapsThere::measure(std::size_t i) {
-    const Vector3 p = spots_[i].on(positions_, triangles_);
-    const Bvh::Hit hit = nearest(original_.tree, original_.mesh, p, gaps_[i].face);
-    gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, -1};
+void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
+    gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, corner_by(hit.barycentric), -1};
 }
 
 Vector3 GapsThere::normal(std::size_t i) const {
@@ -62,47 +107,59 @@ void GapsThere::measure_turns(double tolerance, std::uint32_t threads) {
         for (std::size_t i = begin; i < end; ++i) {
             Gap& gap = gaps_[i];
             if (!(gap.turn < 0)) continue;
-            const Vector3 p = spots_[i].on(positions_, triangles_);
-            Bvh::Hit hit;
-            hit.face = gap.face;
-            hit.distance_squared = gap.gap.squaredNorm();
-            const double cosine = best_cosine(original_.tree, original_.normals, engine::to_array(p), hit,
-                                              normal(i), tolerance);
-            gap.turn = std::sqrt(2 - 2 * cosine);
+            const Vector3 n = normal(i);
+            double cosine = n.dot(original_.normals[gap.face]);
+            if (!(gap.corner == inside && cosine > surely_alone)) {
+                Bvh::Hit hit;
+                hit.face = gap.face;
+                hit.distance_squared = gap.gap.squaredNorm();
+                const Vector3 p = spots_[i].on(positions_, triangles_);
+                cosine =
+                    best_cosine(original_.tree, original_.normals, engine::to_array(p), hit, n, tolerance);
+            }
+            gap.turn = std::sqrt(std::max(0.0, 2 - 2 * cosine));
         }
     });
 }
 
 void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads,
                        std::span<const std::uint8_t> swapped) {
+    if (positions_.empty()) return start_at(positions, threads);
     std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     for (std::size_t f = 0; f < swapped.size(); ++f) moved[f] |= swapped[f];
+    if (!swapped.empty()) around_ = FacesAround(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
-    if (tree_) {
-        tree_->refit(positions_, triangles_);
-    } else {
-        tree_.emplace(positions_, triangles_);
-    }
-    std::vector<Triangle> those_moved(triangles_.begin(), triangles_.end());
+    std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
-        if (!moved[f]) those_moved[f].fill(no_index);
+        if (!moved[f]) continue;
+        for (const Index v : triangles_[f]) {
+            for (const Index neighbour : around_[v]) to_measure[neighbour] = 1;
+        }
     }
-    const Bvh moved_tree(positions_, those_moved);
     parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Vector3& p = points_[i].position;
             const Index last = gaps_[i].spot.face;
-            Bvh::Hit hit;
-            if (last == no_index || moved[last]) {
-                hit = nearest(*tree_, {positions_, triangles_}, p, last);
-            } else {  // what has not moved is as far away as it was
-                const double distance = gaps_[i].gap.squaredNorm();
-                hit = moved_tree.closest(engine::to_array(p), distance);
-                if (hit.face == no_index || (hit.distance_squared == distance && hit.face > last)) continue;
-            }
-            gaps_[i] = {{hit.face, hit.barycentric}, p - engine::to_eigen(hit.point)};
+            if (to_measure[last])
+                set(i, walk(around_, {positions_, triangles_}, points_[i].position, last,
+                            corner_by(gaps_[i].spot.weight)));
         }
     });
+}
+
+void GapsBack::start_at(std::span<const Vector3> positions, std::uint32_t threads) {
+    around_ = FacesAround(positions.size(), triangles_);
+    positions_.assign(positions.begin(), positions.end());
+    const Bvh tree(positions_, triangles_);
+    parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Index near = i == begin ? no_index : gaps_[i - 1].spot.face;
+            set(i, nearest(tree, {positions_, triangles_}, points_[i].position, near));
+        }
+    });
+}
+
+void GapsBack::set(std::size_t i, const Bvh::Hit& hit) {
+    gaps_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point)};
 }
 
 }  // namespace faqem::detail

@@ -1,14 +1,16 @@
 #pragma once
 /// \file
-/// How far points of two surfaces are from the other one, kept up while the vertices of one of them move.
+/// How far points of two surfaces are from the other one, kept up while the vertices of one of them move. The
+/// closest points are looked for everywhere at first. Later they are followed from face to face while they
+/// come nearer: a gap is never too short, and what it leads to is rarely not the closest point of all.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "bvh.hpp"
+#include "faces_around.hpp"
 #include "fit.hpp"
 #include "spots.hpp"
 
@@ -17,11 +19,15 @@ namespace faqem::detail {
 /// A surface that stays, with what is asked of it again and again. Refers to its arguments.
 struct StillSurface {
     explicit StillSurface(const Patchwork& surface)
-        : mesh(surface), tree(surface.positions, surface.triangles), normals(unit_normals(surface)) {}
+        : mesh(surface),
+          tree(surface.positions, surface.triangles),
+          normals(unit_normals(surface)),
+          around(surface.positions.size(), surface.triangles) {}
 
     Patchwork mesh;
     Bvh tree;
     std::vector<engine::Vector3> normals;
+    FacesAround around;
 };
 
 /// Gaps from spots of a mesh that moves to one that stays.
@@ -35,7 +41,8 @@ public:
 
     /// Measures where the mesh has moved since the last time; all of it at first.
     /// \param threads  0: all; the result does not depend on it
-    /// O(log faces) for each spot whose face has moved, typically
+    /// O(spots log faces) at first, typically; then O(1) for each spot whose face has moved, where it has
+    /// moved by few faces
     void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
 
     std::size_t size() const { return spots_.size(); }
@@ -53,10 +60,11 @@ public:
 private:
     struct Gap {
         engine::Vector3 gap = engine::Vector3::Zero();
-        Index face = no_index;  ///< of the original
-        double turn = -1;       ///< < 0: not measured
+        Index face = no_index;    ///< of the original
+        std::uint8_t corner = 0;  ///< the nearest one of the face, or 3: the closest point is inside
+        double turn = -1;         ///< < 0: not measured
     };
-    void measure(std::size_t i);
+    void set(std::size_t i, const engine::Vector3& p, const Bvh::Hit& hit);
     engine::Vector3 normal(std::size_t i) const;
 
     const StillSurface& original_;
@@ -73,9 +81,8 @@ public:
     GapsBack(std::vector<OrientedPoint> points, std::span<const Triangle> triangles)
         : triangles_(triangles), points_(std::move(points)), gaps_(points_.size()) {}
 
-    /// As GapsThere::move_to(). O(faces), and O(log faces) for each point whose closest face, or one that has
-    /// come nearer, has moved, typically
-    /// \param swapped  of each triangle, or empty: nonzero has other corners than the last time
+    /// As GapsThere::move_to(), of the points whose closest face or a neighbour of it has moved. O(faces)
+    /// more. \param swapped  of each triangle, or empty: nonzero has other corners than the last time
     void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads,
                  std::span<const std::uint8_t> swapped = {});
 
@@ -92,11 +99,14 @@ private:
         Spot spot;
         engine::Vector3 gap = engine::Vector3::Zero();
     };
+    void start_at(std::span<const engine::Vector3> positions, std::uint32_t threads);
+    void set(std::size_t i, const Bvh::Hit& hit);
+
     std::span<const Triangle> triangles_;
     std::vector<OrientedPoint> points_;
     std::vector<Gap> gaps_;
     std::vector<engine::Vector3> positions_;
-    std::optional<Bvh> tree_;
+    FacesAround around_;
 };
 
 }  // namespace faqem::detail

@@ -1,0 +1,25 @@
+#include "faces_around.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace faqem;
+using detail::FacesAround;
+
+namespace {
+
+std::vector<Index> list(const FacesAround& around, Index v) { return {around[v].begin(), around[v].end()}; }
+
+}  // namespace
+
+TEST_CASE("faces around vertices come in their order, and those that are none do not") {
+    //  3---2
+    //  | / |    and vertex 4 on its own
+    //  0---1
+    const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {0, 2, 3}};
+    const FacesAround around(5, faces);
+    CHECK(list(around, 0) == std::vector<Index>{0, 2});
+    CHECK(list(around, 1) == std::vector<Index>{0});
+    CHECK(list(around, 2) == std::vector<Index>{0, 2});
+    CHECK(list(around, 3) == std::vector<Index>{2});
+    CHECK(around[4].empty());
+}
