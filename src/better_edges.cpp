@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "buckets.hpp"
 #include "edge_swap.hpp"
 #include "parallel.hpp"
 #include "sides.hpp"
@@ -100,23 +100,19 @@ private:
         return closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2]));
     }
 
-    /// Sorts the points of the original by the faces that they are closest to: vertices after even points.
+    /// Vertices come after even points.
     void bind() {
         const std::size_t points = even_.size() + corners_.size();
         const auto face = [&](std::size_t i) {
             return i < even_.size() ? even_.spot(i).face : corners_.spot(i - even_.size()).face;
         };
-        begin_.assign(light_.triangles.size() + 1, 0);
+        bound_ = Buckets<std::size_t>(light_.triangles.size(), [&](auto&& put) {
+            for (std::size_t i = 0; i < points; ++i) put(face(i), i);
+        });
         for (std::size_t i = 0; i < points; ++i) {
-            const double d =
-                i < even_.size() ? even_.gap(i).squaredNorm() : corners_.gap(i - even_.size()).squaredNorm();
-            farthest_ = std::max(farthest_, d);
-            ++begin_[face(i) + std::size_t{1}];
+            const Vector3& gap = i < even_.size() ? even_.gap(i) : corners_.gap(i - even_.size());
+            farthest_ = std::max(farthest_, gap.squaredNorm());
         }
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        bound_.resize(points);
-        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        for (std::size_t i = 0; i < points; ++i) bound_[next[face(i)]++] = i;
     }
 
     bool has_edge(Index v, Index w) const {
@@ -179,10 +175,9 @@ private:
         };
         const std::array<Vector3, 2> old_normals = normals(old), now_normals = normals(now);
         for (const Index f : c.faces) {
-            for (std::size_t i = begin_[f]; i < begin_[f + std::size_t{1}]; ++i) {
-                const bool is_corner = bound_[i] >= even_.size();
-                const OrientedPoint& p =
-                    is_corner ? corners_.point(bound_[i] - even_.size()) : even_.point(bound_[i]);
+            for (const std::size_t i : bound_[f]) {
+                const bool is_corner = i >= even_.size();
+                const OrientedPoint& p = is_corner ? corners_.point(i - even_.size()) : even_.point(i);
                 add(p, old, old_normals, is_corner ? 0 : weight_, c.before);
                 add(p, now, now_normals, is_corner ? 0 : weight_, c.after);
             }
@@ -272,10 +267,9 @@ private:
     double weight_;  // area of an even point
     std::uint32_t threads_;
     std::vector<Side> sides_;
-    double farthest_ = 0;             // squared
-    std::vector<std::size_t> begin_;  // of each face in bound_
-    std::vector<std::size_t> bound_;  // points by face
-    std::vector<Error> from_face_;    // of faces of candidates
+    double farthest_ = 0;           // squared
+    Buckets<std::size_t> bound_;    // the original's points by the faces that they are closest to
+    std::vector<Error> from_face_;  // of faces of candidates
 };
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckets.hpp"
+#include "parallel.hpp"
+
 namespace faqem::detail {
 
 namespace {
@@ -56,24 +59,34 @@ struct FaceSystem {
     std::array<Vector3, 3> right = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
 };
 
-std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power) {
-    std::vector<FaceSystem> all(faces);
+void add(const Pull& pull, double weight, FaceSystem& face) {
+    const Symmetric3 metric = metric_along(pull.normal, weight);
+    const Vector3 wanted = metric * pull.gap;
+    const Vec3& share = pull.spot.weight;
+    for (std::size_t k = 0; k < 3; ++k) {
+        face.right[k] += share[k] * wanted;
+        face.own[k].add(share[k] * share[k], metric);
+        face.other[k].add(share[k] * share[(k + 1) % 3], metric);
+    }
+}
+
+std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power,
+                                     std::uint32_t threads) {
     double mean = 0;
     for (const Pull& pull : pulls) mean += pull.gap.norm();
     mean /= static_cast<double>(std::max<std::size_t>(pulls.size(), 1));
-    for (const Pull& pull : pulls) {
-        const double distance = std::max(pull.gap.norm(), least_distance * mean);
-        const double w = distance > 0 ? std::pow(distance / mean, power) : 0;
-        const Symmetric3 metric = metric_along(pull.normal, w);
-        const Vector3 wanted = metric * pull.gap;
-        FaceSystem& face = all[pull.spot.face];
-        const Vec3& weight = pull.spot.weight;
-        for (std::size_t k = 0; k < 3; ++k) {
-            face.right[k] += weight[k] * wanted;
-            face.own[k].add(weight[k] * weight[k], metric);
-            face.other[k].add(weight[k] * weight[(k + 1) % 3], metric);
+    const Buckets<std::size_t> by_face(faces, [&](auto&& put) {
+        for (std::size_t i = 0; i < pulls.size(); ++i) put(pulls[i].spot.face, i);
+    });
+    std::vector<FaceSystem> all(faces);
+    parallel_blocks(faces, 512, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            for (const std::size_t i : by_face[f]) {
+                const double distance = std::max(pulls[i].gap.norm(), least_distance * mean);
+                add(pulls[i], distance > 0 ? std::pow(distance / mean, power) : 0, all[f]);
+            }
         }
-    }
+    });
     return all;
 }
 
@@ -81,9 +94,9 @@ std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pu
 class System {
 public:
     System(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-           std::span<const std::uint8_t> fixed, double power)
+           std::span<const std::uint8_t> fixed, double power, std::uint32_t threads)
         : triangles_(triangles),
-          faces_(face_systems(triangles.size(), pulls, power)),
+          faces_(face_systems(triangles.size(), pulls, power, threads)),
           free_(fixed.size()),
           own_(fixed.size()),
           inverse_(fixed.size(), Matrix3::Zero()),
@@ -157,8 +170,8 @@ double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
 }  // namespace
 
 std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                  std::span<const std::uint8_t> fixed, double power) {
-    const System system(triangles, pulls, fixed, power);
+                                  std::span<const std::uint8_t> fixed, double power, std::uint32_t threads) {
+    const System system(triangles, pulls, fixed, power, threads);
     const std::size_t size = fixed.size();
     std::vector<Vector3> x(size, Vector3::Zero()), residual = system.right(), direction(size), along(size),
                                                    eased(size);

@@ -82,7 +82,7 @@ void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t thread
     positions_.assign(positions.begin(), positions.end());
     parallel_blocks(spots_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (!moved[spots_[i].face]) continue;
+            if (!moved[spots_[i].face] && gaps_[i].face != no_index) continue;
             const Index last = gaps_[i].face, before = i == begin ? no_index : gaps_[i - 1].face;
             const Vector3 p = spots_[i].on(positions_, triangles_);
             set(i, p,
@@ -90,6 +90,19 @@ void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t thread
                                  : walk(original_.around, original_.mesh, p, last, gaps_[i].corner));
         }
     });
+}
+
+void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spot> spots) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+        if (faces[spots_[i].face]) continue;
+        spots_[kept] = spots_[i];
+        gaps_[kept++] = gaps_[i];
+    }
+    spots_.resize(kept);
+    gaps_.resize(kept);
+    spots_.insert(spots_.end(), spots.begin(), spots.end());
+    gaps_.resize(spots_.size());
 }
 
 void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
@@ -127,7 +140,7 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
     if (positions_.empty()) return start_at(positions, threads);
     std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     for (std::size_t f = 0; f < swapped.size(); ++f) moved[f] |= swapped[f];
-    if (!swapped.empty()) around_ = FacesAround(positions.size(), triangles_);
+    if (!swapped.empty()) around_ = faces_around(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
     std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
@@ -147,7 +160,7 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
 }
 
 void GapsBack::start_at(std::span<const Vector3> positions, std::uint32_t threads) {
-    around_ = FacesAround(positions.size(), triangles_);
+    around_ = faces_around(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
     const Bvh tree(positions_, triangles_);
     parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {

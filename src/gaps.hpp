@@ -22,7 +22,7 @@ struct StillSurface {
         : mesh(surface),
           tree(surface.positions, surface.triangles),
           normals(unit_normals(surface)),
-          around(surface.positions.size(), surface.triangles) {}
+          around(faces_around(surface.positions.size(), surface.triangles)) {}
 
     Patchwork mesh;
     Bvh tree;
@@ -44,6 +44,11 @@ public:
     /// O(spots log faces) at first, typically; then O(1) for each spot whose face has moved, where it has
     /// moved by few faces
     void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
+
+    /// Takes other spots on some faces, whose corners may be others too.
+    /// \param faces  of each triangle: nonzero has other spots now
+    /// \param spots  on these faces
+    void replace(std::span<const std::uint8_t> faces, std::span<const Spot> spots);
 
     std::size_t size() const { return spots_.size(); }
     const Spot& spot(std::size_t i) const { return spots_[i]; }

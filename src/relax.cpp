@@ -11,6 +11,7 @@
 #include "fit.hpp"
 #include "fold_guard.hpp"
 #include "gaps.hpp"
+#include "parallel.hpp"
 #include "sides.hpp"
 #include "spots.hpp"
 
@@ -20,9 +21,9 @@ namespace {
 
 using engine::Vector3;
 
-constexpr int steps = 4;
-/// Times that the vertices settle; edges are swapped in between.
-constexpr int rounds = 2;
+/// Times that edges are swapped, with fewer steps after each.
+constexpr int swaps = 2;
+constexpr int first_steps = 4, later_steps = 2;
 /// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
 constexpr double power = 0.5;
 constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
@@ -75,23 +76,24 @@ public:
           triangles_(light.triangles.begin(), light.triangles.end()),
           positions_(light.positions.begin(), light.positions.end()),
           fixed_(on_border(light.triangles, positions_.size())),
+          there_(original_, triangles_, evenly_spread(light, point_count(light))),
           back_(even_points(), triangles_),
           corners_(oriented_vertices(original), triangles_) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
-    /// Moves the vertices.
-    void settle() {
+    /// Moves the vertices, by steps on all of them.
+    void settle(int steps) {
         start_ = positions_;
         guard_.emplace(Patchwork{start_, triangles_}, least_fold);
-        there_.emplace(original_, triangles_, spots({start_, triangles_}));
-        if (there_->size() == 0 || back_.size() == 0) return;
+        ends_.emplace(original_, triangles_, corners_and_middles(triangles_));
+        if (there_.size() == 0 || back_.size() == 0) return;
         measure();
         const std::vector<Fit> first = fits_;
         const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
-            move(fitting_step(triangles_, pulls(), fixed_, power));
-            measure_pulls();
+            move(fitting_step(triangles_, pulls(), fixed_, power, threads_));
+            if (step + 1 < steps) measure_pulls();
         }
         measure();
         for (int round = 0; round < most_rounds && put_back(first, before); ++round) measure();
@@ -99,22 +101,38 @@ public:
             positions_ = start_;
             measure();
         }
-        draw_in();
+    }
+
+    /// Draws in the farthest points: the vertices around them alone take steps that count the far ones most,
+    /// as long as that helps. \pre settle()
+    void draw_in() {
+        if (fits_.empty()) return;
+        for (int round = 0; round < most_draws; ++round) {
+            const Fit before = sum(fits_);
+            std::vector<std::uint8_t> held(start_.size(), 1);
+            for (std::size_t f = 0; f < fits_.size(); ++f) {
+                if (!(fits_[f].farthest > draw_from * draw_from * before.farthest)) continue;
+                for (const Index v : triangles_[f]) held[v] = fixed_[v];
+            }
+            if (!draw_in(before, fitting_step(triangles_, pulls_around(held), held, draw_power, threads_)))
+                return;
+        }
     }
 
     /// Swaps edges where that helps. \pre settle()
     std::vector<EdgeSwap> swap_edges(std::span<const Index> groups) {
-        if (there_->size() == 0 || back_.size() == 0) return {};
-        const std::vector<EdgeSwap> swaps = better_edges({positions_, triangles_, fixed_, groups}, original_,
-                                                         back_, corners_, area(original_.mesh), threads_);
+        if (there_.size() == 0 || back_.size() == 0) return {};
+        const std::vector<EdgeSwap> better = better_edges({positions_, triangles_, fixed_, groups}, original_,
+                                                          back_, corners_, area(original_.mesh), threads_);
         std::vector<std::uint8_t> swapped(triangles_.size(), 0);
-        for (const EdgeSwap& swap : swaps) {
+        for (const EdgeSwap& swap : better) {
             swap_edge(triangles_[swap[0]], triangles_[swap[1]]);
             swapped[swap[0]] = swapped[swap[1]] = 1;
         }
+        there_.replace(swapped, spots_on(swapped));
         back_.move_to(positions_, threads_, swapped);
         corners_.move_to(positions_, threads_, swapped);
-        return swaps;
+        return better;
     }
 
     std::vector<Vector3> take_positions() { return std::move(positions_); }
@@ -167,10 +185,15 @@ private:
         return std::clamp(points_per_face * static_cast<std::size_t>(faces), least_points, most_points);
     }
 
-    static std::vector<Spot> spots(const Patchwork& light) {
-        std::vector<Spot> all = evenly_spread(light, point_count(light));
-        for (const Spot& spot : corners_and_middles(light.triangles)) all.push_back(spot);
-        return all;
+    /// On some faces, as close together as those on the whole mesh.
+    std::vector<Spot> spots_on(std::span<const std::uint8_t> faces) const {
+        std::vector<Triangle> those(triangles_);
+        for (std::size_t f = 0; f < those.size(); ++f) {
+            if (!faces[f]) those[f].fill(no_index);
+        }
+        const double share = area({positions_, those}) / area({positions_, triangles_});
+        const auto count = std::llround(share * static_cast<double>(point_count({positions_, triangles_})));
+        return evenly_spread({positions_, those}, static_cast<std::size_t>(count));
     }
 
     std::vector<OrientedPoint> even_points() const {
@@ -183,28 +206,38 @@ private:
         return points;
     }
 
-    std::vector<Pull> pulls() const {
-        std::vector<Pull> all;
-        all.reserve(there_->size() + back_.size());
-        for (std::size_t i = 0; i < there_->size(); ++i) all.push_back(there_->pull(i));
-        for (std::size_t i = 0; i < back_.size(); ++i) all.push_back(back_.pull(i));
-        return all;
+    /// All of them but those of the vertices. Valid until the next call.
+    std::span<const Pull> pulls() {
+        pulls_.resize(there_.size() + ends_->size() + back_.size());
+        std::size_t begin = 0;
+        const auto add = [&](const auto& gaps) {
+            parallel_blocks(gaps.size(), 4096, threads_, [&](std::size_t from, std::size_t to) {
+                for (std::size_t i = from; i < to; ++i) pulls_[begin + i] = gaps.pull(i);
+            });
+            begin += gaps.size();
+        };
+        add(there_), add(*ends_), add(back_);
+        return pulls_;
     }
 
     void measure_pulls() {
-        there_->move_to(positions_, threads_);
+        there_.move_to(positions_, threads_);
+        ends_->move_to(positions_, threads_);
         back_.move_to(positions_, threads_);
     }
 
     /// Finds how well the faces fit where the vertices are now.
     void measure() {
         measure_pulls();
-        there_->measure_turns(tie_tolerance, threads_);
+        there_.measure_turns(tie_tolerance, threads_);
+        ends_->measure_turns(tie_tolerance, threads_);
         corners_.move_to(positions_, threads_);
         fits_.assign(triangles_.size(), {});
-        for (std::size_t i = 0; i < there_->size(); ++i) {
-            const double distance = there_->gap(i).squaredNorm();
-            fits_[there_->spot(i).face].add({distance, distance, least_turn_counted + there_->turn(i)});
+        for (const GapsThere* there : {&there_, &*ends_}) {
+            for (std::size_t i = 0; i < there->size(); ++i) {
+                const double distance = there->gap(i).squaredNorm();
+                fits_[there->spot(i).face].add({distance, distance, least_turn_counted + there->turn(i)});
+            }
         }
         for (std::size_t i = 0; i < back_.size(); ++i) {
             const double distance = back_.gap(i).squaredNorm();
@@ -252,20 +285,6 @@ private:
         return new_norm >= least_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
     }
 
-    /// Draws in the farthest points: the vertices around them alone take steps that count the far ones most,
-    /// as long as that helps.
-    void draw_in() {
-        for (int round = 0; round < most_draws; ++round) {
-            const Fit before = sum(fits_);
-            std::vector<std::uint8_t> held(start_.size(), 1);
-            for (std::size_t f = 0; f < fits_.size(); ++f) {
-                if (!(fits_[f].farthest > draw_from * draw_from * before.farthest)) continue;
-                for (const Index v : triangles_[f]) held[v] = fixed_[v];
-            }
-            if (!draw_in(before, fitting_step(triangles_, pulls_around(held), held, draw_power))) return;
-        }
-    }
-
     /// False, and all is as it was: neither the step nor its half or quarter helps.
     bool draw_in(const Fit& before, std::vector<Vector3> step) {
         const std::vector<Vector3> from = positions_;
@@ -293,7 +312,8 @@ private:
                 if (counts[gaps.spot(i).face]) all.push_back(gaps.pull(i));
             }
         };
-        add(*there_);
+        add(there_);
+        add(*ends_);
         add(back_);
         add(corners_);
         return all;
@@ -339,9 +359,11 @@ private:
     std::vector<Vector3> start_, positions_;
     std::vector<std::uint8_t> fixed_;
     std::optional<FoldGuard> guard_;
-    std::optional<GapsThere> there_;
-    GapsBack back_;          // from points spread by area: they pull, and say how well the faces fit
-    GapsBack corners_;       // from the vertices: among them are the farthest points
+    GapsThere there_;                // from points spread by area
+    std::optional<GapsThere> ends_;  // from corners and middles of edges
+    GapsBack back_;                  // from points spread by area: they pull, and say how well the faces fit
+    GapsBack corners_;               // from the vertices: among them are the farthest points
+    std::vector<Pull> pulls_;
     std::vector<Fit> fits_;  // of the faces of the light mesh
 };
 
@@ -350,7 +372,8 @@ private:
 std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
                            std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads) {
     Relaxation relaxation(original, light, fixed, least_turn, threads);
-    relaxation.settle();
+    relaxation.settle(first_steps);
+    relaxation.draw_in();
     return relaxation.take_positions();
 }
 
@@ -358,12 +381,13 @@ Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::s
                        std::span<const Index> groups, double least_turn, std::uint32_t threads) {
     Relaxation relaxation(original, light, fixed, least_turn, threads);
     Relaxed result;
-    relaxation.settle();
-    for (int round = 1; round < rounds; ++round) {
-        const std::vector<EdgeSwap> swaps = relaxation.swap_edges(groups);
-        result.swaps.insert(result.swaps.end(), swaps.begin(), swaps.end());
-        relaxation.settle();
+    relaxation.settle(first_steps);
+    for (int round = 0; round < swaps; ++round) {
+        const std::vector<EdgeSwap> better = relaxation.swap_edges(groups);
+        result.swaps.insert(result.swaps.end(), better.begin(), better.end());
+        relaxation.settle(later_steps);
     }
+    relaxation.draw_in();
     result.positions = relaxation.take_positions();
     return result;
 }

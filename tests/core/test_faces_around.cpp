@@ -16,7 +16,7 @@ TEST_CASE("faces around vertices come in their order, and those that are none do
     //  | / |    and vertex 4 on its own
     //  0---1
     const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {0, 2, 3}};
-    const FacesAround around(5, faces);
+    const FacesAround around = detail::faces_around(5, faces);
     CHECK(list(around, 0) == std::vector<Index>{0, 2});
     CHECK(list(around, 1) == std::vector<Index>{0});
     CHECK(list(around, 2) == std::vector<Index>{0, 2});

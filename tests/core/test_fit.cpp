@@ -25,7 +25,7 @@ TEST_CASE("fit: pulls of the same height at all corners lift the triangle by tha
         pulls.push_back(pull);
     }
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::fitting_step(one, pulls, free, 0.5)) {
+    for (const Vector3& step : detail::fitting_step(one, pulls, free, 0.5, 1)) {
         // Each vertex: (w + hold) step = w gap, with hold = 0.02 * 1.2 w / 3 and 2e-4 of the same.
         CHECK(step.z() == Approx(0.5 / (1 + 0.0202 * 1.2 / 3)).epsilon(1e-3));
         CHECK(step.head<2>().norm() < 1e-12);
@@ -35,7 +35,7 @@ TEST_CASE("fit: pulls of the same height at all corners lift the triangle by tha
 TEST_CASE("fit: fixed vertices stay, the others make up for them") {
     const std::vector<Pull> pulls = {{{0, {0.5, 0.5, 0}}, up, up}};
     const std::vector<std::uint8_t> fixed = {1, 0, 0};
-    const std::vector<Vector3> steps = detail::fitting_step(one, pulls, fixed, 0.5);
+    const std::vector<Vector3> steps = detail::fitting_step(one, pulls, fixed, 0.5, 1);
     CHECK(steps[0] == Vector3::Zero());
     // Alone it would need to go twice as far: half of its move arrives at the middle of the edge.
     CHECK(steps[1].z() == Approx(2).epsilon(0.02));
@@ -46,12 +46,12 @@ TEST_CASE("fit: far pulls weigh more than near ones") {
     // Two pulls at one corner, up by 4 and down by 1: weights 2 and 1, so (2 * 4 - 1) / 3.
     const std::vector<Pull> pulls = {{{0, {1, 0, 0}}, 4 * up, up}, {{0, {1, 0, 0}}, -1 * up, up}};
     const std::vector<std::uint8_t> free(3, 0);
-    CHECK(detail::fitting_step(one, pulls, free, 0.5)[0].z() == Approx(7.0 / 3).epsilon(0.02));
+    CHECK(detail::fitting_step(one, pulls, free, 0.5, 1)[0].z() == Approx(7.0 / 3).epsilon(0.02));
 }
 
 TEST_CASE("fit: without pulls nothing moves") {
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::fitting_step(one, {}, free, 0.5)) CHECK(step == Vector3::Zero());
+    for (const Vector3& step : detail::fitting_step(one, {}, free, 0.5, 1)) CHECK(step == Vector3::Zero());
 }
 
 TEST_CASE("fit: the step solves the system written out as a dense matrix") {
@@ -91,12 +91,13 @@ TEST_CASE("fit: the step solves the system written out as a dense matrix") {
         own += hold * Eigen::Matrix3d::Identity();
     }
     const Eigen::Matrix<double, 12, 1> solution = matrix.ldlt().solve(right);
-    const std::vector<Vector3> steps = detail::fitting_step(two, pulls, fixed, 0.5);
+    const std::vector<Vector3> steps = detail::fitting_step(two, pulls, fixed, 0.5, 1);
     for (Eigen::Index v = 0; v < 4; ++v) {
         CHECK((steps[static_cast<std::size_t>(v)] - solution.segment<3>(3 * v)).norm() <
               5e-3 * solution.norm());
     }
     CHECK(steps[3] == Vector3::Zero());
+    CHECK(detail::fitting_step(two, pulls, fixed, 0.5, 3) == steps);
 }
 
 TEST_CASE("fit: a spot is where its weights say") {

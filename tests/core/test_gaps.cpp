@@ -36,6 +36,23 @@ TEST_CASE("gaps: from a square that was lifted, and back to it") {
     CHECK((back.spot(0).on(lifted, halves) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
 }
 
+TEST_CASE("gaps: faces that are swapped take other spots, the others keep theirs") {
+    const StillSurface original({square, halves});
+    const std::vector<Vector3> bent = {{0, 0, 0.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}};
+    GapsThere there(original, faces, {{0, {1, 0, 0}}, {2, {0, 0, 1}}, {1, {0.5, 0.5, 0}}});
+    there.move_to(bent, 1);
+    faces[0] = {3, 1, 2}, faces[1] = {3, 0, 1};
+    const std::vector<detail::Spot> spots = {{0, {0.5, 0.5, 0}}, {1, {0, 0.5, 0.5}}};
+    there.replace(std::vector<std::uint8_t>{1, 1, 0}, spots);
+    there.move_to(bent, 1);
+    REQUIRE(there.size() == 3);
+    CHECK(there.spot(0).face == 2);
+    CHECK(there.gap(0) == Vector3::Zero());
+    CHECK(there.gap(1) == Vector3::Zero());
+    CHECK((there.gap(2) - Vector3(0, 0, -0.25)).norm() < 1e-15);
+}
+
 TEST_CASE("gaps: turns are distances between unit normals, at an edge to the nearest of them") {
     // A step: a wall below the edge x = 0 that looks to x, and a floor beyond it that looks up.
     const std::vector<Vector3> step = {{0, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
