@@ -44,7 +44,7 @@ struct Error {
     double farthest = 0;  ///< squared
 
     void add(double distance_squared, double weight) {
-        sum += weight * std::pow(distance_squared, 1.25);
+        sum += weight * distance_squared * std::sqrt(std::sqrt(distance_squared));
         farthest = std::max(farthest, distance_squared);
     }
     void add(const Error& other) {

@@ -227,6 +227,14 @@ Bvh::Bvh(std::vector<Corners> triangles) {
     fit_boxes();
 }
 
+void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
+    for (Corners& t : triangles_) {
+        const auto [a, b, c] = triangles[t.face];
+        t.a = positions[a], t.b = positions[b], t.c = positions[c];
+    }
+    fit_boxes();
+}
+
 void Bvh::fit_boxes() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents

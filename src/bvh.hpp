@@ -28,6 +28,11 @@ public:
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
 
+    /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
+    /// \param triangles  those of the constructor
+    /// O(n)
+    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
+
     /// A point of the mesh.
     struct Hit {
         Index face = no_index;  ///< index into the constructor's triangles; no_index: nothing in range

@@ -59,6 +59,9 @@ struct FaceSystem {
     std::array<Vector3, 3> right = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
 };
 
+/// Of the power asked for most std::pow took 5% of all the time of `best`.
+double raised(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
+
 void add(const Pull& pull, double weight, FaceSystem& face) {
     const Symmetric3 metric = metric_along(pull.normal, weight);
     const Vector3 wanted = metric * pull.gap;
@@ -83,7 +86,7 @@ std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pu
         for (std::size_t f = begin; f < end; ++f) {
             for (const std::size_t i : by_face[f]) {
                 const double distance = std::max(pulls[i].gap.norm(), least_distance * mean);
-                add(pulls[i], distance > 0 ? std::pow(distance / mean, power) : 0, all[f]);
+                add(pulls[i], distance > 0 ? raised(distance / mean, power) : 0, all[f]);
             }
         }
     });

@@ -64,6 +64,23 @@ Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p
     return {last, engine::to_array(best.barycentric), engine::to_array(best.point), best.distance_squared};
 }
 
+/// What search_farthest() does, with search(i) for gap i.
+template <class Gap, class Search>
+void search_farthest_of(std::span<const Gap> gaps, double share, std::uint32_t threads, Search&& search) {
+    while (true) {
+        double longest = 0;
+        for (const Gap& gap : gaps) longest = std::max(longest, gap.gap.squaredNorm());
+        std::vector<std::size_t> far;
+        for (std::size_t i = 0; i < gaps.size(); ++i) {
+            if (!gaps[i].is_found && gaps[i].gap.squaredNorm() > share * share * longest) far.push_back(i);
+        }
+        if (far.empty()) return;
+        parallel_blocks(far.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) search(far[i]);
+        });
+    }
+}
+
 /// Of each triangle: has it a corner that is not where it was? All of them where nothing was before.
 std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, std::span<const Vector3> from,
                                           std::span<const Vector3> to) {
@@ -83,13 +100,25 @@ void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t thread
     parallel_blocks(spots_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (!moved[spots_[i].face] && gaps_[i].face != no_index) continue;
-            const Index last = gaps_[i].face, before = i == begin ? no_index : gaps_[i - 1].face;
-            const Vector3 p = spots_[i].on(positions_, triangles_);
-            set(i, p,
-                last == no_index ? nearest(original_.tree, original_.mesh, p, before)
-                                 : walk(original_.around, original_.mesh, p, last, gaps_[i].corner));
+            const Index last = gaps_[i].face;
+            if (last == no_index) {
+                search(i, i == begin ? no_index : gaps_[i - 1].face);
+            } else {
+                const Vector3 p = spots_[i].on(positions_, triangles_);
+                set(i, p, walk(original_.around, original_.mesh, p, last, gaps_[i].corner));
+            }
         }
     });
+}
+
+void GapsThere::search_farthest(double share, std::uint32_t threads) {
+    search_farthest_of<Gap>(gaps_, share, threads, [&](std::size_t i) { search(i, gaps_[i].face); });
+}
+
+void GapsThere::search(std::size_t i, Index near) {
+    const Vector3 p = spots_[i].on(positions_, triangles_);
+    set(i, p, nearest(original_.tree, original_.mesh, p, near));
+    gaps_[i].is_found = true;
 }
 
 void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spot> spots) {
@@ -106,7 +135,7 @@ void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spo
 }
 
 void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
-    gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, corner_by(hit.barycentric), -1};
+    gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, corner_by(hit.barycentric)};
 }
 
 Vector3 GapsThere::normal(std::size_t i) const {
@@ -142,6 +171,7 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
     for (std::size_t f = 0; f < swapped.size(); ++f) moved[f] |= swapped[f];
     if (!swapped.empty()) around_ = faces_around(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
+    tree_is_behind_ = true;
     std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
         if (!moved[f]) continue;
@@ -151,10 +181,11 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
     }
     parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Index last = gaps_[i].spot.face;
-            if (to_measure[last])
-                set(i, walk(around_, {positions_, triangles_}, points_[i].position, last,
-                            corner_by(gaps_[i].spot.weight)));
+            const Spot& last = gaps_[i].spot;
+            gaps_[i].is_found = false;  // faces that were far away may have come near
+            if (!to_measure[last.face]) continue;
+            set(i, walk(around_, {positions_, triangles_}, points_[i].position, last.face,
+                        corner_by(last.weight)));
         }
     });
 }
@@ -162,17 +193,24 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
 void GapsBack::start_at(std::span<const Vector3> positions, std::uint32_t threads) {
     around_ = faces_around(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
-    const Bvh tree(positions_, triangles_);
+    tree_.emplace(positions_, triangles_);
     parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Index near = i == begin ? no_index : gaps_[i - 1].spot.face;
-            set(i, nearest(tree, {positions_, triangles_}, points_[i].position, near));
-        }
+        for (std::size_t i = begin; i < end; ++i) search(i, i == begin ? no_index : gaps_[i - 1].spot.face);
     });
 }
 
+void GapsBack::search_farthest(double share, std::uint32_t threads) {
+    if (std::exchange(tree_is_behind_, false)) tree_->refit(positions_, triangles_);
+    search_farthest_of<Gap>(gaps_, share, threads, [&](std::size_t i) { search(i, gaps_[i].spot.face); });
+}
+
+void GapsBack::search(std::size_t i, Index near) {
+    set(i, nearest(*tree_, {positions_, triangles_}, points_[i].position, near));
+    gaps_[i].is_found = true;
+}
+
 void GapsBack::set(std::size_t i, const Bvh::Hit& hit) {
-    gaps_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point)};
+    gaps_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point), false};
 }
 
 }  // namespace faqem::detail

@@ -5,6 +5,7 @@
 /// come nearer: a gap is never too short, and what it leads to is rarely not the closest point of all.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,6 +46,11 @@ public:
     /// moved by few faces
     void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
 
+    /// Searches anew where a gap is longer than a share of the longest, until all of those are what a search
+    /// finds: what was followed may lead to a false farthest point. O(spots), and O(log faces) for each of
+    /// them
+    void search_farthest(double share, std::uint32_t threads);
+
     /// Takes other spots on some faces, whose corners may be others too.
     /// \param faces  of each triangle: nonzero has other spots now
     /// \param spots  on these faces
@@ -68,7 +74,9 @@ private:
         Index face = no_index;    ///< of the original
         std::uint8_t corner = 0;  ///< the nearest one of the face, or 3: the closest point is inside
         double turn = -1;         ///< < 0: not measured
+        bool is_found = false;    ///< by a search, not followed
     };
+    void search(std::size_t i, Index near);
     void set(std::size_t i, const engine::Vector3& p, const Bvh::Hit& hit);
     engine::Vector3 normal(std::size_t i) const;
 
@@ -91,6 +99,9 @@ public:
     void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads,
                  std::span<const std::uint8_t> swapped = {});
 
+    /// As GapsThere::search_farthest(). O(faces) more.
+    void search_farthest(double share, std::uint32_t threads);
+
     std::size_t size() const { return points_.size(); }
     const OrientedPoint& point(std::size_t i) const { return points_[i]; }
     /// Where on the moving mesh the point nearest to point i is.
@@ -103,8 +114,10 @@ private:
     struct Gap {
         Spot spot;
         engine::Vector3 gap = engine::Vector3::Zero();
+        bool is_found = false;  ///< by a search, not followed
     };
     void start_at(std::span<const engine::Vector3> positions, std::uint32_t threads);
+    void search(std::size_t i, Index near);
     void set(std::size_t i, const Bvh::Hit& hit);
 
     std::span<const Triangle> triangles_;
@@ -112,6 +125,8 @@ private:
     std::vector<Gap> gaps_;
     std::vector<engine::Vector3> positions_;
     FacesAround around_;
+    std::optional<Bvh> tree_;
+    bool tree_is_behind_ = false;  ///< the triangles have moved since
 };
 
 }  // namespace faqem::detail

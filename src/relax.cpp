@@ -10,10 +10,8 @@
 #include "edge_swap.hpp"
 #include "fit.hpp"
 #include "fold_guard.hpp"
-#include "gaps.hpp"
-#include "parallel.hpp"
 #include "sides.hpp"
-#include "spots.hpp"
+#include "two_sided.hpp"
 
 namespace faqem::detail {
 
@@ -26,15 +24,8 @@ constexpr int swaps = 2;
 constexpr int first_steps = 4, later_steps = 2;
 /// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
 constexpr double power = 0.5;
-constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
-/// The original has more that could be missed: so many times as many points there.
-constexpr std::size_t more_back = 2;
 /// Points that end farther away than this share of the farthest at the start go back.
 constexpr double put_back_from = 0.9;
-/// Added to each point's distance between the normals: a fraction of a degree does not matter.
-constexpr double least_turn_counted = 0.005;
-/// Original faces whose distances differ by less are tied. The diagonal is 1.
-constexpr double tie_tolerance = 1e-9;
 /// A face may not shrink below this share of its area.
 constexpr double least_area = 0.05;
 /// The relaxation may not fold the surface at an edge: cosine between the normals.
@@ -58,14 +49,6 @@ std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::si
     return border;
 }
 
-double area(const Patchwork& mesh) {
-    double twice = 0;
-    for (const Triangle& t : mesh.triangles) {
-        if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
-    }
-    return twice / 2;
-}
-
 class Relaxation {
 public:
     Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
@@ -76,9 +59,7 @@ public:
           triangles_(light.triangles.begin(), light.triangles.end()),
           positions_(light.positions.begin(), light.positions.end()),
           fixed_(on_border(light.triangles, positions_.size())),
-          there_(original_, triangles_, evenly_spread(light, point_count(light))),
-          back_(even_points(), triangles_),
-          corners_(oriented_vertices(original), triangles_) {
+          gaps_(original_, triangles_, positions_, threads) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
@@ -86,20 +67,20 @@ public:
     void settle(int steps) {
         start_ = positions_;
         guard_.emplace(Patchwork{start_, triangles_}, least_fold);
-        ends_.emplace(original_, triangles_, corners_and_middles(triangles_));
-        if (there_.size() == 0 || back_.size() == 0) return;
-        measure();
+        if (gaps_.empty()) return;
+        fits_ = gaps_.measure(positions_);
         const std::vector<Fit> first = fits_;
         const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
-            move(fitting_step(triangles_, pulls(), fixed_, power, threads_));
-            if (step + 1 < steps) measure_pulls();
+            move(fitting_step(triangles_, gaps_.pulls(), fixed_, power, threads_));
+            if (step + 1 < steps) gaps_.measure_pulls(positions_);
         }
-        measure();
-        for (int round = 0; round < most_rounds && put_back(first, before); ++round) measure();
+        fits_ = gaps_.measure(positions_);
+        for (int round = 0; round < most_rounds && put_back(first, before); ++round)
+            fits_ = gaps_.measure(positions_);
         if (!(farthest(fits_) <= before)) {
             positions_ = start_;
-            measure();
+            fits_ = gaps_.measure(positions_);
         }
     }
 
@@ -114,52 +95,42 @@ public:
                 if (!(fits_[f].farthest > draw_from * draw_from * before.farthest)) continue;
                 for (const Index v : triangles_[f]) held[v] = fixed_[v];
             }
-            if (!draw_in(before, fitting_step(triangles_, pulls_around(held), held, draw_power, threads_)))
-                return;
+            const std::vector<Pull> pulls = gaps_.pulls_at(faces_that_move(held));
+            if (!draw_in(before, fitting_step(triangles_, pulls, held, draw_power, threads_))) return;
         }
     }
 
     /// Swaps edges where that helps. \pre settle()
     std::vector<EdgeSwap> swap_edges(std::span<const Index> groups) {
-        if (there_.size() == 0 || back_.size() == 0) return {};
-        const std::vector<EdgeSwap> better = better_edges({positions_, triangles_, fixed_, groups}, original_,
-                                                          back_, corners_, area(original_.mesh), threads_);
+        if (gaps_.empty()) return {};
+        const std::vector<EdgeSwap> better =
+            better_edges({positions_, triangles_, fixed_, groups}, original_, gaps_.back(), gaps_.corners(),
+                         area(original_.mesh), threads_);
         std::vector<std::uint8_t> swapped(triangles_.size(), 0);
         for (const EdgeSwap& swap : better) {
             swap_edge(triangles_[swap[0]], triangles_[swap[1]]);
             swapped[swap[0]] = swapped[swap[1]] = 1;
         }
-        there_.replace(swapped, spots_on(swapped));
-        back_.move_to(positions_, threads_, swapped);
-        corners_.move_to(positions_, threads_, swapped);
+        gaps_.swap(positions_, swapped);
         return better;
     }
 
     std::vector<Vector3> take_positions() { return std::move(positions_); }
 
 private:
-    /// How well faces of the light mesh fit.
-    struct Fit {
-        double farthest = 0;  ///< largest squared distance of their points
-        double distance = 0;  ///< sum of these squared distances
-        double turn = 0;      ///< sum of the distances between the unit normals on either side
-        void add(const Fit& other) {
-            farthest = std::max(farthest, other.farthest);
-            distance += other.distance;
-            turn += other.turn;
-        }
-        /// A gain in distance at the cost of the normals is none, unless it is the larger one.
-        bool is_worse_than(const Fit& other) const {
-            return turn > other.turn && distance * turn * turn > other.distance * other.turn * other.turn;
-        }
-        /// Is the farthest nearer, and do the sums lose less than it gains?
-        bool is_drawn_in_from(const Fit& other) const {
-            if (!(farthest < least_draw * other.farthest)) return false;
-            const double gain = std::pow(other.farthest / farthest, exchange);
-            const double lost_turn = turn / other.turn;
-            return distance <= gain * other.distance && lost_turn * lost_turn <= gain;
-        }
-    };
+    /// A gain in distance at the cost of the normals is none, unless it is the larger one.
+    static bool is_worse(const Fit& now, const Fit& before) {
+        return now.turn > before.turn &&
+               now.distance * now.turn * now.turn > before.distance * before.turn * before.turn;
+    }
+
+    /// Is the farthest nearer, and do the sums lose less than it gains?
+    static bool is_drawn_in(const Fit& now, const Fit& before) {
+        if (!(now.farthest < least_draw * before.farthest)) return false;
+        const double gain = std::pow(before.farthest / now.farthest, exchange);
+        const double lost_turn = now.turn / before.turn;
+        return now.distance <= gain * before.distance && lost_turn * lost_turn <= gain;
+    }
 
     static Fit sum(std::span<const Fit> fits) {
         Fit all;
@@ -179,73 +150,14 @@ private:
         return sums;
     }
 
-    static std::size_t point_count(const Patchwork& light) {
-        const auto faces = std::count_if(light.triangles.begin(), light.triangles.end(),
-                                         [](const Triangle& t) { return t[0] != no_index; });
-        return std::clamp(points_per_face * static_cast<std::size_t>(faces), least_points, most_points);
-    }
-
-    /// On some faces, as close together as those on the whole mesh.
-    std::vector<Spot> spots_on(std::span<const std::uint8_t> faces) const {
-        std::vector<Triangle> those(triangles_);
-        for (std::size_t f = 0; f < those.size(); ++f) {
-            if (!faces[f]) those[f].fill(no_index);
+    /// Those with a vertex that is not held.
+    std::vector<std::uint8_t> faces_that_move(std::span<const std::uint8_t> held) const {
+        std::vector<std::uint8_t> any(triangles_.size(), 0);
+        for (std::size_t f = 0; f < any.size(); ++f) {
+            if (triangles_[f][0] == no_index) continue;
+            for (const Index v : triangles_[f]) any[f] |= !held[v];
         }
-        const double share = area({positions_, those}) / area({positions_, triangles_});
-        const auto count = std::llround(share * static_cast<double>(point_count({positions_, triangles_})));
-        return evenly_spread({positions_, those}, static_cast<std::size_t>(count));
-    }
-
-    std::vector<OrientedPoint> even_points() const {
-        std::vector<OrientedPoint> points;
-        for (const Spot& spot :
-             evenly_spread(original_.mesh, more_back * point_count({positions_, triangles_}))) {
-            points.push_back(
-                {spot.on(original_.mesh.positions, original_.mesh.triangles), original_.normals[spot.face]});
-        }
-        return points;
-    }
-
-    /// All of them but those of the vertices. Valid until the next call.
-    std::span<const Pull> pulls() {
-        pulls_.resize(there_.size() + ends_->size() + back_.size());
-        std::size_t begin = 0;
-        const auto add = [&](const auto& gaps) {
-            parallel_blocks(gaps.size(), 4096, threads_, [&](std::size_t from, std::size_t to) {
-                for (std::size_t i = from; i < to; ++i) pulls_[begin + i] = gaps.pull(i);
-            });
-            begin += gaps.size();
-        };
-        add(there_), add(*ends_), add(back_);
-        return pulls_;
-    }
-
-    void measure_pulls() {
-        there_.move_to(positions_, threads_);
-        ends_->move_to(positions_, threads_);
-        back_.move_to(positions_, threads_);
-    }
-
-    /// Finds how well the faces fit where the vertices are now.
-    void measure() {
-        measure_pulls();
-        there_.measure_turns(tie_tolerance, threads_);
-        ends_->measure_turns(tie_tolerance, threads_);
-        corners_.move_to(positions_, threads_);
-        fits_.assign(triangles_.size(), {});
-        for (const GapsThere* there : {&there_, &*ends_}) {
-            for (std::size_t i = 0; i < there->size(); ++i) {
-                const double distance = there->gap(i).squaredNorm();
-                fits_[there->spot(i).face].add({distance, distance, least_turn_counted + there->turn(i)});
-            }
-        }
-        for (std::size_t i = 0; i < back_.size(); ++i) {
-            const double distance = back_.gap(i).squaredNorm();
-            fits_[back_.spot(i).face].add({distance, distance, 0});
-        }
-        for (std::size_t i = 0; i < corners_.size(); ++i) {
-            fits_[corners_.spot(i).face].add({corners_.gap(i).squaredNorm(), 0, 0});
-        }
+        return any;
     }
 
     /// Takes the steps, shorter where a face would turn too far from where it was at the start, or the
@@ -290,33 +202,13 @@ private:
         const std::vector<Vector3> from = positions_;
         for (int half = 0; half < 3; ++half) {
             move(step);
-            measure();
-            if (sum(fits_).is_drawn_in_from(before)) return true;
+            fits_ = gaps_.measure_again(positions_);
+            if (is_drawn_in(sum(fits_), before)) return true;
             positions_ = from;
             for (Vector3& s : step) s *= 0.5;
         }
-        measure();
+        fits_ = gaps_.measure_again(positions_);
         return false;
-    }
-
-    /// Of faces with a vertex that is not held.
-    std::vector<Pull> pulls_around(std::span<const std::uint8_t> held) const {
-        std::vector<std::uint8_t> counts(triangles_.size(), 0);
-        for (std::size_t f = 0; f < counts.size(); ++f) {
-            if (triangles_[f][0] == no_index) continue;
-            for (const Index v : triangles_[f]) counts[f] |= !held[v];
-        }
-        std::vector<Pull> all;
-        const auto add = [&](const auto& gaps) {
-            for (std::size_t i = 0; i < gaps.size(); ++i) {
-                if (counts[gaps.spot(i).face]) all.push_back(gaps.pull(i));
-            }
-        };
-        add(there_);
-        add(*ends_);
-        add(back_);
-        add(corners_);
-        return all;
     }
 
     /// Undoes the moves at faces with far points that were nearer before, and of vertices around which the
@@ -330,7 +222,7 @@ private:
         }
         const std::vector<Fit> before_around = around_vertices(first), around = around_vertices(fits_);
         for (Index v = 0; v < around.size(); ++v) {
-            if (around[v].is_worse_than(before_around[v])) any |= put_back(v);
+            if (is_worse(around[v], before_around[v])) any |= put_back(v);
         }
         // A face with some of its corners back may have turned: then all of them go back.
         for (bool turned = any; turned;) {
@@ -359,11 +251,7 @@ private:
     std::vector<Vector3> start_, positions_;
     std::vector<std::uint8_t> fixed_;
     std::optional<FoldGuard> guard_;
-    GapsThere there_;                // from points spread by area
-    std::optional<GapsThere> ends_;  // from corners and middles of edges
-    GapsBack back_;                  // from points spread by area: they pull, and say how well the faces fit
-    GapsBack corners_;               // from the vertices: among them are the farthest points
-    std::vector<Pull> pulls_;
+    TwoSidedGaps gaps_;
     std::vector<Fit> fits_;  // of the faces of the light mesh
 };
 
@@ -383,6 +271,7 @@ Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::s
     Relaxed result;
     relaxation.settle(first_steps);
     for (int round = 0; round < swaps; ++round) {
+        relaxation.draw_in();
         const std::vector<EdgeSwap> better = relaxation.swap_edges(groups);
         result.swaps.insert(result.swaps.end(), better.begin(), better.end());
         relaxation.settle(later_steps);
