@@ -354,45 +354,22 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
 }
 
 Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps) {
-    Reduced out;
-    std::vector<Index> next(input.positions.size());
-    std::iota(next.begin(), next.end(), Index{0});
-    std::vector<Vector3> position(input.positions.begin(), input.positions.end());
-    std::vector<Index> place = next;
+    SlotTrace trace(input.positions.size());
+    std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
     for (const auto& [survivor, gone, to] : steps) {
-        next[gone] = survivor;
-        if (to != position[survivor]) place[survivor] = to == position[gone] ? place[gone] : no_index;
-        position[survivor] = to;
+        trace.collapsing(survivor, gone, positions[survivor], positions[gone], to);
+        positions[survivor] = to;
     }
-    const auto root = [&](Index v) {
-        Index end = v;
-        while (next[end] != end) end = next[end];
-        while (next[v] != end) v = std::exchange(next[v], end);
-        return end;
-    };
+    std::vector<Index> faces;
+    std::vector<Triangle> triangles;
     for (Index f = 0; f < input.triangles.size(); ++f) {
         const Triangle& t = input.triangles[f];
-        const Triangle now = {root(t[0]), root(t[1]), root(t[2])};
+        const Triangle now = {trace.root(t[0]), trace.root(t[1]), trace.root(t[2])};
         if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
-        out.faces.push_back(f);
-        out.triangles.push_back(now);
+        faces.push_back(f);
+        triangles.push_back(now);
     }
-    std::vector<Index> number(input.positions.size(), no_index);
-    for (const Triangle& t : out.triangles) {
-        for (const Index v : t) number[v] = 0;
-    }
-    for (Index v = 0; v < number.size(); ++v) {
-        if (number[v] == no_index) continue;
-        number[v] = static_cast<Index>(out.vertices.size());
-        out.vertices.push_back(v);
-        out.places.push_back(place[v]);
-        out.positions.push_back(position[v]);
-    }
-    for (Triangle& t : out.triangles) {
-        for (Index& v : t) v = number[v];
-    }
-    for (Index v = 0; v < next.size(); ++v) out.into.push_back(number[root(v)]);
-    return out;
+    return reduced(std::move(faces), std::move(triangles), positions, trace);
 }
 
 }  // namespace faqem::detail

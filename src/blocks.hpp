@@ -11,6 +11,7 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/original.hpp"
 #include "faqem/options.hpp"
+#include "reduced.hpp"
 
 namespace faqem::detail {
 
@@ -77,15 +78,6 @@ struct BlockInput {
 /// O(n) on each thread, for all their vertices
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, std::uint32_t threads);
-
-/// What is left after some steps.
-struct Reduced {
-    std::vector<Index> vertices, faces;  ///< slots that are left, in order
-    std::vector<Index> into;    ///< of each vertex slot: which of `vertices` it has gone into, or no_index
-    std::vector<Index> places;  ///< of each of `vertices`: the slot whose place it has, or no_index
-    std::vector<engine::Vector3> positions;
-    std::vector<Triangle> triangles;
-};
 
 /// Does the steps. O(n)
 Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps);

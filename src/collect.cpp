@@ -51,6 +51,45 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
     return slots;
 }
 
+void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResult& result) {
+    CollapseHistory& history = result.history;
+    for (Collapse& collapse : history.collapses)
+        collapse.position = prepared.to_model(engine::to_eigen(collapse.position));
+    history.positions = prepared.positions;
+    history.triangles = prepared.triangles;
+    // What was pruned is deleted before the first collapse.
+    std::vector<DeletedFace> pruned_faces;
+    for (const PrunedFace& pruned : prepared.pruned.faces) {
+        history.triangles[pruned.face] = pruned.corners;
+        pruned_faces.push_back({0, pruned.face});
+    }
+    history.deleted_faces.insert(history.deleted_faces.begin(), pruned_faces.begin(), pruned_faces.end());
+    history.face_groups.assign(mesh.face_groups.begin(), mesh.face_groups.end());
+    history.kept_faces = result.face_origin;
+    // The history and the mesh say the same, to the last bit.
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        const Index v = history.kept_versions[i];
+        if (v >= history.positions.size())
+            history.collapses[v - history.positions.size()].position = result.mesh.positions[i];
+    }
+}
+
+void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
+    CollapseHistory& history = result.history;
+    if (result.report.vertices_relaxed > 0) history.kept_positions = result.mesh.positions;
+    for (const auto& [s, t] : swaps) {
+        history.patch_faces.insert(history.patch_faces.end(), {history.kept_faces[s], history.kept_faces[t]});
+        history.patch_begin.push_back(history.patch_faces.size());
+    }
+}
+
+void count(const engine::LoopResult& looped, Report& report) {
+    report.collapses += looped.collapses;
+    for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
+    for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
+    report.components_deleted += looped.components_deleted;
+}
+
 void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
                    SimplifyResult& result) {
     Report& report = result.report;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "arrange.hpp"
+#include "better_edges.hpp"
+#include "faqem/engine/engine.hpp"
 #include "faqem/engine/wedges.hpp"
 #include "faqem/simplify.hpp"
 #include "presets.hpp"
@@ -21,6 +23,20 @@ namespace faqem::detail {
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
                            std::span<const Index> places, SimplifyResult& result);
+
+/// Fills what the recorder left open in the history of the result, and brings it to model units.
+/// \param result  its mesh not relaxed; of its history the collapses, their patches, the deleted faces and
+/// the
+///                kept versions
+/// O(n)
+void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResult& result);
+
+/// Adds to the history of the result where its vertices went in the end, and which edges were swapped.
+/// \param swaps  of faces of the result
+void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result);
+
+/// Adds what an engine counted.
+void count(const engine::LoopResult& looped, Report& report);
 
 /// Counts the mesh of the result and what was prepared, and says in words what the user should know.
 void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,

@@ -39,6 +39,8 @@ void Ground::take(Reduced&& reduced) {
     if (whole_.positions.empty()) whole_ = std::move(less);
 }
 
+std::vector<Index> Ground::places_of(const std::vector<Index>& slots) const { return taken(places_, slots); }
+
 Patchwork Ground::whole() const {
     const Arranged& whole = whole_.positions.empty() ? now_ : whole_;
     return {whole.positions, whole.triangles};

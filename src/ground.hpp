@@ -30,6 +30,8 @@ public:
     const std::vector<std::uint8_t>& locked() const { return locked_; }
     /// Of each slot: the vertex of the prepared mesh whose place it has, or no_index.
     const std::vector<Index>& places() const { return places_; }
+    /// As places(), of what has the places of these slots now; no_index stays.
+    std::vector<Index> places_of(const std::vector<Index>& slots) const;
     /// The slot that each vertex of the original has gone into, or no_index.
     const std::vector<Index>& into() const { return into_; }
     /// Null if it is not remembered.

@@ -1,7 +1,6 @@
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -18,6 +17,8 @@
 #include "prepare.hpp"
 #include "presets.hpp"
 #include "relax.hpp"
+#include "run.hpp"
+#include "run_recorders.hpp"
 #include "stopwatch.hpp"
 #include "target.hpp"
 #include "virtual_edges.hpp"
@@ -57,50 +58,18 @@ std::vector<double> importance(const MeshView& mesh, const detail::Prepared& pre
     return result;
 }
 
-// Remembers whose place a slot still has, so that what did not move comes out to the last bit.
-template <class Recorder>
-class OriginRecorder {
-public:
-    /// \param places  whose place each slot has, or no_index
-    OriginRecorder(Recorder& inner, std::vector<Index> places) : inner_(inner), place_(std::move(places)) {}
-    void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
-        inner_.collapsing(complex, survivor, gone, to);
-        if (to.point == complex.position(survivor)) return;
-        place_[survivor] = to.point == complex.position(gone) ? place_[gone] : no_index;
-    }
-    void deleting(Index face) { inner_.deleting(face); }
-    /// Whose place each slot has now, or no_index.
-    const std::vector<Index>& places() const { return place_; }
-
-private:
-    Recorder& inner_;
-    std::vector<Index> place_;
-};
-
-// Records what every collapse cost.
-class CostRecorder {
-public:
-    void collapsing(const Complex& complex, Index, Index, const engine::Candidate& to) {
-        cost_ = std::max(cost_, to.cost);
-        steps_.push_back({complex.face_count(), cost_});
-    }
-    // What takes whole components is the last resort.
-    void deleting(Index) { cost_ = std::numeric_limits<double>::infinity(); }
-    std::vector<detail::CostCurve::Step> take() { return std::move(steps_); }
-
-private:
-    std::vector<detail::CostCurve::Step> steps_;
-    double cost_ = 0;
-};
-
-template <class Recorder>
+// Runs to the target of `loop`, and on to what it is then for as long as goes_on(result) says so.
+template <class Recorder, class GoesOn>
 engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Settings& settings,
-                       Recorder& recorder, const engine::LoopOptions& loop, const detail::Ground& ground) {
+                       Recorder& recorder, const engine::LoopOptions& loop, const detail::Ground& ground,
+                       GoesOn&& goes_on) {
     engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue) {
         engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
                                                                  work.locked, metric, recorder, curves);
-        return engine.run(loop);
+        engine::LoopResult result = engine.run(loop);
+        while (goes_on(result)) result = engine.go_on(loop);
+        return result;
     };
     const auto weighted = [&](auto metric, auto queue) {
         if (work.importance.empty()) return collapse(std::move(metric), queue);
@@ -128,36 +97,36 @@ public:
     Run(const MeshView& mesh, const Options& options)
         : mesh_(mesh), options_(options), settings_(detail::settings(options)) {}
 
-    SimplifyResult simplify() {
-        const Stopwatch all;
-        result_.report.preset = options_.preset;
-        result_.report.faces_in = mesh_.triangles.size();
-        result_.report.vertices_in = mesh_.positions.size();
+    std::vector<SimplifyResult> simplify(std::span<const std::uint64_t> targets) {
+        targets_ = targets;
+        counted_.preset = options_.preset;
+        counted_.faces_in = mesh_.triangles.size();
+        counted_.vertices_in = mesh_.positions.size();
         prepared_ = detail::prepare(mesh_, settings_);
-        result_.report.faces_dropped = prepared_.dropped_faces;
-        result_.report.seconds.weld = all.seconds();
+        counted_.faces_dropped = prepared_.dropped_faces;
+        counted_.seconds.weld = watch_.seconds();
         arrange();
         if (options_.history == Recording::on) {
             engine::HistoryRecorder history(ground_.now().vertex, ground_.now().face,
                                             static_cast<Index>(prepared_.positions.size()));
-            collapse_and_collect(history);
-            finish_history(history);
+            collapse_to_targets(history);
         } else {
             engine::NoRecorder nothing;
-            collapse_and_collect(nothing);
+            collapse_to_targets(nothing);
         }
-        take_relaxed();
-        detail::finish_report(options_, settings_, prepared_, result_);
-        result_.report.seconds.simplify = result_.report.seconds.total = all.seconds();
-        return std::move(result_);
+        return std::move(results_);
     }
 
     detail::CostCurve curve() {
+        const std::uint64_t target = detail::smallest_target;
+        targets_ = {&target, 1};
         prepared_ = detail::prepare(mesh_, settings_);
         arrange();
+        aim();
         Work work(ground_.now());
-        CostRecorder recorder;
-        const engine::LoopResult looped = collapse(work, recorder);
+        detail::CostRecorder recorder;
+        const engine::LoopResult looped =
+            collapse(work, recorder, [](const engine::LoopResult&) { return false; });
         return {recorder.take(), work.complex.face_count(), settings_.diagonal / prepared_.scale,
                 looped.stop != StopReason::cancelled};
     }
@@ -168,25 +137,35 @@ private:
                                  detail::locks_of_welded(mesh_, prepared_.welded, prepared_.positions.size()),
                                  options_.topology.border);
         if (settings_.carry == detail::Settings::Carry::tracked) ground_.remember_original();
-        loop_ = loop_options();
-    }
-
-    engine::LoopOptions loop_options() {
-        engine::LoopOptions loop;
-        result_.report.target_faces =
-            std::max(detail::smallest_target,
-                     detail::faces_wanted(options_.target, static_cast<double>(mesh_.triangles.size())));
-        loop.target_faces = static_cast<std::size_t>(result_.report.target_faces);
-        loop.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};
-        if (settings_.carry != detail::Settings::Carry::memory)
-            loop.distance_weight = ground_.area() / static_cast<double>(loop.target_faces);
-        loop.tiny_component = 0.02 * settings_.diagonal;
+        area_ = ground_.area();
+        loop_.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};
+        loop_.tiny_component = 0.02 * settings_.diagonal;
         if (options_.progress) {
-            loop.progress = [this](double done) {
-                return options_.progress(Phase::simplify, done_in_blocks_ + (1 - done_in_blocks_) * done);
+            loop_.progress = [this](double done) {
+                return progress(done_in_blocks_ + (1 - done_in_blocks_) * done);
             };
         }
-        return loop;
+    }
+
+    // At the next target.
+    void aim() {
+        counted_.target_faces = std::max(detail::smallest_target, targets_[results_.size()]);
+        loop_.target_faces = static_cast<std::size_t>(counted_.target_faces);
+        if (settings_.carry != detail::Settings::Carry::memory)
+            loop_.distance_weight = area_ / static_cast<double>(loop_.target_faces);
+        done_in_blocks_ = 0;
+    }
+
+    // Targets count by the faces that go on the way to them.
+    Continue progress(double done) const {
+        const auto gone = [&](std::size_t targets) {
+            const double faces = static_cast<double>(mesh_.triangles.size());
+            return targets == 0 ? 0 : faces - std::min(faces, static_cast<double>(targets_[targets - 1]));
+        };
+        const double before = gone(results_.size()), after = gone(results_.size() + 1);
+        const double all = gone(targets_.size());
+        const double share = all > 0 ? (before + done * (after - before)) / all : done;
+        return options_.progress(Phase::simplify, share);
     }
 
     double least_length() const { return 1e-8 * settings_.diagonal; }
@@ -217,13 +196,11 @@ private:
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
                              static_cast<double>(faces - loop.target_faces);
         if (options_.progress) {
-            loop.progress = [&](double done) {
-                return options_.progress(Phase::simplify, done_in_blocks_ + share * done);
-            };
+            loop.progress = [&](double done) { return progress(done_in_blocks_ + share * done); };
         }
         // What has been cut once may be cut smaller: watching distances is worth more than the waiting costs.
         const std::size_t few =
-            done_in_blocks_ > 0 ? detail::most_vertices_per_block / 4 : detail::most_vertices_per_block;
+            is_cut_ ? detail::most_vertices_per_block / 4 : detail::most_vertices_per_block;
         const detail::Arranged& now = ground_.now();
         const detail::BlockInput input{now.positions, now.triangles, ground_.locked(),
                                        detail::vertices_per_block(now.positions.size(), few)};
@@ -231,10 +208,11 @@ private:
             detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
         if (blocks.is_cancelled) return false;
         if (blocks.steps.empty()) return true;
+        is_cut_ = true;
         done_in_blocks_ += share;
-        result_.report.collapses += blocks.steps.size();
-        for (std::size_t i = 0; i < refusal_kinds; ++i) result_.report.refusals[i] += blocks.refusals[i];
-        for (std::size_t i = 0; i < rung_kinds; ++i) result_.report.rungs[i] += blocks.rungs[i];
+        counted_.collapses += blocks.steps.size();
+        for (std::size_t i = 0; i < refusal_kinds; ++i) counted_.refusals[i] += blocks.refusals[i];
+        for (std::size_t i = 0; i < rung_kinds; ++i) counted_.rungs[i] += blocks.rungs[i];
         detail::Reduced reduced = detail::reduce(input, blocks.steps);
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) record(blocks, reduced, recorder);
         ground_.take(std::move(reduced));
@@ -253,8 +231,8 @@ private:
         recorder.renumber(reduced.vertices, reduced.faces);
     }
 
-    template <class Recorder>
-    engine::LoopResult collapse(Work& work, Recorder& recorder) {
+    template <class Recorder, class GoesOn>
+    engine::LoopResult collapse(Work& work, Recorder& recorder, GoesOn&& goes_on) {
         const Complex& complex = work.complex;
         std::vector<std::pair<Index, Index>> extra;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
@@ -262,7 +240,7 @@ private:
                                           options_.topology.virtual_edge_distance * settings_.diagonal,
                                           least_length());
         }
-        result_.report.virtual_edges = extra.size();
+        counted_.virtual_edges = extra.size();
         engine::PairTable pairs(complex, extra);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
@@ -274,40 +252,78 @@ private:
             work.curves = engine::GroupCurves(complex, work.groups);
         }
         work.importance = importance(mesh_, prepared_, ground_.now());
-        return run(work, pairs, settings_, recorder, loop_, ground_);
+        return run(work, pairs, settings_, recorder, loop_, ground_, goes_on);
     }
 
+    // What may be cut carries nothing that an engine could not begin with: each target has one of its own,
+    // which knows from the start what a distance costs. Else one engine does it all.
     template <class Recorder>
-    void collapse_and_collect(Recorder& recorder) {
-        const bool goes_on = begin_in_blocks(recorder);
-        Work work(ground_.now());
-        OriginRecorder<Recorder> origin(recorder, ground_.places());
-        engine::LoopResult looped;
-        if (goes_on)
-            looped = collapse(work, origin);
-        else
-            looped.stop = StopReason::cancelled;
-        Report& report = result_.report;
-        report.stop = looped.stop;
-        report.collapses += looped.collapses;
-        for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
-        for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
-        report.components_deleted = looped.components_deleted;
-        slots_ = detail::collect(mesh_, prepared_, ground_.now(), work.complex, work.wedges, origin.places(),
-                                 result_);
-        if (settings_.relax) relax(work);
+    void collapse_to_targets(Recorder& recorder) {
+        while (results_.size() < targets_.size()) {
+            aim();
+            const bool is_cancelled = !begin_in_blocks(recorder);
+            Work work(ground_.now());
+            detail::TracingRecorder<Recorder> tracing(recorder, work.complex.vertex_slots());
+            engine::LoopResult looped;
+            if (is_cancelled) {
+                looped.stop = StopReason::cancelled;
+                collect(work, tracing.trace(), recorder, looped);
+            } else {
+                looped = collapse(work, tracing, [&](const engine::LoopResult& so_far) {
+                    collect(work, tracing.trace(), recorder, so_far);
+                    if (may_be_cut() || is_done()) return false;
+                    aim();
+                    return true;
+                });
+            }
+            if (is_done()) return;
+            detail::count(looped, counted_);
+            detail::Reduced left = detail::reduced(work.complex, tracing.trace());
+            if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
+                recorder.renumber(left.vertices, left.faces);
+            ground_.take(std::move(left));
+        }
+    }
+
+    bool is_done() const {
+        return results_.size() == targets_.size() || results_.back().report.stop == StopReason::cancelled;
+    }
+
+    // The result of a target that was reached, or was not.
+    template <class Recorder>
+    void collect(const Work& work, const detail::SlotTrace& trace, Recorder& recorder,
+                 const engine::LoopResult& looped) {
+        SimplifyResult result;
+        result.report = counted_;
+        detail::count(looped, result.report);
+        result.report.stop = looped.stop;
+        const std::vector<Index> slots =
+            detail::collect(mesh_, prepared_, ground_.now(), work.complex, work.wedges,
+                            ground_.places_of(trace.places()), result);
+        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) {
+            const bool is_last = results_.size() + 1 == targets_.size();
+            result.history = is_last ? recorder.take() : recorder.so_far();
+            for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
+            detail::finish_history(mesh_, prepared_, result);
+        }
+        if (settings_.relax) relax(work, slots, result);
+        detail::finish_report(options_, settings_, prepared_, result);
+        result.report.seconds.simplify = result.report.seconds.total = watch_.seconds();
+        watch_ = {};
+        counted_.seconds = {};
+        results_.push_back(std::move(result));
     }
 
     // On vertices of the result, in its order: what no face uses has no say.
-    void relax(const Work& work) {
+    void relax(const Work& work, const std::vector<Index>& slots, SimplifyResult& result) const {
         std::vector<Vector3> now;
         std::vector<std::uint8_t> fixed;
-        for (const Index v : slots_) {
+        for (const Index v : slots) {
             now.push_back(work.complex.position(v));
             const bool is_seam = !work.wedges.empty() && work.wedges.is_seam(work.complex, v);
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
-        TriangleMesh& mesh = result_.mesh;
+        TriangleMesh& mesh = result.mesh;
         const detail::Patchwork light{now, mesh.triangles};
         detail::Relaxed relaxed;
         if (work.wedges.empty()) {
@@ -318,54 +334,13 @@ private:
                 detail::relax(ground_.whole(), light, fixed, settings_.least_turn, options_.threads);
         }
         for (std::size_t v = 0; v < now.size(); ++v) {
-            if (relaxed.positions[v] != now[v])
-                relaxed_.emplace_back(v, prepared_.to_model(relaxed.positions[v]));
+            if (relaxed.positions[v] == now[v]) continue;
+            mesh.positions[v] = prepared_.to_model(relaxed.positions[v]);
+            ++result.report.vertices_relaxed;
         }
         for (const auto& [s, t] : relaxed.swaps) detail::swap_edge(mesh.triangles[s], mesh.triangles[t]);
-        swaps_ = std::move(relaxed.swaps);
-        result_.report.edges_swapped = swaps_.size();
-    }
-
-    void take_relaxed() {
-        for (const auto& [vertex, position] : relaxed_) result_.mesh.positions[vertex] = position;
-        if (!relaxed_.empty() && !result_.history.empty())
-            result_.history.kept_positions = result_.mesh.positions;
-        result_.report.vertices_relaxed = relaxed_.size();
-    }
-
-    void finish_history(engine::HistoryRecorder& recorder) {
-        std::vector<Index> kept_versions;
-        for (const Index slot : slots_) kept_versions.push_back(recorder.version(slot));
-        CollapseHistory history = recorder.take();
-        for (Collapse& collapse : history.collapses) {
-            collapse.position = prepared_.to_model(engine::to_eigen(collapse.position));
-        }
-        // What was pruned is deleted before the first collapse.
-        for (const detail::PrunedFace& pruned : prepared_.pruned.faces)
-            prepared_.triangles[pruned.face] = pruned.corners;
-        std::vector<DeletedFace> deleted_faces;
-        for (const detail::PrunedFace& pruned : prepared_.pruned.faces)
-            deleted_faces.push_back({0, pruned.face});
-        history.deleted_faces.insert(history.deleted_faces.begin(), deleted_faces.begin(),
-                                     deleted_faces.end());
-        history.positions = std::move(prepared_.positions);
-        history.triangles = std::move(prepared_.triangles);
-        history.face_groups.assign(mesh_.face_groups.begin(), mesh_.face_groups.end());
-        history.kept_versions = std::move(kept_versions);
-        history.kept_faces = result_.face_origin;
-        for (const auto& [s, t] : swaps_) {
-            history.patch_faces.insert(history.patch_faces.end(),
-                                       {history.kept_faces[s], history.kept_faces[t]});
-            history.patch_begin.push_back(history.patch_faces.size());
-        }
-        // The history and the mesh say the same, to the last bit.
-        for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-            const Index v = history.kept_versions[i];
-            if (v >= history.positions.size()) {
-                history.collapses[v - history.positions.size()].position = result_.mesh.positions[i];
-            }
-        }
-        result_.history = std::move(history);
+        result.report.edges_swapped = relaxed.swaps.size();
+        if (!result.history.empty()) detail::add_relaxed(relaxed.swaps, result);
     }
 
     const MeshView& mesh_;
@@ -374,11 +349,13 @@ private:
     detail::Prepared prepared_;
     detail::Ground ground_;
     engine::LoopOptions loop_;
-    double done_in_blocks_ = 0;  // share of the work
-    SimplifyResult result_;
-    std::vector<Index> slots_;                           // slot of each vertex of the result
-    std::vector<std::pair<std::size_t, Vec3>> relaxed_;  // vertices of the result, and where they go
-    std::vector<detail::EdgeSwap> swaps_;                // faces of the result
+    double area_ = 0;  // of the original
+    std::span<const std::uint64_t> targets_;
+    bool is_cut_ = false;
+    double done_in_blocks_ = 0;  // share of the work for the target
+    detail::Stopwatch watch_;    // since the last target
+    Report counted_;             // by the engines that are through
+    std::vector<SimplifyResult> results_;
 };
 
 }  // namespace
@@ -386,14 +363,20 @@ private:
 SimplifyResult simplify(const MeshView& mesh, const Options& options) {
     validate(options);
     if (options.max_error) return detail::simplify_within(mesh, options);
-    return Run(mesh, options).simplify();
+    const std::uint64_t target =
+        detail::faces_wanted(options.target, static_cast<double>(mesh.triangles.size()));
+    return std::move(detail::run_to(mesh, {&target, 1}, options).front());
+}
+
+std::vector<SimplifyResult> detail::run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
+                                           const Options& options) {
+    return Run(mesh, options).simplify(targets);
 }
 
 detail::CostCurve detail::cost_curve(const MeshView& mesh, const Options& options) {
     Options cheap = options;
     cheap.preset = Preset::fast;
     cheap.weights = {};
-    cheap.target = faces(detail::smallest_target);
     validate(cheap);
     return Run(mesh, cheap).curve();
 }

@@ -52,13 +52,14 @@ Distance distance(const Original& original, const SimplifyResult& result, double
     return original.distance(result.mesh.view(), allowed, look, options.threads);
 }
 
+double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original) {
+    return options.topology.prune ? surface_of(mesh).diagonal() : original.surface().diagonal();
+}
+
 SimplifyResult simplify_within(const MeshView& mesh, const Options& options) {
     const Original original(mesh, options);
     const MaxError& error = *options.max_error;
-    // A share is one of the whole mesh, pruned or not.
-    const double unit = error.unit == MaxError::Unit::model ? 1
-                        : options.topology.prune            ? surface_of(mesh).diagonal()
-                                                            : original.surface().diagonal();
+    const double unit = error.unit == MaxError::Unit::model ? 1 : diagonal_of_all(mesh, options, original);
     const double allowed = error.value * unit;
     return run_within<SimplifyResult>(
         options, mesh.triangles.size(), allowed, [&](const Options& own) { return simplify(mesh, own); },

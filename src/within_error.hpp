@@ -53,6 +53,9 @@ private:
 Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
                   const Options& options);
 
+/// What lengths can be shares of: the diagonal of the whole mesh, pruned or not.
+double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original);
+
 /// simplify() on arrays with max_error. \pre options are valid
 SimplifyResult simplify_within(const MeshView& mesh, const Options& options);
 

@@ -8,6 +8,7 @@
 #include "faqem/compare_colors.hpp"
 #include "faqem/error.hpp"
 #include "faqem/history.hpp"
+#include "faqem/levels.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 #include "faqem/progress.hpp"

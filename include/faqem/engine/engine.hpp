@@ -67,7 +67,7 @@ struct LoopResult {
     std::uint64_t components_deleted = 0;
 };
 
-/// Collapses pairs of one complex. Used once.
+/// Collapses pairs of one complex. run() is called once, go_on() as often as wanted.
 /// \tparam Metric    what a collapse costs and where it goes
 /// \tparam Queue     which pair is next
 /// \tparam Recorder  who is told; NoRecorder costs nothing
@@ -102,22 +102,40 @@ public:
         queue_.reserve(pairs_.size());
         metric_.initialise(complex_, pairs_);
         seed();
-        std::size_t seeded_at = complex_.face_count();
-        while (!drain(options)) {
-            if (options.ladder == Ladder::stay || !find_more(options, seeded_at)) {
-                result_.stop = StopReason::no_legal_collapse;
-                break;
-            }
-            seed();
-            seeded_at = complex_.face_count();
-        }
+        seeded_at_ = complex_.face_count();
+        collapse_to_target(options);
+        return result_;
+    }
+
+    /// After run(), on to a lower target. Rules stay as far relaxed as they are; what is left of the ladder
+    /// is climbed anew. A metric that does not depend on the target goes on as if there had been no stop.
+    /// \param options  those of run(), with another target and no smaller distance weight
+    /// \return the sums of all calls
+    LoopResult go_on(const LoopOptions& options) {
+        distance_weight_ = options.distance_weight;
+        if constexpr (AimingMetric<Metric>) metric_.aim(options.target_faces, options.distance_weight);
+        first_count_ = complex_.face_count();
+        rung_ = 0;
+        result_.stop = StopReason::reached_target;
+        collapse_to_target(options);
         return result_;
     }
 
 private:
+    void collapse_to_target(const LoopOptions& options) {
+        while (!drain(options)) {
+            if (options.ladder == Ladder::stay || !find_more(options)) {
+                result_.stop = StopReason::no_legal_collapse;
+                break;
+            }
+            seed();
+            seeded_at_ = complex_.face_count();
+        }
+    }
+
     // Tells whether all pairs are worth another look, after a rung of the ladder perhaps.
-    bool find_more(const LoopOptions& options, std::size_t seeded_at) {
-        const std::size_t removed = seeded_at - complex_.face_count();
+    bool find_more(const LoopOptions& options) {
+        const std::size_t removed = seeded_at_ - complex_.face_count();
         const std::size_t excess = complex_.face_count() - options.target_faces;
         // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
         const bool worth_it = 10 * removed >= excess && removed > 0;
@@ -427,6 +445,7 @@ private:
     LoopResult result_;
     std::size_t rung_ = 0;
     std::size_t first_count_ = 0;
+    std::size_t seeded_at_ = 0;  // faces there were
     std::uint64_t steps_ = 0;
     std::vector<Index> killed_;
     std::vector<PairTable::Change> changes_;

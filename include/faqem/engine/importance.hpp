@@ -58,6 +58,10 @@ public:
 
     Staleness staleness(const PairTable::Change& change) const { return inner_.staleness(change); }
 
+    void aim(std::size_t target_faces, double weight) requires AimingMetric<Inner> {
+        inner_.aim(target_faces, weight);
+    }
+
     /// What the costs of the pair (u, v) are multiplied by.
     double weight(Index u, Index v) const { return std::max(weights_[u], weights_[v]); }
 

@@ -58,6 +58,14 @@ concept WeighingMetric = CollapseMetric<M> && requires(const M& metric, Index u,
     { metric.weight(u, v) } -> std::same_as<double>;
 };
 
+/// A metric whose costs depend on the target.
+template <class M>
+concept AimingMetric = CollapseMetric<M> && requires(M metric, std::size_t target_faces, double weight) {
+    // From now on the target is a lower one. `weight`: what the square of a distance costs, no less than
+    // before.
+    {metric.aim(target_faces, weight)};
+};
+
 /// When the area term takes part.
 enum class AreaTerm {
     after_placement,   ///< added to the cost once the point is found (paper eq. 4)

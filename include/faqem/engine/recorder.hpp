@@ -76,6 +76,9 @@ public:
     /// What the history calls the vertex that a slot is now.
     Index version(Index slot) const { return version_[slot]; }
 
+    /// The collapses, their patches and the deleted faces so far.
+    const CollapseHistory& so_far() const { return history_; }
+
     /// Gives away the collapses, their patches and the deleted faces; the rest is the caller's to fill.
     CollapseHistory take() { return std::move(history_); }
 

@@ -101,6 +101,12 @@ public:
 
     Staleness staleness(const PairTable::Change& change) const { return planes_.staleness(change); }
 
+    /// Costs of waiting pairs may only rise: \pre weight is not below the one before.
+    void aim(std::size_t target_faces, double weight) {
+        target_faces_ = target_faces;
+        weight_ = weight;
+    }
+
 private:
     void begin_if_time(const Complex& complex, const PairTable& pairs) {
         if (complex.face_count() / begins_at > target_faces_) return;
@@ -164,6 +170,6 @@ private:
     std::vector<Index> bound_;             // original vertices bound around the pair
 };
 
-static_assert(RefiningMetric<TrackedMetric>);
+static_assert(RefiningMetric<TrackedMetric> && AimingMetric<TrackedMetric>);
 
 }  // namespace faqem::engine
