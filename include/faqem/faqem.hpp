@@ -4,6 +4,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/bake_levels.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/compare_colors.hpp"
 #include "faqem/error.hpp"

@@ -7,10 +7,12 @@
 #include "bake/check_asset.hpp"
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
+#include "bake/parts_run.hpp"
 #include "bake/parts_within_error.hpp"
 #include "bake/scene_size.hpp"
 #include "cost_curve.hpp"
 #include "faqem/bake.hpp"
+#include "run.hpp"
 #include "target.hpp"
 
 namespace faqem {
@@ -82,11 +84,10 @@ struct PartInput {
     PartInput(const PartInput&) = delete;
 };
 
-// One call of simplify_parts().
+// One run with all its targets.
 class PartsRun {
 public:
-    PartsRun(const Asset& source, const Options& options)
-        : source_(source), options_(options), small_{std::vector<SimplifyResult>(source.parts.size()), {}} {
+    PartsRun(const Asset& source, const Options& options) : source_(source), options_(options) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake.kind);
@@ -97,44 +98,67 @@ public:
         for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
     }
 
-    SmallParts operator()() {
-        const detail::Stopwatch watch;
-        small_.report.preset = options_.preset;
-        const std::vector<std::uint64_t> share = shares();
+    std::vector<SmallParts> operator()(std::span<const std::uint64_t> targets) {
+        small_.resize(targets.size());
+        for (SmallParts& level : small_) {
+            level.parts.resize(source_.parts.size());
+            level.report.preset = options_.preset;
+        }
+        const std::vector<std::vector<std::uint64_t>> share = shares(targets);
         for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
             own.history = Recording::on;
-            own.target = faces(share[p]);
-            small_.parts[p] = simplify(view, own);
-            if (keeps_groups() && groups_) regroup(p);
-            add(small_.report, small_.parts[p].report, detail::part_title(source_, p));
+            std::vector<SimplifyResult> results = detail::run_to(view, share[p], own);
+            is_cancelled_ = results.back().report.stop == StopReason::cancelled;
+            for (std::size_t i = 0; i < results.size(); ++i) {
+                small_[i].parts[p] = std::move(results[i]);
+                if (keeps_groups() && groups_) regroup(p, small_[i].parts[p]);
+                add(small_[i].report, small_[i].parts[p].report, detail::part_title(source_, p));
+            }
         });
-        small_.report.seconds.total = watch.seconds();
+        if (is_cancelled_) {
+            small_.resize(1);
+            small_.front().report.stop = StopReason::cancelled;
+        }
+        for (SmallParts& level : small_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(small_);
     }
 
 private:
-    std::vector<std::uint64_t> shares() {
-        const std::uint64_t goal =
-            std::min(detail::faces_wanted(options_.target, faces_), static_cast<std::uint64_t>(faces_));
+    // Per part and target; none of a part is above the one before it.
+    std::vector<std::vector<std::uint64_t>> shares(std::span<const std::uint64_t> targets) {
+        const detail::Stopwatch watch;
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
-        if (options_.budget == Budget::mesh || filled < 2) return detail::share_by_faces(source_, goal);
-        const detail::Stopwatch watch;
+        const bool by_cost = options_.budget == Budget::scene && filled >= 2;
+        if (by_cost) find_curves();
+        std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
+        for (const std::uint64_t target : targets) {
+            const std::uint64_t goal = std::min(target, static_cast<std::uint64_t>(faces_));
+            const std::vector<std::uint64_t> share =
+                by_cost ? detail::share_by_cost(
+                              curves_, detail::cost_weights(curves_.size(), instances(source_)), goal)
+                        : detail::share_by_faces(source_, goal);
+            for (std::size_t p = 0; p < share.size(); ++p)
+                result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
+        }
+        curves_.clear();
+        small_.front().report.seconds.simplify = watch.seconds();
+        return result;
+    }
+
+    void find_curves() {
         passes_ = 2;
-        std::vector<detail::CostCurve> curves(source_.parts.size());
+        curves_.resize(source_.parts.size());
         for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
-            curves[p] = detail::cost_curve(view, own);
-            if (!curves[p].is_complete) small_.report.stop = StopReason::cancelled;
+            curves_[p] = detail::cost_curve(view, own);
+            is_cancelled_ = !curves_[p].is_complete;
         });
-        small_.report.seconds.simplify = watch.seconds();
-        return detail::share_by_cost(curves, detail::cost_weights(curves.size(), instances(source_)), goal);
     }
 
     bool keeps_groups() const { return options_.topology.group_borders == GroupBorders::kept; }
 
     // Kept borders say nothing about what is baked into one page.
-    void regroup(std::size_t p) {
-        SimplifyResult& result = small_.parts[p];
+    void regroup(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
         result.mesh.face_groups.clear();
         if (result.history.face_groups.empty()) return;
@@ -147,7 +171,7 @@ private:
     void for_each_part(Work&& work) {
         for (std::size_t p = 0; p < source_.parts.size(); ++p) {
             const Part& part = source_.parts[p];
-            if (part.triangles.empty() || small_.report.stop == StopReason::cancelled) continue;
+            if (part.triangles.empty() || is_cancelled_) continue;
             const double size = static_cast<double>(part.triangles.size());
             Options own = detail::part_options(options_, size_, size_.scales[p]);
             if (options_.progress) {
@@ -165,7 +189,9 @@ private:
     const Asset& source_;
     const Options& options_;
     std::optional<detail::MaterialGroups> groups_;
-    SmallParts small_;
+    std::vector<SmallParts> small_;
+    std::vector<detail::CostCurve> curves_;
+    bool is_cancelled_ = false;
     detail::SceneSize size_;
     double faces_ = 0;   // of all parts
     double done_ = 0;    // faces that were worked on
@@ -174,11 +200,19 @@ private:
 
 }  // namespace
 
+std::vector<SmallParts> detail::run_parts_to(const Asset& source, std::span<const std::uint64_t> targets,
+                                             const Options& options) {
+    return PartsRun(source, options)(targets);
+}
+
 SmallParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
     detail::check_asset(source);
     if (options.max_error) return detail::simplify_parts_within(source, options);
-    return PartsRun(source, options)();
+    double faces = 0;
+    for (const Part& part : source.parts) faces += static_cast<double>(part.triangles.size());
+    const std::uint64_t target = detail::faces_wanted(options.target, faces);
+    return std::move(detail::run_parts_to(source, {&target, 1}, options).front());
 }
 
 }  // namespace faqem

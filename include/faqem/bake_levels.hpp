@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Levels of detail of a textured asset. Needs the standard library only.
+
+#include <vector>
+
+#include "faqem/bake.hpp"
+#include "faqem/levels.hpp"
+
+namespace faqem {
+
+/// The geometry of one level, to be given to bake().
+struct SmallPartsLevel {
+    SmallParts result;    ///< times of the report are those of this level alone
+    double distance = 0;  ///< as SimplifiedLevel::distance, in units of the scene
+    double error = 0;     ///< as SimplifiedLevel::error, in units of the scene
+};
+
+/// One level with its look.
+struct LightLevel {
+    LightAsset result;
+    double distance = 0;  ///< as SmallPartsLevel
+    double error = 0;     ///< as SmallPartsLevel
+};
+
+/// As simplify_levels(), for the parts of an asset. Counts are those of the whole asset; each is spread over
+/// the parts as Options::budget says, but no part gets more faces than in the level before. Distances are in
+/// units of the scene.
+/// \return one per level, each with the history that bake() needs; one alone, whose stop says so, where
+///         progress cancelled
+/// \throws as simplify_parts() and simplify_levels()
+std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
+                                                   const Options& options = {});
+
+/// Both stages for all levels; each has images of its own.
+/// \return one per level; where progress cancelled, the last one's stop says so, and those after it are
+///         missing
+/// \throws as simplify_parts_levels() and bake()
+std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
+                                        const Options& options = {});
+
+}  // namespace faqem
