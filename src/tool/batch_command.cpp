@@ -5,18 +5,16 @@
 #include <mutex>
 #include <string>
 
-#include "faqem/error.hpp"
 #include "parallel.hpp"
 #include "tool/batch_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/output.hpp"
 #include "tool/simplify_options.hpp"
 
 namespace faqem::tool {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Arguments : SimplifyArguments {
     std::string in, out, format = "glb";
@@ -25,23 +23,9 @@ struct Arguments : SimplifyArguments {
     bool resume = false, force = false;
 };
 
-std::string ending_of(const std::string& format) {
-    for (const char* known : {"glb", "gltf", "obj", "ply", "stl"}) {
-        if (format == known) return "." + format;
-    }
-    throw OptionError("--format: unknown value '" + format + "' (known: glb, gltf, obj, ply, stl)");
-}
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder, error))
-        throw WriteError(folder.string() + ": cannot make this folder");
-}
-
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
-    const std::string ending = ending_of(arguments.format);
+    const std::string ending = ending_of_format(arguments.format);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, ending);
     make_folder(arguments.out);
     BatchRecord record(arguments.out);

@@ -14,6 +14,7 @@ namespace faqem::tool {
 using Action = std::function<int()>;
 
 void add_simplify_command(CLI::App& app, Action& action);
+void add_lod_command(CLI::App& app, Action& action);
 void add_batch_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

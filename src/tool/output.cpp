@@ -50,6 +50,20 @@ void check_ending(const fs::path& file, const std::vector<std::string_view>& end
     throw OptionError(file.string() + ": the name must end in one of " + known);
 }
 
+std::string ending_of_format(const std::string& format) {
+    for (const char* known : {"glb", "gltf", "obj", "ply", "stl"}) {
+        if (format == known) return "." + format;
+    }
+    throw OptionError("--format: unknown value '" + format + "' (known: glb, gltf, obj, ply, stl)");
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder, error))
+        throw WriteError(folder.string() + ": cannot make this folder");
+}
+
 void write_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
     detail::write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()),
                        overwrite);

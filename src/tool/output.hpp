@@ -26,6 +26,12 @@ std::string lower_ending(const std::filesystem::path& file);
 /// \throws OptionError
 void check_ending(const std::filesystem::path& file, const std::vector<std::string_view>& endings);
 
+/// The ending of a format's files: `.glb` of `glb`. \throws OptionError  --format has no such value
+std::string ending_of_format(const std::string& format);
+
+/// Makes a folder where there is none. \throws WriteError
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes a text or binary file, complete or not at all. \throws WriteError
 void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
 

@@ -103,6 +103,9 @@ void add_target_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--max-error", a.max_error,
                        "Largest distance from the original, in model units or with % of the diagonal: the "
                        "smallest mesh found within it; with --ratio or --faces: a condition");
+}
+
+void add_metric_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--budget", a.budget,
                        "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
                        "proportion to their faces)");
@@ -157,6 +160,11 @@ void add_topology_options(CLI::App& command, SimplifyArguments& a) {
 
 void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
     add_target_options(command, a);
+    add_level_options(command, a);
+}
+
+void add_level_options(CLI::App& command, SimplifyArguments& a) {
+    add_metric_options(command, a);
     add_look_options(command, a);
     add_topology_options(command, a);
     command.add_flag("--strict", a.strict,
@@ -190,6 +198,16 @@ Options make_options(const SimplifyArguments& arguments) {
     }
     validate(options);
     return options;
+}
+
+Level level_of(const std::string& text) {
+    constexpr std::string_view distance = "error:";
+    if (text.starts_with(distance)) return length(text.substr(distance.size()), "--levels");
+    const double value = number(text, "--levels");
+    if (value > 0 && value <= 1) return ratio(value);
+    if (!(value > 1 && value < 1e15 && value == std::floor(value)))
+        throw OptionError("--levels: '" + text + "' is neither a share of the faces nor a number of them");
+    return faces(static_cast<std::uint64_t>(value));
 }
 
 std::string options_text(const Options& o) {

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// The options of faqem simplify that say what the result is to be; faqem batch has the same.
+/// The options of faqem simplify that say what the result is to be; faqem batch and faqem lod have the same.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "faqem/levels.hpp"
 #include "faqem/options.hpp"
 #include "tool/simplify_rules.hpp"
 
@@ -31,6 +32,13 @@ struct SimplifyArguments {
 
 /// Adds the options to a command; they are read into `arguments`, which has to live on.
 void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
+
+/// Those that do not say how many faces or how close.
+void add_level_options(CLI::App& command, SimplifyArguments& arguments);
+
+/// `0.5`, a share of the faces; `5000`, a number of them; `error:0.01` in model units or `error:0.1%` of the
+/// diagonal. \throws OptionError
+Level level_of(const std::string& text);
 
 /// \throws OptionError  a value is unknown or out of range
 Options make_options(const SimplifyArguments& arguments);

@@ -19,13 +19,9 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
 
 LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
                           const std::optional<ByteBudget>& budget) {
-    try {
+    return naming(file, [&] {
         return budget ? simplify_within_bytes(source, options, *budget) : simplify(source, options);
-    } catch (const UnsupportedError& error) {
-        throw UnsupportedError(file.string(), "", error.what());
-    } catch (const InputError& error) {
-        throw InputError(file.string(), "", error.what());
-    }
+    });
 }
 
 ExitCode why_refused(const Report& report, bool strict_target) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "faqem/bake.hpp"
+#include "faqem/error.hpp"
 #include "faqem/report.hpp"
 #include "tool/byte_budget.hpp"
 #include "tool/exit_code.hpp"
@@ -18,6 +19,18 @@ enum class Strictness { lenient, strict };
 
 /// load(), and a model without triangles is an error. \throws ReadError, InputError, UnsupportedError
 Asset load_model(const std::filesystem::path& file, Strictness strictness);
+
+/// Does the work. What is wrong with an asset is said with the name of its file.
+template <class Work>
+auto naming(const std::filesystem::path& file, Work&& work) {
+    try {
+        return work();
+    } catch (const UnsupportedError& error) {
+        throw UnsupportedError(file.string(), "", error.what());
+    } catch (const InputError& error) {
+        throw InputError(file.string(), "", error.what());
+    }
+}
 
 /// simplify(), within a budget where there is one. What is wrong with an asset is said with the name of its
 /// file.

@@ -1,0 +1,192 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "bake/scene_size.hpp"
+#include "faqem/bake_levels.hpp"
+#include "faqem/error.hpp"
+#include "tool/commands.hpp"
+#include "tool/exit_code.hpp"
+#include "tool/interrupt.hpp"
+#include "tool/lod_manifest.hpp"
+#include "tool/output.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/simplify_options.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments : SimplifyArguments {
+    std::string in, out, format = "glb";
+    std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
+    Viewing viewing;
+    bool without_original = false, force = false, quiet = false;
+
+    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+};
+
+/// The files that will be there: a model for each level, the original first, and the manifest.
+struct Outputs {
+    explicit Outputs(const Arguments& a) {
+        const std::string ending = ending_of_format(a.format);
+        const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
+        const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
+        for (std::size_t i = 0; i < count; ++i) models.push_back(stem + "_LOD" + std::to_string(i) + ending);
+        manifest = stem + "_LOD.json";
+    }
+
+    std::vector<fs::path> models;
+    fs::path manifest;
+};
+
+void check(const Arguments& a, const Outputs& outputs) {
+    for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
+    check_output(outputs.manifest, {a.in}, a.overwrite());
+}
+
+void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) {
+    std::ostringstream out;
+    out << a.in << " -> " << a.out << "\n";
+    for (const WrittenLevel& level : levels) {
+        out << "  " << level.file << ": " << level.faces << " faces, error " << level.error
+            << ", from distance " << switch_distance(level.error, a.viewing) << "\n";
+    }
+    std::cout << out.str();
+}
+
+/// Bakes and saves one level after the other, so that the images of one are there at a time.
+class Chain {
+public:
+    Chain(const Arguments& arguments, const Outputs& outputs, const Asset& source,
+          const std::vector<Level>& levels, const Options& options)
+        : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
+
+    ExitCode operator()() {
+        std::vector<SmallPartsLevel> levels =
+            naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
+        if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
+        for (const SmallPartsLevel& level : levels) {
+            const ExitCode refusal = why_refused(level.result.report, arguments_.strict_target);
+            if (refusal == exit_ok) continue;
+            std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
+            return refusal;
+        }
+        reports_.reserve(levels.size());  // they are pointed to
+        std::vector<std::string> warnings = source_.warnings;
+        if (!arguments_.without_original) append(warnings, write(source_, 0, 0, nullptr));
+        for (SmallPartsLevel& level : levels) {
+            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, options_); });
+            level.result = {};
+            if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
+            Report& report = reports_.emplace_back(std::move(light.report));
+            append(report.warnings, write(light.asset, level.distance, level.error, &report));
+        }
+        Json manifest =
+            lod_manifest(arguments_.in, detail::scene_size(source_).diagonal, arguments_.viewing, written_);
+        manifest["warnings"] = warnings;
+        write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                     arguments_.overwrite());
+        return exit_ok;
+    }
+
+    const std::vector<WrittenLevel>& written() const { return written_; }
+
+private:
+    static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+
+    /// \return what the format could not hold
+    std::vector<std::string> write(const Asset& asset, double distance, double error, const Report* report) {
+        const Unattended unattended;
+        const fs::path& file = outputs_.models[written_.size()];
+        WrittenLevel& level = written_.emplace_back();
+        level = {file.filename().string(), 0, 0, distance, error, report};
+        for (const Part& part : asset.parts) {
+            level.faces += part.triangles.size();
+            level.vertices += part.positions.size();
+        }
+        return save(asset, file, arguments_.overwrite());
+    }
+
+    const Arguments& arguments_;
+    const Outputs& outputs_;
+    const Asset& source_;
+    const std::vector<Level>& levels_;
+    const Options& options_;
+    std::vector<Report> reports_;
+    std::vector<WrittenLevel> written_;
+};
+
+int run(const Arguments& arguments) {
+    Options options = make_options(arguments);
+    std::vector<Level> levels;
+    for (const std::string& text : arguments.levels) levels.push_back(level_of(text));
+    const Outputs outputs(arguments);
+    make_folder(arguments.out);
+    check(arguments, outputs);
+    handle_interrupts();
+    Asset source;
+    Chain chain(arguments, outputs, source, levels, options);
+    ExitCode code;
+    {
+        ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
+        options.progress = [&bar](Phase phase, double fraction) {
+            bar.show(phase, fraction);
+            return interrupted() ? Continue::cancel : Continue::yes;
+        };
+        bar.show(Phase::load, 0);
+        source = load_model(arguments.in, arguments.strictness());
+        code = chain();
+    }
+    if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
+    if (code == exit_ok && !arguments.quiet) print_summary(arguments, chain.written());
+    return code;
+}
+
+void add_viewing_options(CLI::App& command, Viewing& viewing) {
+    command.add_option("--pixel-error", viewing.pixel_error, "Pixels that a level may be off (default 1)")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--fov", viewing.fov,
+                    "Vertical angle of view in degrees for switch distances (default 60)")
+        ->check(CLI::Range(1.0, 179.0));
+    command
+        .add_option("--screen-height", viewing.screen_height,
+                    "Pixels of the screen for switch distances (default 1080)")
+        ->check(CLI::Range(1, 1 << 20));
+}
+
+}  // namespace
+
+void add_lod_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("lod", "Make a chain of levels of detail, each with its texture and its error");
+    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
+    command->add_option("OUTDIR", arguments->out, "Folder for NAME_LOD0 ... and NAME_LOD.json")->required();
+    command
+        ->add_option("--levels", arguments->levels,
+                     "From fine to coarse, with commas: 0.5 (share of the faces), 5000 (faces), error:0.01 "
+                     "(distance in model units) or error:0.1% (default 0.5,0.25,0.1,0.01)")
+        ->delimiter(',');
+    command->add_flag("--without-original", arguments->without_original,
+                      "The first level is LOD0; else the original is, as it was read");
+    command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
+    add_viewing_options(*command, arguments->viewing);
+    add_level_options(*command, *arguments);
+    command->add_option("--threads", arguments->options.threads, "Threads at most")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--force", arguments->force, "Replace files that exist");
+    command->add_flag("--quiet", arguments->quiet, "No summary, no progress bar");
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// What faqem lod says of its levels.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "faqem/report.hpp"
+#include "tool/json.hpp"
+
+namespace faqem::tool {
+
+/// How the levels will be looked at.
+struct Viewing {
+    double pixel_error = 1;              ///< how many pixels a level may be off
+    double fov = 60;                     ///< vertical angle of view, degrees in (0, 180)
+    std::uint32_t screen_height = 1080;  ///< pixels
+};
+
+/// One level, as it was written.
+struct WrittenLevel {
+    std::string file;
+    std::uint64_t faces = 0, vertices = 0;
+    double distance = 0, error = 0;  ///< as LightLevel
+    const Report* report = nullptr;  ///< null: the original
+};
+
+/// Distance of the eye from the nearest point of the model from which an error covers no more pixels than
+/// allowed.
+double switch_distance(double error, const Viewing& viewing);
+
+/// The manifest, with the keys documented in docs/levels.md.
+/// \param diagonal  of the scene
+Json lod_manifest(const std::string& source, double diagonal, const Viewing& viewing,
+                  const std::vector<WrittenLevel>& levels);
+
+}  // namespace faqem::tool

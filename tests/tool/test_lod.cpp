@@ -1,0 +1,118 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "faqem/compare.hpp"
+#include "tool/lod_manifest.hpp"
+#include "tool_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+Json manifest(const Folder& folder, const std::string& name) { return Json::parse(read(folder / name)); }
+
+std::size_t faces(const fs::path& file) { return faqem::load(file).parts.at(0).triangles.size(); }
+
+/// The last collapse may take one face more than asked for.
+bool close_to(std::size_t faces, std::size_t target) { return faces <= target && faces + 2 > target; }
+
+}  // namespace
+
+TEST_CASE("lod writes the original, a model for each level and a manifest") {
+    const Folder folder;
+    faqem::save(sheet(30, 0.2), folder / "hill.glb");
+    const Outcome outcome = run(folder, "lod hill.glb out --levels 0.5,0.1,50 --bake none");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("hill_LOD3.glb: ") != std::string::npos);
+    const Json json = manifest(folder, "out/hill_LOD.json");
+    REQUIRE(json["levels"].size() == 4);
+    CHECK(json["source"] == "hill.glb");
+    const faqem::Asset original = faqem::load(folder / "hill.glb");
+    const faqem::MeshView before{original.parts[0].positions, original.parts[0].triangles};
+    double last = 0, far = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Json& level = json["levels"][i];
+        const std::string file = "hill_LOD" + std::to_string(i) + ".glb";
+        CHECK(level["file"] == file);
+        CHECK(level["faces"] == faces(folder / ("out/" + file)));
+        CHECK(level["error"] >= last);
+        CHECK(level["switch_distance"] >= far);
+        last = level["error"], far = level["switch_distance"];
+        const faqem::Asset light = faqem::load(folder / ("out/" + file));
+        const faqem::MeshView after{light.parts[0].positions, light.parts[0].triangles};
+        CHECK(faqem::hausdorff(before, after).value <= last + 1e-6);
+        CHECK(level.contains("report") == (i > 0));
+    }
+    CHECK(json["levels"][0]["faces"] == 1800);
+    CHECK(json["levels"][0]["error"] == 0);
+    CHECK(json["levels"][0]["screen_coverage"].is_null());
+    const std::size_t most[] = {1800, 900, 180, 50};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], most[i]));
+}
+
+TEST_CASE("lod without the original begins with the first level") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(
+        run(folder, "lod a.glb . --levels 0.5,error:2% --without-original --format ply --bake none --quiet")
+            .code == 0);
+    CHECK(close_to(faces(folder / "a_LOD0.ply"), 400));
+    CHECK(faces(folder / "a_LOD1.ply") < 400);
+    CHECK_FALSE(fs::exists(folder / "a_LOD2.ply"));
+    const Json json = manifest(folder, "a_LOD.json");
+    CHECK(json["levels"][1]["error"] <= json["levels"][1]["report"]["max_error"]["allowed"]);
+}
+
+TEST_CASE("the switch distance shows an error under as many pixels as allowed") {
+    using namespace faqem::tool;
+    // At 90 degrees a screen of 1000 pixels shows 2 units at distance 1: an error of 0.01 is 5 pixels there.
+    CHECK(switch_distance(0.01, {1, 90, 1000}) == Approx(5));
+    CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
+    CHECK(switch_distance(0, {1, 60, 1080}) == 0);
+    const faqem::tool::Json json =
+        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 0.009, 0.01, nullptr}});
+    // 3 units are 1.5 times the height at distance 1, and 0.3 of it at distance 5.
+    CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
+}
+
+TEST_CASE("lod refuses what makes no chain, and touches nothing") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "5%"}) {
+        const Outcome outcome = run(folder, std::string("lod a.glb out --bake none --levels=") + levels);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("level") != std::string::npos);
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD.json"));
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
+    }
+    CHECK(run(folder, "lod a.glb out --ratio 0.5").code == 2);
+    CHECK(run(folder, "lod none.glb out").code == 3);
+    CHECK(run(folder, "lod a.glb out --fov 180").code == 2);
+    CHECK(run(folder, "lod a.glb out --format xyz").code == 2);
+}
+
+TEST_CASE("lod replaces nothing without --force") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    write(folder / "a_LOD1.glb", "mine");
+    const std::string command = "lod a.glb . --levels 0.5 --bake none";
+    CHECK(run(folder, command).code == 7);
+    CHECK(read(folder / "a_LOD1.glb") == "mine");
+    CHECK_FALSE(fs::exists(folder / "a_LOD0.glb"));
+    CHECK(run(folder, command + " --force").code == 0);
+    CHECK(close_to(faces(folder / "a_LOD1.glb"), 64));
+}
+
+TEST_CASE("lod writes nothing where a level misses a target that is strict") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    const Outcome outcome =
+        run(folder, "lod a.glb out --levels 0.5,4 --lock-border --strict-target --bake none");
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err.find("target missed") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
+    CHECK(run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none").code == 6);
+}
