@@ -1,8 +1,32 @@
 #include "collect.hpp"
 
+#include <numeric>
 #include <string>
 
 namespace faqem::detail {
+
+namespace {
+
+// What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
+// whichever level of a chain comes first to ask.
+void to_model_units(const Prepared& prepared, std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions();
+    std::vector<Index> place(at.size());
+    std::iota(place.begin(), place.end(), Index{0});
+    for (Collapse& collapse : collapses) {
+        const engine::Vector3 to = engine::to_eigen(collapse.position);
+        Index original = no_index;
+        if (to == at[collapse.first])
+            original = place[collapse.first];
+        else if (to == at[collapse.second])
+            original = place[collapse.second];
+        collapse.position = original != no_index ? prepared.positions[original] : prepared.to_model(to);
+        at.push_back(to);
+        place.push_back(original);
+    }
+}
+
+}  // namespace
 
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
@@ -53,8 +77,7 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
 
 void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResult& result) {
     CollapseHistory& history = result.history;
-    for (Collapse& collapse : history.collapses)
-        collapse.position = prepared.to_model(engine::to_eigen(collapse.position));
+    to_model_units(prepared, history.collapses);
     history.positions = prepared.positions;
     history.triangles = prepared.triangles;
     // What was pruned is deleted before the first collapse.
@@ -66,12 +89,6 @@ void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResu
     history.deleted_faces.insert(history.deleted_faces.begin(), pruned_faces.begin(), pruned_faces.end());
     history.face_groups.assign(mesh.face_groups.begin(), mesh.face_groups.end());
     history.kept_faces = result.face_origin;
-    // The history and the mesh say the same, to the last bit.
-    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        const Index v = history.kept_versions[i];
-        if (v >= history.positions.size())
-            history.collapses[v - history.positions.size()].position = result.mesh.positions[i];
-    }
 }
 
 void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {

@@ -7,6 +7,7 @@
 #include "faqem/bake_levels.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/compare_colors.hpp"
+#include "faqem/cut.hpp"
 #include "faqem/error.hpp"
 #include "faqem/history.hpp"
 #include "faqem/levels.hpp"
