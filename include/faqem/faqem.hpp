@@ -15,5 +15,6 @@
 #include "faqem/options.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
+#include "faqem/save_levels.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"

@@ -9,6 +9,7 @@
 #include "asset/gltf.hpp"
 #include "asset/gltf_accessor.hpp"
 #include "asset/gltf_framing.hpp"
+#include "asset/gltf_levels.hpp"
 #include "asset/gltf_writer.hpp"
 #include "asset/image.hpp"
 #include "faqem/error.hpp"
@@ -112,6 +113,14 @@ void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite o
     write_files(files, overwrite);
 }
 
+void finish(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+    write_extension_lists(writer);
+    if (is_json_name(file))
+        write_json_with_files(writer, file, overwrite);
+    else
+        write_glb(writer, file, overwrite);
+}
+
 }  // namespace
 
 const Json& source_array(const GltfWriter& writer, const char* key) {
@@ -146,11 +155,28 @@ std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Ov
     std::vector<Index> new_meshes;
     write_meshes(writer, new_meshes);
     write_scene(writer, new_meshes);
-    write_extension_lists(writer);
-    if (is_json_name(file))
-        write_json_with_files(writer, file, overwrite);
-    else
-        write_glb(writer, file, overwrite);
+    finish(writer, file, overwrite);
+    return std::move(writer.warnings);
+}
+
+std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,
+                                           Overwrite overwrite) {
+    const Asset& asset = leveled.asset;
+    const SourceDocument none;
+    const SourceDocument& source = asset.source ? *asset.source : none;
+    GltfWriter writer{asset, source, start_document(source.document)};
+    find_source_images(writer);
+    std::vector<Index> new_meshes, mesh;
+    write_meshes(writer, new_meshes);
+    auto next = new_meshes.begin();
+    for (const Part& part : asset.parts)
+        mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
+    // Only the first level is in the scene.
+    const std::size_t of_others = asset.parts.size() - std::min(asset.parts.size(), leveled.parts);
+    new_meshes.resize(new_meshes.size() - of_others);
+    write_scene(writer, new_meshes);
+    attach_levels(writer, leveled, mesh);
+    finish(writer, file, overwrite);
     return std::move(writer.warnings);
 }
 

@@ -1,0 +1,93 @@
+#include "faqem/save_levels.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "asset/gltf_levels.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_gltf_name(const fs::path& file) {
+    std::string ending = file.extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return ending == ".glb" || ending == ".gltf";
+}
+
+void check(const std::vector<SavedLevel>& levels) {
+    if (levels.empty()) throw InputError("", "levels", "there are none");
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::size_t parts = levels[i].asset.parts.size();
+        if (parts != levels[0].asset.parts.size())
+            throw InputError("", "level " + std::to_string(i), "has not the parts of the first one");
+        if (levels[i].coverage.size() != parts)
+            throw InputError("", "level " + std::to_string(i), "needs one coverage per part");
+    }
+}
+
+/// The image that has the same bytes, or a new one.
+Index add_image(std::vector<Image>& images, Image&& image) {
+    const auto same = std::find_if(images.begin(), images.end(), [&](const Image& other) {
+        return !image.encoded.empty() && other.encoded == image.encoded;
+    });
+    const auto index = static_cast<Index>(same - images.begin());
+    if (same == images.end()) images.push_back(std::move(image));
+    return index;
+}
+
+/// Adds parts that are no meshes of the source document, and what they need.
+void add(Asset& to, Asset&& level) {
+    std::vector<Index> image;
+    for (Image& own : level.images) image.push_back(add_image(to.images, std::move(own)));
+    const auto first_material = static_cast<Index>(to.materials.size());
+    for (Material& material : level.materials) {
+        for (TextureRef* ref :
+             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+              &material.occlusion_texture, &material.emissive_texture}) {
+            if (*ref) ref->image = image[ref->image];
+        }
+        to.materials.push_back(std::move(material));
+    }
+    for (Part& part : level.parts) {
+        for (Index& material : part.face_material) {
+            if (material != no_index) material += first_material;
+        }
+        part.source = no_index;
+        to.parts.push_back(std::move(part));
+    }
+}
+
+/// A level is left for the next one at the coverage that is enough for that; the last one never.
+std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
+    std::vector<double> coverage;
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        const double most = coverage.empty() ? 1 : coverage.back();
+        const double wanted = levels[i].coverage[part];
+        coverage.push_back(wanted < most ? wanted : most);  // NaN: a point at no distance
+    }
+    coverage.push_back(0);
+    return coverage;
+}
+
+}  // namespace
+
+std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::path& file,
+                                     Overwrite overwrite) {
+    if (!is_gltf_name(file))
+        throw UnsupportedError(file.string(), "", "cannot hold levels: the name must end in .glb or .gltf");
+    check(levels);
+    const std::size_t parts = levels[0].asset.parts.size();
+    detail::LeveledAsset leveled;
+    leveled.parts = std::max<std::size_t>(parts, 1);
+    for (std::size_t p = 0; p < parts; ++p) leveled.coverage.push_back(coverage_of(levels, p));
+    leveled.asset = std::move(levels[0].asset);
+    for (std::size_t i = 1; i < levels.size(); ++i) add(leveled.asset, std::move(levels[i].asset));
+    return detail::write_gltf_levels(leveled, file, overwrite);
+}
+
+}  // namespace faqem

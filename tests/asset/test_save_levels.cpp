@@ -1,0 +1,115 @@
+#include "faqem/save_levels.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "asset/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+std::string saved_levels(std::vector<SavedLevel> levels, const std::string& name = "out.glb") {
+    const TemporaryFolder folder;
+    save_levels(std::move(levels), folder / name);
+    return get(folder / name);
+}
+
+/// The asset, and twice the same with one face less.
+std::vector<SavedLevel> three_levels(const Asset& asset, double coverage = 0.5) {
+    std::vector<SavedLevel> levels = {{asset, std::vector<double>(asset.parts.size(), 9)}};
+    for (int i = 1; i < 3; ++i) {
+        levels.push_back({levels.back().asset, std::vector<double>(asset.parts.size(), coverage / i)});
+        for (Part& part : levels.back().asset.parts) {
+            part.triangles.resize(1);
+            part.face_material.resize(1);
+        }
+    }
+    return levels;
+}
+
+}  // namespace
+
+TEST_CASE("a plain node gets its levels beside it, and the scene shows the first") {
+    const std::string glb = saved_levels(three_levels(load_glb(square_gltf())));
+    const Json json = json_of(glb);
+    REQUIRE(json["nodes"].size() == 3);
+    CHECK(json["scenes"][0]["nodes"] == Json({0}));
+    CHECK(json["nodes"][0]["mesh"] == 0);
+    CHECK(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == Json({1, 2}));
+    CHECK(json["nodes"][0]["extras"]["MSFT_screencoverage"] == Json({0.5, 0.25, 0.0}));
+    CHECK(json["nodes"][1] == Json({{"mesh", 1}}));
+    CHECK(json["nodes"][2] == Json({{"mesh", 2}}));
+    CHECK(json["extensionsUsed"] == Json::array({"MSFT_lod"}));
+    const Asset back = load_glb(glb);
+    REQUIRE(back.parts.size() == 3);
+    CHECK(back.parts[0].triangles.size() == 2);
+    CHECK(back.parts[1].triangles.size() == 1);
+    CHECK(instances(back).size() == 1);
+}
+
+TEST_CASE("a node with a place or an animation gives its mesh to a child") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"] =
+        Json::parse(R"([{"name":"a","mesh":0,"translation":[1,2,3]},{"name":"b","mesh":0}])");
+    builder.json["scenes"] = Json::parse(R"([{"nodes":[0,1]}])");
+    const auto times = builder.accessor(std::vector<float>{0, 1}, f32, "SCALAR");
+    const auto moves = builder.accessor(std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}}, f32, "VEC3");
+    builder.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", times}, {"output", moves}}}}}};
+    const Json json = json_of(saved_levels(three_levels(load_glb(builder))));
+    const Json& nodes = json["nodes"];
+    REQUIRE(nodes.size() == 8);
+    CHECK(nodes[0]["translation"] == Json({1, 2, 3}));
+    for (const std::size_t n : {0u, 1u}) {
+        CHECK_FALSE(nodes[n].contains("mesh"));
+        REQUIRE(nodes[n]["children"].size() == 1);
+        const Json& child = nodes[nodes[n]["children"][0].get<std::size_t>()];
+        CHECK(child["mesh"] == 0);
+        CHECK_FALSE(child.contains("translation"));
+        const Json& ids = child["extensions"]["MSFT_lod"]["ids"];
+        REQUIRE(ids.size() == 2);
+        for (const std::size_t i : {0u, 1u}) CHECK(nodes[ids[i].get<std::size_t>()]["mesh"] == i + 1);
+    }
+    CHECK(nodes[2]["name"] == "a_mesh");
+    CHECK(nodes[3]["name"] == "a_mesh_LOD1");
+    CHECK(json["animations"][0]["channels"][0]["target"]["node"] == 1);
+    CHECK(json["scenes"][0]["nodes"] == Json({0, 1}));
+}
+
+TEST_CASE("levels of a new asset share equal images and keep their materials apart") {
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
+    asset.parts[0].uvs = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+    asset.parts[0].face_material = {0, 0};
+    asset.images = {small_png(1)};
+    asset.materials.resize(1);
+    asset.materials[0].base_color_texture.image = 0;
+    std::vector<SavedLevel> levels = three_levels(asset, 4);
+    levels[2].asset.images = {small_png(2)};
+    const std::string glb = saved_levels(levels);
+    const Json json = json_of(glb);
+    CHECK(json["images"].size() == 2);
+    CHECK(json["materials"].size() == 3);
+    CHECK(json["nodes"][0]["extras"]["MSFT_screencoverage"] == Json({1.0, 1.0, 0.0}));
+    CHECK(saved_levels(levels) == glb);
+    const Asset back = load_glb(glb);
+    CHECK(instances(back).size() == 1);
+}
+
+TEST_CASE("extras that are no object stay, without the hint") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"][0]["extras"] = 7;
+    const Json json = json_of(saved_levels(three_levels(load_glb(builder))));
+    CHECK(json["nodes"][0]["extras"] == 7);
+    CHECK(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"].size() == 2);
+}
+
+TEST_CASE("levels that do not fit each other or the format are refused") {
+    const Asset asset = load_glb(square_gltf());
+    CHECK_THROWS_AS(saved_levels({}), InputError);
+    CHECK_THROWS_AS(saved_levels({{asset, {}}}), InputError);
+    CHECK_THROWS_AS(saved_levels({{asset, {1}}, {Asset(), {}}}), InputError);
+    CHECK_THROWS_AS(saved_levels(three_levels(asset), "out.ply"), UnsupportedError);
+    CHECK(json_of(saved_levels({{asset, {1}}}))["nodes"].size() == 1);
+}
