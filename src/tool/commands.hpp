@@ -15,6 +15,7 @@ using Action = std::function<int()>;
 
 void add_simplify_command(CLI::App& app, Action& action);
 void add_lod_command(CLI::App& app, Action& action);
+void add_cut_command(CLI::App& app, Action& action);
 void add_batch_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

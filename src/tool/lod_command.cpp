@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -8,7 +9,9 @@
 
 #include "bake/scene_size.hpp"
 #include "faqem/bake_levels.hpp"
+#include "faqem/cut.hpp"
 #include "faqem/error.hpp"
+#include "faqem/save_levels.hpp"
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/interrupt.hpp"
@@ -24,21 +27,25 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments : SimplifyArguments {
-    std::string in, out, format = "glb";
+    std::string in, out, history, format = "glb";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     Viewing viewing;
-    bool without_original = false, force = false, quiet = false;
+    bool without_original = false, one_file = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
 
-/// The files that will be there: a model for each level, the original first, and the manifest.
+/// The files that will be there: a model for each level, the original first, and the manifest. With
+/// --one-file all levels have the same.
 struct Outputs {
     explicit Outputs(const Arguments& a) {
         const std::string ending = ending_of_format(a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
+        if (a.one_file && ending != ".glb" && ending != ".gltf")
+            throw OptionError("--one-file: --format must be glb or gltf");
         const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
-        for (std::size_t i = 0; i < count; ++i) models.push_back(stem + "_LOD" + std::to_string(i) + ending);
+        for (std::size_t i = 0; i < count; ++i)
+            models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + ending);
         manifest = stem + "_LOD.json";
     }
 
@@ -49,6 +56,25 @@ struct Outputs {
 void check(const Arguments& a, const Outputs& outputs) {
     for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
     check_output(outputs.manifest, {a.in}, a.overwrite());
+    if (a.history.empty()) return;
+    check_output(a.history, {a.in}, a.overwrite());
+    std::vector<fs::path> others = outputs.models;
+    others.push_back(outputs.manifest);
+    for (const fs::path& other : others) {
+        if (other.lexically_normal() == fs::path(a.history).lexically_normal())
+            throw OptionError(a.history + ": is named twice");
+    }
+}
+
+/// Parts one after the other, each with all its levels.
+void write_histories(const Arguments& a, const std::vector<SmallPartsLevel>& levels) {
+    std::ostringstream out;
+    for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
+        std::vector<CollapseHistory> histories;
+        for (const SmallPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
+        write(join(histories), out);
+    }
+    write_output(a.history, out.view(), a.overwrite());
 }
 
 void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) {
@@ -61,7 +87,18 @@ void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) 
     std::cout << out.str();
 }
 
-/// Bakes and saves one level after the other, so that the images of one are there at a time.
+double diagonal_of(const std::vector<Vec3>& points) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3 && !points.empty(); ++i) {
+        const auto [low, high] = std::minmax_element(
+            points.begin(), points.end(), [i](const Vec3& a, const Vec3& b) { return a[i] < b[i]; });
+        square += ((*high)[i] - (*low)[i]) * ((*high)[i] - (*low)[i]);
+    }
+    return std::sqrt(square);
+}
+
+/// Bakes and saves one level after the other, so that the images of one are there at a time;
+/// with --one-file they are saved together.
 class Chain {
 public:
     Chain(const Arguments& arguments, const Outputs& outputs, const Asset& source,
@@ -69,6 +106,7 @@ public:
         : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
 
     ExitCode operator()() {
+        size_ = detail::scene_size(source_);
         std::vector<SmallPartsLevel> levels =
             naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
         if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
@@ -78,18 +116,22 @@ public:
             std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
             return refusal;
         }
+        if (!arguments_.history.empty()) write_histories(arguments_, levels);
         reports_.reserve(levels.size());  // they are pointed to
         std::vector<std::string> warnings = source_.warnings;
-        if (!arguments_.without_original) append(warnings, write(source_, 0, 0, nullptr));
+        if (!arguments_.without_original) append(warnings, write(Asset(source_), 0, 0, nullptr));
         for (SmallPartsLevel& level : levels) {
             LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, options_); });
             level.result = {};
             if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
             Report& report = reports_.emplace_back(std::move(light.report));
-            append(report.warnings, write(light.asset, level.distance, level.error, &report));
+            append(report.warnings, write(std::move(light.asset), level.distance, level.error, &report));
         }
-        Json manifest =
-            lod_manifest(arguments_.in, detail::scene_size(source_).diagonal, arguments_.viewing, written_);
+        if (arguments_.one_file) {
+            const Unattended unattended;
+            append(warnings, save_levels(std::move(saved_), outputs_.models[0], arguments_.overwrite()));
+        }
+        Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.viewing, written_);
         manifest["warnings"] = warnings;
         write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                      arguments_.overwrite());
@@ -104,7 +146,7 @@ private:
     }
 
     /// \return what the format could not hold
-    std::vector<std::string> write(const Asset& asset, double distance, double error, const Report* report) {
+    std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
         const Unattended unattended;
         const fs::path& file = outputs_.models[written_.size()];
         WrittenLevel& level = written_.emplace_back();
@@ -113,7 +155,19 @@ private:
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
         }
-        return save(asset, file, arguments_.overwrite());
+        if (!arguments_.one_file) return save(asset, file, arguments_.overwrite());
+        saved_.push_back({std::move(asset), coverage(error)});
+        return {};
+    }
+
+    /// By part, as the scene shows it at its largest.
+    std::vector<double> coverage(double error) const {
+        std::vector<double> result;
+        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
+            const double diagonal = size_.scales[p].most * diagonal_of(source_.parts[p].positions);
+            result.push_back(screen_coverage(diagonal, error, arguments_.viewing));
+        }
+        return result;
     }
 
     const Arguments& arguments_;
@@ -123,6 +177,8 @@ private:
     const Options& options_;
     std::vector<Report> reports_;
     std::vector<WrittenLevel> written_;
+    std::vector<SavedLevel> saved_;  // with --one-file
+    detail::SceneSize size_;
 };
 
 int run(const Arguments& arguments) {
@@ -179,7 +235,11 @@ void add_lod_command(CLI::App& app, Action& action) {
         ->delimiter(',');
     command->add_flag("--without-original", arguments->without_original,
                       "The first level is LOD0; else the original is, as it was read");
+    command->add_flag("--one-file", arguments->one_file,
+                      "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod");
     command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
+    command->add_option("--history", arguments->history,
+                        "Write the collapse history to this file, for faqem cut");
     add_viewing_options(*command, arguments->viewing);
     add_level_options(*command, *arguments);
     command->add_option("--threads", arguments->options.threads, "Threads at most")

@@ -18,6 +18,10 @@ double switch_distance(double error, const Viewing& viewing) {
     return error * viewing.screen_height / (height_at_one(viewing) * viewing.pixel_error);
 }
 
+double screen_coverage(double diagonal, double error, const Viewing& viewing) {
+    return diagonal / (height_at_one(viewing) * switch_distance(error, viewing));
+}
+
 Json lod_manifest(const std::string& source, double diagonal, const Viewing& viewing,
                   const std::vector<WrittenLevel>& levels) {
     Json json = {{"source", source},
@@ -30,8 +34,8 @@ Json lod_manifest(const std::string& source, double diagonal, const Viewing& vie
         const double from = switch_distance(level.error, viewing);
         Json one = {{"file", level.file},         {"faces", level.faces}, {"vertices", level.vertices},
                     {"distance", level.distance}, {"error", level.error}, {"switch_distance", from}};
-        // Share of the screen's height that the model takes there; the original is shown however large it is.
-        one["screen_coverage"] = from > 0 ? Json(diagonal / (height_at_one(viewing) * from)) : Json();
+        // The original is shown however large it is.
+        one["screen_coverage"] = from > 0 ? Json(screen_coverage(diagonal, level.error, viewing)) : Json();
         if (level.report) one["report"] = Json::parse(to_json(*level.report));
         json["levels"].push_back(std::move(one));
     }

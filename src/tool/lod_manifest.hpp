@@ -30,6 +30,9 @@ struct WrittenLevel {
 /// allowed.
 double switch_distance(double error, const Viewing& viewing);
 
+/// Share of the screen's height that a length takes at the switch distance; infinity where that is 0.
+double screen_coverage(double diagonal, double error, const Viewing& viewing);
+
 /// The manifest, with the keys documented in docs/levels.md.
 /// \param diagonal  of the scene
 Json lod_manifest(const std::string& source, double diagonal, const Viewing& viewing,

@@ -33,6 +33,7 @@ int parse_and_run(int argc, char** argv) {
     Action action;
     add_simplify_command(app, action);
     add_lod_command(app, action);
+    add_cut_command(app, action);
     add_batch_command(app, action);
     add_info_command(app, action);
     add_compare_command(app, action);

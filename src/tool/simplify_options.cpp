@@ -120,26 +120,6 @@ void add_metric_options(CLI::App& command, SimplifyArguments& a) {
                        "Inverse-area weight of planes; 0: unweighted");
 }
 
-void add_look_options(CLI::App& command, SimplifyArguments& a) {
-    command.add_option(
-        "--bake", a.bake,
-        "Where colours go: per-triangle (default), atlas (charts), auto (one of these), vertex, keep, none");
-    command.add_option("--texture-size", a.options.bake.texture_size,
-                       "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
-    command.add_option("--normal-map", a.normal_map,
-                       "Normal map of a new texture: auto (where the source has one or its normals differ; "
-                       "default), on, off");
-    command.add_option(
-        "--normals", a.normals,
-        "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
-        "to ANGLE degrees, 40), flat, none (with --bake none: geometry alone)");
-    command.add_option("--image-format", a.image_format,
-                       "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
-                       "images they are baked from)");
-    command.add_option("--mapping", a.mapping,
-                       "Way back to the original: projection (default), lineage, closest");
-}
-
 void add_topology_options(CLI::App& command, SimplifyArguments& a) {
     command.add_flag_callback(
         "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
@@ -161,6 +141,26 @@ void add_topology_options(CLI::App& command, SimplifyArguments& a) {
 void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
     add_target_options(command, a);
     add_level_options(command, a);
+}
+
+void add_look_options(CLI::App& command, SimplifyArguments& a) {
+    command.add_option(
+        "--bake", a.bake,
+        "Where colours go: per-triangle (default), atlas (charts), auto (one of these), vertex, keep, none");
+    command.add_option("--texture-size", a.options.bake.texture_size,
+                       "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
+    command.add_option("--normal-map", a.normal_map,
+                       "Normal map of a new texture: auto (where the source has one or its normals differ; "
+                       "default), on, off");
+    command.add_option(
+        "--normals", a.normals,
+        "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
+        "to ANGLE degrees, 40), flat, none (with --bake none: geometry alone)");
+    command.add_option("--image-format", a.image_format,
+                       "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
+                       "images they are baked from)");
+    command.add_option("--mapping", a.mapping,
+                       "Way back to the original: projection (default), lineage, closest");
 }
 
 void add_level_options(CLI::App& command, SimplifyArguments& a) {

@@ -36,6 +36,9 @@ void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
 /// Those that do not say how many faces or how close.
 void add_level_options(CLI::App& command, SimplifyArguments& arguments);
 
+/// Those that say what is baked.
+void add_look_options(CLI::App& command, SimplifyArguments& arguments);
+
 /// `0.5`, a share of the faces; `5000`, a number of them; `error:0.01` in model units or `error:0.1%` of the
 /// diagonal. \throws OptionError
 Level level_of(const std::string& text);

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -115,4 +117,41 @@ TEST_CASE("lod writes nothing where a level misses a target that is strict") {
     CHECK(outcome.err.find("target missed") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
     CHECK(run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none").code == 6);
+}
+
+TEST_CASE("lod puts all levels into one file, which shows the finest") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const std::string options = " --levels 0.5,0.1 --texture-size 128";
+    REQUIRE(run(folder, "lod hill.glb one --one-file" + options).code == 0);
+    REQUIRE(run(folder, "lod hill.glb many" + options).code == 0);
+    CHECK_FALSE(fs::exists(folder / "one/hill_LOD0.glb"));
+    const faqem::Asset one = faqem::load(folder / "one/hill_LOD.glb");
+    REQUIRE(one.parts.size() == 3);
+    const auto shown = faqem::instances(one);
+    REQUIRE(shown.size() == 1);
+    CHECK(shown[0].part == 0);
+    const std::string bytes = read(folder / "one/hill_LOD.glb");
+    std::uint32_t length = 0;  // of the JSON, which is the first chunk
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const Json gltf = Json::parse(bytes.substr(20, length));
+    const Json& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
+    CHECK(gltf["extensionsUsed"].dump().find("MSFT_lod") != std::string::npos);
+    const Json& ids = node["extensions"]["MSFT_lod"]["ids"];
+    REQUIRE(ids.size() == 2);
+    const Json json = manifest(folder, "one/hill_LOD.json");
+    const Json& coverage = node["extras"]["MSFT_screencoverage"];
+    REQUIRE(coverage.size() == 3);
+    CHECK(coverage[2] == 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::string name = "many/hill_LOD" + std::to_string(i) + ".glb";
+        CHECK(one.parts[i].triangles == faqem::load(folder / name).parts.at(0).triangles);
+        CHECK(json["levels"][i]["file"] == "hill_LOD.glb");
+        CHECK(json["levels"][i]["faces"] == one.parts[i].triangles.size());
+        if (i == 0) continue;
+        CHECK(gltf["nodes"][ids[i - 1].get<std::size_t>()]["mesh"] == i);
+        const double full = std::min(1.0, json["levels"][i]["screen_coverage"].get<double>());
+        CHECK(coverage[i - 1].get<double>() == Approx(full));
+    }
+    CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
 }
