@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,8 @@ inline unsigned thread_count(std::uint32_t wanted) {
 
 /// Calls work(begin, end) for consecutive blocks of [0, size), each call once, in any order.
 /// Blocks depend on `size` and `block` only, never on the number of threads, so that per-block results can be
-/// joined in block order to the same sum anywhere. The first exception is thrown again here.
+/// joined in block order to the same sum anywhere. The first exception is thrown again here. Where the system
+/// gives fewer threads, fewer do it.
 template <class Work>
 void parallel_blocks(std::size_t size, std::size_t block, std::uint32_t threads, Work&& work) {
     const std::size_t blocks = (size + block - 1) / block;
@@ -41,7 +43,12 @@ void parallel_blocks(std::size_t size, std::size_t block, std::uint32_t threads,
     };
     const std::size_t count = std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(blocks, 1));
     std::vector<std::thread> helpers;
-    for (std::size_t i = 1; i < count; ++i) helpers.emplace_back(run);
+    helpers.reserve(count);
+    try {
+        for (std::size_t i = 1; i < count; ++i) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+        // The system gives no more threads: those there are do it all.
+    }
     run();
     for (std::thread& helper : helpers) helper.join();
     if (error) std::rethrow_exception(error);

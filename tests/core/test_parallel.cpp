@@ -1,9 +1,16 @@
 #include "parallel.hpp"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include "sanitizers.hpp"
 
 using faqem::detail::parallel_blocks;
 using faqem::detail::thread_count;
@@ -33,6 +40,29 @@ TEST_CASE("an exception in a block comes out, and the threads end") {
                           "block 500");
     }
 }
+
+#ifndef FAQEM_SANITIZED
+
+TEST_CASE("where the system gives no more threads, those there are do the work") {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::uint64_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        // Room for the stacks of some threads.
+        const rlim_t bytes = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);
+        const rlimit limit = {bytes, bytes};
+        setrlimit(RLIMIT_AS, &limit);
+        std::atomic<int> done{0};
+        parallel_blocks(1000, 1, 1000, [&](std::size_t, std::size_t) { ++done; });
+        _exit(done == 1000 ? 0 : 1);
+    }
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+}
+
+#endif
 
 TEST_CASE("zero threads means all there are") {
     CHECK(thread_count(0) >= 1);

@@ -1,0 +1,10 @@
+#pragma once
+// FAQEM_SANITIZED where the tests run under a sanitizer that takes memory or address space of its own.
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FAQEM_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define FAQEM_SANITIZED
+#endif
+#endif
