@@ -9,6 +9,7 @@
 #include "tool/batch_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/machine_memory.hpp"
 #include "tool/output.hpp"
 #include "tool/simplify_options.hpp"
 

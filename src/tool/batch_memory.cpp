@@ -1,9 +1,6 @@
 #include "tool/batch_memory.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "tool/output.hpp"
@@ -38,14 +35,6 @@ double peak_bytes_per_face(const Options& options) {
 }
 
 }  // namespace
-
-std::uint64_t machine_memory() {
-    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    std::ifstream group("/sys/fs/cgroup/memory.max");
-    if (std::uint64_t limit = 0; group >> limit) bytes = std::min(bytes, limit);
-    return bytes;
-}
 
 std::uint64_t predicted_peak(const std::filesystem::path& model, std::uint64_t bytes,
                              const Options& options) {

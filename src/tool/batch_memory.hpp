@@ -11,9 +11,6 @@
 
 namespace faqem::tool {
 
-/// Memory of the machine, or of the control group the process is in if that is less, bytes.
-std::uint64_t machine_memory();
-
 /// An upper estimate of what simplify takes at its peak, from the size of the files alone, bytes. It goes by
 /// what a face takes at least in a file of that format, and by what the presets were measured to take.
 /// \param bytes  of the model and the files it refers to

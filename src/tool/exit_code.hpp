@@ -20,6 +20,7 @@ enum ExitCode : int {
     exit_cancelled = 8,
     exit_batch_incomplete = 9,
     exit_too_large = 10,
+    exit_no_memory = 11,
 };
 
 /// The exit code for an exception.

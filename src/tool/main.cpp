@@ -29,7 +29,7 @@ int parse_and_run(int argc, char** argv) {
     app.footer(
         "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
         "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
-        "9 not all files of a batch are done.");
+        "9 not all files of a batch are done, 10 --max-bytes missed, 11 not enough memory.");
     Action action;
     add_simplify_command(app, action);
     add_lod_command(app, action);

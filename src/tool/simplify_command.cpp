@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,8 @@
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/machine_memory.hpp"
+#include "tool/memory_limit.hpp"
 #include "tool/output.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/simplify_options.hpp"
@@ -28,7 +31,8 @@ using detail::Stopwatch;
 /// The command line as it was given.
 struct Arguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
-    std::uint64_t max_bytes = 0;  ///< 0: any size
+    std::uint64_t max_bytes = 0;   ///< 0: any size
+    std::uint64_t max_memory = 0;  ///< bytes; 0: the machine's
     bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -149,7 +153,10 @@ int run(const Arguments& arguments) {
         };
         PhaseSeconds seconds;
         bar.show(Phase::load, 0);
+        const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
+        require_memory(arguments.in, loading_peak(arguments.in), allowed);
         const Asset source = load_input(arguments, seconds);
+        require_memory(arguments.in, predicted_peak(source, options), allowed);
         light = simplify_model(source, arguments.in, options, byte_budget(arguments));
         light.report.seconds.load = seconds.load;
         light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
@@ -180,6 +187,12 @@ void add_run_options(CLI::App& command, Arguments& a) {
         ->excludes("--max-error");
     command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
         ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--max-memory", a.max_memory,
+                    "Refuse a model that may bring the memory above this, as 8GB or 500MB (default: the "
+                    "machine's)")
+        ->transform(CLI::AsSizeValue(false))
+        ->check(CLI::PositiveNumber);
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
     command.add_option("--correspondence", a.correspondence,
