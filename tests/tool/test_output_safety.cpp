@@ -55,6 +55,32 @@ TEST_CASE("a full disk ends with 7, the old file stays, nothing is left behind")
     }
 }
 
+TEST_CASE("a full file system and a read-only one end with 7, the old file stays, nothing is left behind") {
+    // A file system of four pages, mounted where nobody else sees it.
+    if (std::system("unshare -rm mount -t tmpfs -o size=16k none /mnt 2>/dev/null") != 0) {
+        WARN("no file systems may be mounted here");
+        return;
+    }
+    const Folder folder;
+    faqem::save(sheet(40), folder / "in.glb");
+    for (const std::string out : {"new.glb", "old.glb", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
+        CAPTURE(out);
+        const std::string simplify = "'" FAQEM_TOOL "' simplify in.glb /mnt/" + out +
+                                     " --ratio 0.9 --bake none --quiet --force 2>> err";
+        write(folder / "script", "mount -t tmpfs -o size=16k none /mnt\nprintf precious > /mnt/old.glb\n" +
+                                     simplify + "\necho $? $(ls -A /mnt) $(cat /mnt/old.glb) >> out\n" +
+                                     "mount -o remount,ro none /mnt\n" + simplify +
+                                     "\necho $? $(ls -A /mnt) $(cat /mnt/old.glb) >> out\n");
+        fs::remove(folder / "out");
+        fs::remove(folder / "err");
+        REQUIRE(std::system(("cd '" + folder.path().string() + "' && unshare -rm sh script").c_str()) == 0);
+        CHECK(read(folder / "out") == "7 old.glb precious\n7 old.glb precious\n");
+        CHECK(contains(read(folder / "err"), "cannot write: No space left on device"));
+        CHECK(contains(read(folder / "err"), ": the folder cannot be written to"));
+        CHECK(contains(read(folder / "err"), "/mnt/" + out.substr(0, 4)));
+    }
+}
+
 TEST_CASE("devices and pipes are no outputs, and that is found out before the work") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
