@@ -16,8 +16,8 @@ constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2
 constexpr std::size_t more_back = 2;
 /// Distances beyond this share of the longest are searched for, the others are followed.
 constexpr double far_share = 0.9;
-/// Where the original has so many times as many faces or more, all are searched for: what is followed gets
-/// lost more often, and a search costs little beside what the collapses cost.
+/// Where the original has so many times as many faces or more, what is followed gets lost more often. All are
+/// searched for there, as long as the points are the fewest there are: that costs little.
 constexpr std::size_t coarse = 33;
 /// Added to each point's distance between the normals: a fraction of a degree does not matter.
 constexpr double least_turn_counted = 0.005;
@@ -45,7 +45,7 @@ TwoSidedGaps::TwoSidedGaps(const StillSurface& original, std::span<const Triangl
       triangles_(triangles),
       threads_(threads),
       faces_(face_count(triangles)),
-      is_coarse_(coarse * faces_ <= face_count(original.mesh.triangles)),
+      is_coarse_(point_count() == least_points && coarse * faces_ <= face_count(original.mesh.triangles)),
       there_(original, triangles, evenly_spread({positions, triangles}, point_count())),
       ends_(std::in_place, original, triangles, corners_and_middles(triangles)),
       back_(even_points(), triangles),
