@@ -18,3 +18,4 @@
 #include "faqem/save_levels.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
+#include "faqem/version.hpp"

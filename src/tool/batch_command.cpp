@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "faqem/version.hpp"
 #include "parallel.hpp"
 #include "tool/batch_file.hpp"
 #include "tool/commands.hpp"
@@ -38,7 +39,7 @@ int run(const Arguments& arguments) {
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
     options.progress = [](Phase, double) { return interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key = std::string(FAQEM_VERSION) + " " + ending + " " + options_text(options) +
+    const std::string key = std::string(version()) + " " + ending + " " + options_text(options) +
                             (arguments.strict ? " strict" : "") +
                             (arguments.strict_target ? " strict-target" : "");
     const BatchWork work = {options,

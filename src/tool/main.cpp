@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "faqem/error.hpp"
+#include "faqem/version.hpp"
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 
@@ -24,7 +25,7 @@ int run(const Action& action) try {
 
 int parse_and_run(int argc, char** argv) {
     CLI::App app("Simplifies textured triangle meshes.", "faqem");
-    app.set_version_flag("--version", std::string("faqem ") + FAQEM_VERSION);
+    app.set_version_flag("--version", "faqem " + std::string(version()));
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"

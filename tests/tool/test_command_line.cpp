@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "faqem/version.hpp"
 #include "tool_support.hpp"
 
 using namespace tool_test;
@@ -13,6 +14,11 @@ TEST_CASE("help and version go to stdout and are no errors") {
         CHECK(!outcome.out.empty());
         CHECK(outcome.err.empty());
     }
+}
+
+TEST_CASE("the version is the library's") {
+    const Folder folder;
+    CHECK(run(folder, "--version").out == "faqem " + std::string(faqem::version()) + "\n");
 }
 
 TEST_CASE("a wrong command line ends with 2 and says so on stderr") {

@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// The version, and the only place that has the number: CMake reads it here.
+
+#include <string_view>
+
+namespace faqem {
+
+/// The version of these headers, as https://semver.org counts. What each number promises is in CHANGELOG.md.
+inline constexpr int version_major = 0;
+inline constexpr int version_minor = 1;
+inline constexpr int version_patch = 0;
+
+/// "MAJOR.MINOR.PATCH" of the library that runs: with a shared one it may be newer than the headers.
+std::string_view version();
+
+}  // namespace faqem

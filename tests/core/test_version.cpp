@@ -1,0 +1,11 @@
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "faqem/version.hpp"
+
+TEST_CASE("the library has the version of its headers") {
+    const std::string expected = std::to_string(faqem::version_major) + "." +
+                                 std::to_string(faqem::version_minor) + "." +
+                                 std::to_string(faqem::version_patch);
+    CHECK(faqem::version() == expected);
+}
