@@ -9,8 +9,14 @@ function(faqem_export target name)
         set(scope INTERFACE)
     else()
         set(scope PUBLIC)
-        set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION}
-                                                   SOVERSION ${PROJECT_VERSION_MAJOR})
+        # Before 1.0 a minor version may break what was (CHANGELOG.md).
+        set(abi ${PROJECT_VERSION_MAJOR})
+        if(abi EQUAL 0)
+            set(abi 0.${PROJECT_VERSION_MINOR})
+        endif()
+        # Installed libraries find each other wherever the tree is moved to.
+        set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION} SOVERSION ${abi}
+                                                   INSTALL_RPATH "\$ORIGIN")
     endif()
     target_compile_features(${target} ${scope} cxx_std_20)
     target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -1,0 +1,111 @@
+#ifndef FAQEM_FAQEM_ASSET_H
+#define FAQEM_FAQEM_ASSET_H
+/**
+ * \file
+ * The C door to textured models: load, simplify with a new texture, save. The library has these functions where it
+ * was built with FAQEM_BUILD_ASSET, which is the default. faqem/faqem.h says how objects and errors are handled.
+ */
+
+#include "faqem/faqem.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Options of the look, see faqem::BakeOptions; setters as in faqem.h ---- */
+
+/** Where the colours go. */
+typedef enum faqem_bake FAQEM_ENUM {
+    FAQEM_BAKE_AUTOMATIC = 0,
+    FAQEM_BAKE_ATLAS = 1,
+    FAQEM_BAKE_PER_TRIANGLE = 2,
+    FAQEM_BAKE_VERTEX = 3,
+    FAQEM_BAKE_KEEP = 4,
+    FAQEM_BAKE_NONE = 5
+} faqem_bake;
+
+/** Normal map of a new texture. */
+typedef enum faqem_normal_map FAQEM_ENUM {
+    FAQEM_NORMAL_MAP_AUTOMATIC = 0,
+    FAQEM_NORMAL_MAP_ON = 1,
+    FAQEM_NORMAL_MAP_OFF = 2
+} faqem_normal_map;
+
+/** Vertex normals. */
+typedef enum faqem_normals FAQEM_ENUM {
+    FAQEM_NORMALS_TRANSFER = 0,
+    FAQEM_NORMALS_SMOOTH = 1,
+    FAQEM_NORMALS_FLAT = 2,
+    FAQEM_NORMALS_NONE = 3
+} faqem_normals;
+
+/** How baked images are encoded. */
+typedef enum faqem_image_format FAQEM_ENUM {
+    FAQEM_IMAGE_PNG = 0,
+    FAQEM_IMAGE_JPEG = 1,
+    FAQEM_IMAGE_SOURCE = 2
+} faqem_image_format;
+
+FAQEM_API faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind);
+/** Largest side of a baked image in texels, a power of two in [64, 16384]. */
+FAQEM_API faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t texels);
+FAQEM_API faqem_status faqem_options_set_normal_map(faqem_options* options, faqem_normal_map kind);
+FAQEM_API faqem_status faqem_options_set_normals(faqem_options* options, faqem_normals kind);
+FAQEM_API faqem_status faqem_options_set_image_format(faqem_options* options, faqem_image_format format);
+
+/* ---- Models ---- */
+
+/** A scene of parts (meshes), materials and images. */
+typedef struct faqem_asset faqem_asset;
+
+/** What save may do to a file that exists. */
+typedef enum faqem_overwrite FAQEM_ENUM { FAQEM_OVERWRITE_NO = 0, FAQEM_OVERWRITE_YES = 1 } faqem_overwrite;
+
+/**
+ * Loads .glb, .gltf, .obj, .ply, .stl or .off.
+ * \param path   as the system has it, usually UTF-8
+ * \param asset  gets a new object
+ */
+FAQEM_API faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error);
+
+/**
+ * A model of one part without materials, from arrays that are copied. Locks and weights are not part of a model;
+ * groups are not either.
+ */
+FAQEM_API faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error);
+
+/** Simplifies a model and bakes its look anew. \param light  gets a new object, which has a report */
+FAQEM_API faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
+                                            faqem_asset** light, faqem_error* error);
+
+/**
+ * Saves as .glb, .gltf, .obj, .ply or .stl, by name. Each file is complete or not there at all.
+ * What the format could not hold is added to the warnings of the asset.
+ */
+FAQEM_API faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwrite overwrite,
+                                        faqem_error* error);
+FAQEM_API void faqem_asset_destroy(faqem_asset* asset);
+
+/** The getters: 0 or null where `asset` is null or an index is out of range. */
+FAQEM_API size_t faqem_asset_part_count(const faqem_asset* asset);
+FAQEM_API const char* faqem_asset_part_name(const faqem_asset* asset, size_t part);
+FAQEM_API size_t faqem_asset_vertex_count(const faqem_asset* asset, size_t part);
+FAQEM_API size_t faqem_asset_face_count(const faqem_asset* asset, size_t part);
+/** 3 * vertex_count, in the part's own coordinates. Vertices are split at seams, as in the file. */
+FAQEM_API const double* faqem_asset_positions(const faqem_asset* asset, size_t part);
+/** 3 * face_count. */
+FAQEM_API const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part);
+/** What was repaired, left out, or could not be saved, one sentence each. */
+FAQEM_API size_t faqem_asset_warning_count(const faqem_asset* asset);
+FAQEM_API const char* faqem_asset_warning(const faqem_asset* asset, size_t index);
+
+/** \return FAQEM_ERROR_OPTION where an argument is null or the asset was not made by faqem_asset_simplify() */
+FAQEM_API faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report);
+/** null where the asset was not made by faqem_asset_simplify(). */
+FAQEM_API const char* faqem_asset_report_json(const faqem_asset* asset);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

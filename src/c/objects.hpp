@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// What the C door's objects are inside, where it was built with assets or without.
+
+#include <string>
+
+#include "faqem/faqem.h"
+#include "faqem/options.hpp"
+#include "faqem/report.hpp"
+
+struct faqem_options {
+    faqem::Options options;
+};
+
+namespace faqem::c {
+
+/// A report and its JSON, made at once: getters only read.
+struct KeptReport {
+    explicit KeptReport(const Report& r) : report(r), json(to_json(r)) {}
+
+    Report report;
+    std::string json;
+};
+
+/// The numbers of a report.
+faqem_report numbers_of(const Report& report);
+
+/// The options, or the defaults where there are none.
+inline Options options_or_defaults(const faqem_options* options) {
+    return options ? options->options : Options{};
+}
+
+}  // namespace faqem::c

@@ -1,0 +1,117 @@
+#include "faqem/faqem_asset.h"
+
+#include <string.h>
+
+#include "check.h"
+
+static const char file[] = "test_c.glb";
+
+static void a_model_is_saved_loaded_and_simplified(void) {
+    const faqem_mesh mesh = flat_grid(12);
+    faqem_error error;
+    faqem_asset* made = NULL;
+    CHECK(faqem_asset_create(&mesh, &made, &error) == FAQEM_OK);
+    CHECK(faqem_asset_save(made, file, FAQEM_OVERWRITE_YES, &error) == FAQEM_OK);
+    CHECK(faqem_asset_save(made, file, FAQEM_OVERWRITE_NO, &error) == FAQEM_ERROR_WRITE);
+    CHECK(strstr(error.message, file) != NULL);
+    CHECK(faqem_asset_report_json(made) == NULL);
+    faqem_report report;
+    CHECK(faqem_asset_report(made, &report) == FAQEM_ERROR_OPTION);
+    faqem_asset_destroy(made);
+
+    faqem_asset* loaded = NULL;
+    CHECK(faqem_asset_load(file, &loaded, &error) == FAQEM_OK);
+    CHECK(faqem_asset_part_count(loaded) == 1);
+    CHECK(faqem_asset_vertex_count(loaded, 0) == 169 && faqem_asset_face_count(loaded, 0) == 288);
+    CHECK(memcmp(faqem_asset_triangles(loaded, 0), mesh.triangles, 3 * 288 * sizeof(uint32_t)) == 0);
+    for (size_t i = 0; i < 3 * 169; ++i) CHECK(faqem_asset_positions(loaded, 0)[i] == mesh.positions[i]);
+    CHECK(faqem_asset_part_name(loaded, 0) != NULL);
+
+    faqem_options* options = faqem_options_create();
+    CHECK(faqem_options_set_faces(options, 50) == FAQEM_OK);
+    CHECK(faqem_options_set_bake(options, FAQEM_BAKE_NONE) == FAQEM_OK);
+    CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);
+    CHECK(faqem_options_set_normal_map(options, FAQEM_NORMAL_MAP_OFF) == FAQEM_OK);
+    CHECK(faqem_options_set_normals(options, FAQEM_NORMALS_FLAT) == FAQEM_OK);
+    CHECK(faqem_options_set_image_format(options, FAQEM_IMAGE_JPEG) == FAQEM_OK);
+    faqem_asset* light = NULL;
+    CHECK(faqem_asset_simplify(loaded, options, &light, &error) == FAQEM_OK);
+    CHECK(faqem_asset_face_count(light, 0) <= 50 && faqem_asset_face_count(light, 0) > 0);
+    CHECK(faqem_asset_report(light, &report) == FAQEM_OK);
+    CHECK(report.faces_in == 288 && report.faces_out == faqem_asset_face_count(light, 0));
+    CHECK(strstr(faqem_asset_report_json(light), "\"faces_in\": 288") != NULL);
+
+    CHECK(faqem_options_set_texture_size(options, 100) == FAQEM_OK);
+    faqem_asset* none = NULL;
+    CHECK(faqem_asset_simplify(loaded, options, &none, &error) == FAQEM_ERROR_OPTION);
+    CHECK(none == NULL && strstr(error.message, "texture_size") != NULL);
+    faqem_options_destroy(options);
+    faqem_asset_destroy(loaded);
+    faqem_asset_destroy(light);
+    CHECK(remove(file) == 0);
+}
+
+static void errors_tell_file_and_kind(void) {
+    faqem_asset* asset = NULL;
+    faqem_error error;
+    CHECK(faqem_asset_load("not-there.glb", &asset, &error) == FAQEM_ERROR_INPUT);
+    CHECK(strstr(error.message, "not-there.glb") != NULL);
+    FILE* unknown = fopen("test_c.xyz", "w");
+    CHECK(unknown && fputs("1 2 3", unknown) >= 0 && fclose(unknown) == 0);
+    CHECK(faqem_asset_load("test_c.xyz", &asset, &error) == FAQEM_ERROR_UNSUPPORTED);
+    CHECK(remove("test_c.xyz") == 0);
+    CHECK(faqem_asset_load(NULL, &asset, &error) == FAQEM_ERROR_OPTION);
+    CHECK(asset == NULL);
+
+    /* A name that is longer than the message: its end says so. */
+    char name[4000];
+    memset(name, 'x', sizeof name);
+    name[sizeof name - 1] = '\0';
+    CHECK(faqem_asset_load(name, &asset, &error) != FAQEM_OK);
+    CHECK(strlen(error.message) == sizeof error.message - 1);
+    CHECK(strcmp(error.message + sizeof error.message - 5, " ...") == 0);
+
+    const uint32_t corners[3] = {0, 1, 9};
+    faqem_mesh mesh = flat_grid(1);
+    mesh.triangles = corners;
+    mesh.face_count = 1;
+    CHECK(faqem_asset_create(&mesh, &asset, &error) == FAQEM_ERROR_INPUT);
+    CHECK(strstr(error.message, "9") != NULL);
+}
+
+static void what_the_format_cannot_hold_is_a_warning(void) {
+    const faqem_mesh mesh = flat_grid_of_doubles(2);
+    faqem_asset* asset = NULL;
+    CHECK(faqem_asset_create(&mesh, &asset, NULL) == FAQEM_OK);
+    CHECK(faqem_asset_warning_count(asset) == 0 && faqem_asset_warning(asset, 0) == NULL);
+    CHECK(faqem_asset_save(asset, "test_c.off", FAQEM_OVERWRITE_YES, NULL) == FAQEM_ERROR_UNSUPPORTED);
+    CHECK(faqem_asset_save(asset, file, (faqem_overwrite)5, NULL) == FAQEM_ERROR_OPTION);
+    faqem_asset_destroy(asset);
+
+    FILE* painted = fopen("test_c.obj", "w");
+    CHECK(painted && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", painted) >= 0);
+    CHECK(fclose(painted) == 0);
+    CHECK(faqem_asset_load("test_c.obj", &asset, NULL) == FAQEM_OK);
+    CHECK(faqem_asset_save(asset, "test_c.stl", FAQEM_OVERWRITE_YES, NULL) == FAQEM_OK);
+    CHECK(faqem_asset_warning_count(asset) > 0);
+    CHECK(strstr(faqem_asset_warning(asset, 0), "STL") != NULL);
+    faqem_asset_destroy(asset);
+    CHECK(remove("test_c.obj") == 0 && remove("test_c.stl") == 0);
+}
+
+static void null_is_nothing(void) {
+    faqem_asset_destroy(NULL);
+    CHECK(faqem_asset_part_count(NULL) == 0 && faqem_asset_part_name(NULL, 0) == NULL);
+    CHECK(faqem_asset_vertex_count(NULL, 0) == 0 && faqem_asset_face_count(NULL, 0) == 0);
+    CHECK(faqem_asset_positions(NULL, 0) == NULL && faqem_asset_triangles(NULL, 0) == NULL);
+    CHECK(faqem_asset_warning_count(NULL) == 0 && faqem_asset_report_json(NULL) == NULL);
+    CHECK(faqem_asset_simplify(NULL, NULL, NULL, NULL) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set_bake(NULL, FAQEM_BAKE_NONE) == FAQEM_ERROR_OPTION);
+}
+
+void test_asset(void) {
+    a_model_is_saved_loaded_and_simplified();
+    errors_tell_file_and_kind();
+    what_the_format_cannot_hold_is_a_warning();
+    null_is_nothing();
+}

@@ -1,0 +1,162 @@
+#include <math.h>
+#include <string.h>
+
+#include "check.h"
+
+static double area(const faqem_result* result) {
+    const double* p = faqem_result_positions(result);
+    const uint32_t* t = faqem_result_triangles(result);
+    double sum = 0;
+    for (size_t f = 0; f < faqem_result_face_count(result); ++f, t += 3) {
+        const double *a = p + 3 * t[0], *b = p + 3 * t[1], *c = p + 3 * t[2];
+        sum += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    return sum;
+}
+
+/* A flat square stays one: same outline, same area, same plane, whatever the type of the numbers. */
+static void a_flat_square_stays_one(faqem_mesh mesh) {
+    faqem_options* options = faqem_options_create();
+    CHECK(faqem_options_set_ratio(options, 0.1) == FAQEM_OK);
+    faqem_result* result = NULL;
+    faqem_error error;
+    CHECK(faqem_simplify(&mesh, options, &result, &error) == FAQEM_OK);
+    CHECK(error.status == FAQEM_OK && error.message[0] == '\0');
+    const size_t faces = faqem_result_face_count(result), vertices = faqem_result_vertex_count(result);
+    CHECK(faces > 0 && faces <= 80);
+    CHECK(fabs(area(result) - 400) < 1e-9);
+    for (size_t v = 0; v < vertices; ++v) {
+        CHECK(faqem_result_positions(result)[3 * v + 2] == 0);
+        CHECK(faqem_result_vertex_origin(result)[v] < mesh.vertex_count);
+    }
+    for (size_t f = 0; f < faces; ++f) CHECK(faqem_result_face_origin(result)[f] < mesh.face_count);
+    for (size_t c = 0; c < 3 * faces; ++c) CHECK(faqem_result_triangles(result)[c] < vertices);
+    CHECK(faqem_result_face_groups(result) == NULL);
+
+    faqem_report report;
+    CHECK(faqem_result_report(result, &report) == FAQEM_OK);
+    CHECK(report.faces_in == 800 && report.faces_out == faces && report.vertices_out == vertices);
+    CHECK(report.vertices_in == 441 && report.target_faces == 80);
+    CHECK(report.stop == FAQEM_STOP_REACHED_TARGET && report.within_max_error == 1);
+    CHECK(isnan(report.error_value) && isnan(report.error_bound));
+    CHECK(strstr(faqem_result_report_json(result), "\"stop_reason\": \"reached_target\"") != NULL);
+    faqem_result_destroy(result);
+    faqem_options_destroy(options);
+}
+
+static void groups_locks_and_weights_are_used(void) {
+    faqem_mesh mesh = flat_grid(8);
+    uint32_t groups[128];
+    uint8_t locks[81];
+    float weights[81];
+    for (int f = 0; f < 128; ++f) groups[f] = f < 64 ? 7 : 9;
+    memset(locks, 1, sizeof locks);
+    for (int v = 0; v < 81; ++v) weights[v] = 1;
+    mesh.face_groups = groups;
+    mesh.vertex_locks = locks;
+    mesh.vertex_weights = weights;
+    faqem_options* options = faqem_options_create();
+    faqem_options_set_border(options, FAQEM_BORDER_KEPT);
+    faqem_result* result = NULL;
+    CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
+    CHECK(faqem_result_face_count(result) == 128);  // all are locked
+    for (size_t f = 0; f < 128; ++f)
+        CHECK(faqem_result_face_groups(result)[f] == groups[faqem_result_face_origin(result)[f]]);
+    faqem_report report;
+    CHECK(faqem_result_report(result, &report) == FAQEM_OK);
+    CHECK(report.stop == FAQEM_STOP_NO_LEGAL_COLLAPSE);
+    faqem_result_destroy(result);
+
+    weights[5] = NAN;
+    faqem_error error;
+    result = NULL;
+    CHECK(faqem_simplify(&mesh, options, &result, &error) == FAQEM_ERROR_INPUT);
+    CHECK(result == NULL);
+    faqem_options_destroy(options);
+}
+
+static void the_distance_is_reported(void) {
+    const faqem_mesh mesh = flat_grid(20);
+    faqem_options* options = faqem_options_create();
+    faqem_options_set_max_error(options, 0.001, FAQEM_UNIT_DIAGONAL);
+    faqem_result* result = NULL;
+    CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
+    faqem_report report;
+    CHECK(faqem_result_report(result, &report) == FAQEM_OK);
+    CHECK(report.stop == FAQEM_STOP_REACHED_MAX_ERROR && report.within_max_error == 1);
+    CHECK(report.error_value <= report.error_bound);
+    CHECK(report.error_bound <= 0.001 * sqrt(800) * (1 + 1e-12));
+    faqem_result_destroy(result);
+    faqem_options_destroy(options);
+}
+
+static void bad_arrays_are_named(void) {
+    faqem_result* result = NULL;
+    faqem_error error;
+    faqem_mesh mesh = flat_grid(2);
+
+    faqem_mesh bad = mesh;
+    bad.positions = NULL;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+    CHECK(error.status == FAQEM_ERROR_INPUT && strstr(error.message, "positions") != NULL);
+
+    bad = mesh;
+    bad.double_positions = flat_grid_of_doubles(2).double_positions;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+
+    bad = mesh;
+    bad.triangles = NULL;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+    CHECK(strstr(error.message, "triangles") != NULL);
+
+    bad = mesh;
+    bad.vertex_count = 8;  // the last one is used
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+    CHECK(strstr(error.message, "face 6") != NULL);
+
+    bad = mesh;
+    bad.vertex_count = SIZE_MAX;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+    bad = mesh;
+    bad.face_count = SIZE_MAX / 3 + 1;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+
+    float positions[27];
+    memcpy(positions, mesh.positions, sizeof positions);
+    positions[4] = INFINITY;
+    bad = mesh;
+    bad.positions = positions;
+    CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
+
+    CHECK(faqem_simplify(NULL, NULL, &result, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_simplify(&mesh, NULL, NULL, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_simplify(NULL, NULL, NULL, NULL) == FAQEM_ERROR_OPTION);
+    CHECK(result == NULL);
+}
+
+static void nothing_gives_nothing(void) {
+    faqem_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    faqem_result* result = NULL;
+    CHECK(faqem_simplify(&mesh, NULL, &result, NULL) == FAQEM_OK);
+    CHECK(faqem_result_vertex_count(result) == 0 && faqem_result_face_count(result) == 0);
+    CHECK(faqem_result_positions(result) == NULL && faqem_result_triangles(result) == NULL);
+    faqem_result_destroy(result);
+
+    faqem_result_destroy(NULL);
+    CHECK(faqem_result_vertex_count(NULL) == 0 && faqem_result_face_count(NULL) == 0);
+    CHECK(faqem_result_positions(NULL) == NULL && faqem_result_triangles(NULL) == NULL);
+    CHECK(faqem_result_face_groups(NULL) == NULL && faqem_result_vertex_origin(NULL) == NULL);
+    CHECK(faqem_result_face_origin(NULL) == NULL && faqem_result_report_json(NULL) == NULL);
+    faqem_report report;
+    CHECK(faqem_result_report(NULL, &report) == FAQEM_ERROR_OPTION);
+}
+
+void test_simplify(void) {
+    a_flat_square_stays_one(flat_grid(20));
+    a_flat_square_stays_one(flat_grid_of_doubles(20));
+    groups_locks_and_weights_are_used();
+    the_distance_is_reported();
+    bad_arrays_are_named();
+    nothing_gives_nothing();
+}
