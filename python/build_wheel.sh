@@ -1,0 +1,13 @@
+#!/bin/sh
+# Builds the Python wheel around a built C door, without any index.
+# Usage: build_wheel.sh LIBRARY VERSION OUTDIR, with LIBRARY the file libfaqem_c.so. PYTHON: python3.
+set -eu
+library=$1 version=$2 out=$3
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT INT TERM
+
+cp -R "$here/." "$work/source"
+cp -L "$library" "$work/source/faqem/libfaqem_c.so"
+FAQEM_VERSION=$version "${PYTHON:-python3}" -m pip wheel --quiet --no-index --no-deps --no-build-isolation \
+    --wheel-dir "$out" "$work/source"

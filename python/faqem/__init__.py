@@ -1,0 +1,31 @@
+"""Mesh simplification that keeps the look: numpy arrays and textured models.
+
+    out = faqem.simplify(vertices, triangles, ratio=0.1)
+    light = faqem.bake(faqem.load("statue.glb"), faces=20_000)
+    faqem.save(light, "light.glb")
+
+docs/python.md has every option.
+"""
+
+from ._library import version as _version
+from ._model import Model, Part, bake, load, save
+from ._simplify import Simplified, simplify
+from .errors import Error, InputError, InternalError, OptionError, UnsupportedError, WriteError
+
+__version__ = _version()
+
+__all__ = [
+    "Error",
+    "InputError",
+    "InternalError",
+    "Model",
+    "OptionError",
+    "Part",
+    "Simplified",
+    "UnsupportedError",
+    "WriteError",
+    "bake",
+    "load",
+    "save",
+    "simplify",
+]

@@ -1,0 +1,80 @@
+"""numpy arrays as the meshes of the C door, and back."""
+
+import ctypes
+
+import numpy
+
+from ._library import Mesh
+from .errors import InputError
+
+_no_index = 2**32 - 1
+
+
+def _shaped(array, width, name):
+    if array.ndim != 2 or array.shape[1] != width:
+        raise InputError(f"{name}: the shape is {array.shape}, not (n, {width})")
+    return array
+
+
+def _positions(vertices):
+    array = numpy.asarray(vertices)
+    kind = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
+    if array.size == 0:
+        array = array.reshape(0, 3)
+    return _shaped(numpy.ascontiguousarray(array, dtype=kind), 3, "vertices")
+
+
+def _indices(values, name):
+    array = numpy.asarray(values)
+    if array.size and not numpy.issubdtype(array.dtype, numpy.integer):
+        raise InputError(f"{name}: {array.dtype} are no whole numbers")
+    if array.size and not (array.min() >= 0 and array.max() < _no_index):
+        raise InputError(f"{name}: below 0, or above what 32-bit indices can count")
+    return numpy.ascontiguousarray(array, dtype=numpy.uint32)
+
+
+def _per_element(values, count, kind, name):
+    array = numpy.ascontiguousarray(values, dtype=kind)
+    if array.shape != (count,):
+        raise InputError(f"{name}: the shape is {array.shape}, not ({count},)")
+    return array
+
+
+class MeshArrays:
+    """A mesh for the C door. `mesh` is valid as long as this object is. Arrays of the right type are not copied."""
+
+    def __init__(self, vertices, triangles, groups=None, locks=None, weights=None):
+        positions = _positions(vertices)
+        corners = _indices(triangles, "triangles")
+        corners = _shaped(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
+        self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
+        self._kept = []
+        name = "positions" if positions.dtype == numpy.float32 else "double_positions"
+        self._point(name, positions)
+        self._point("triangles", corners)
+        if groups is not None:
+            groups = _per_element(_indices(groups, "groups"), len(corners), numpy.uint32, "groups")
+            self._point("face_groups", groups)
+        if locks is not None:
+            locks = _per_element(numpy.asarray(locks, dtype=bool), len(positions), numpy.uint8, "locks")
+            self._point("vertex_locks", locks)
+        if weights is not None:
+            self._point("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
+
+    def _point(self, field, array):
+        self._kept.append(array)
+        pointer = dict(Mesh._fields_)[field]
+        setattr(self.mesh, field, array.ctypes.data_as(pointer))
+
+
+def copied(pointer, *shape):
+    """An array of its own with the numbers that a getter points to. Where it points to none: an empty one."""
+    if not pointer:
+        kind = numpy.dtype(pointer._type_)
+        return numpy.empty((0, *shape[1:]), dtype=kind)
+    return numpy.ctypeslib.as_array(pointer, shape=shape).copy()
+
+
+def reference(mesh_arrays):
+    """The argument for a `const faqem_mesh*`."""
+    return ctypes.byref(mesh_arrays.mesh)

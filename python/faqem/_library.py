@@ -1,0 +1,119 @@
+"""The functions of the C door (faqem/faqem.h, faqem/faqem_asset.h), and its errors as exceptions."""
+
+import ctypes
+import pathlib
+from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+
+from . import errors
+
+Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_int, c_double)
+
+
+class Mesh(ctypes.Structure):
+    """faqem_mesh."""
+
+    _fields_ = [
+        ("positions", POINTER(c_float)),
+        ("double_positions", POINTER(c_double)),
+        ("vertex_count", c_size_t),
+        ("triangles", POINTER(c_uint32)),
+        ("face_count", c_size_t),
+        ("face_groups", POINTER(c_uint32)),
+        ("vertex_locks", POINTER(c_uint8)),
+        ("vertex_weights", POINTER(c_float)),
+    ]
+
+
+class _Error(ctypes.Structure):
+    _fields_ = [("status", c_int), ("message", c_char * 2044)]
+
+
+_object, _set = c_void_p, c_int
+_declarations = {
+    "faqem_version": (c_char_p, []),
+    "faqem_options_create": (_object, []),
+    "faqem_options_destroy": (None, [_object]),
+    "faqem_options_set_ratio": (_set, [_object, c_double]),
+    "faqem_options_set_faces": (_set, [_object, c_uint64]),
+    "faqem_options_set_max_error": (_set, [_object, c_double, c_int]),
+    "faqem_options_set_preset": (_set, [_object, c_int]),
+    "faqem_options_set_link": (_set, [_object, c_int]),
+    "faqem_options_set_border": (_set, [_object, c_int]),
+    "faqem_options_set_group_border": (_set, [_object, c_int]),
+    "faqem_options_set_weld_distance": (_set, [_object, c_double]),
+    "faqem_options_set_virtual_edges": (_set, [_object, c_double]),
+    "faqem_options_set_prune": (_set, [_object, c_double, c_int]),
+    "faqem_options_set_threads": (_set, [_object, c_uint32]),
+    "faqem_options_set_progress": (_set, [_object, Progress, c_void_p]),
+    "faqem_options_set_bake": (_set, [_object, c_int]),
+    "faqem_options_set_texture_size": (_set, [_object, c_uint32]),
+    "faqem_options_set_normal_map": (_set, [_object, c_int]),
+    "faqem_options_set_normals": (_set, [_object, c_int]),
+    "faqem_options_set_image_format": (_set, [_object, c_int]),
+    "faqem_simplify": (c_int, [POINTER(Mesh), _object, POINTER(_object), POINTER(_Error)]),
+    "faqem_result_destroy": (None, [_object]),
+    "faqem_result_vertex_count": (c_size_t, [_object]),
+    "faqem_result_face_count": (c_size_t, [_object]),
+    "faqem_result_positions": (POINTER(c_double), [_object]),
+    "faqem_result_triangles": (POINTER(c_uint32), [_object]),
+    "faqem_result_face_groups": (POINTER(c_uint32), [_object]),
+    "faqem_result_vertex_origin": (POINTER(c_uint32), [_object]),
+    "faqem_result_face_origin": (POINTER(c_uint32), [_object]),
+    "faqem_result_report_json": (c_char_p, [_object]),
+    "faqem_asset_load": (c_int, [c_char_p, POINTER(_object), POINTER(_Error)]),
+    "faqem_asset_create": (c_int, [POINTER(Mesh), POINTER(_object), POINTER(_Error)]),
+    "faqem_asset_simplify": (c_int, [_object, _object, POINTER(_object), POINTER(_Error)]),
+    "faqem_asset_save": (c_int, [_object, c_char_p, c_int, POINTER(_Error)]),
+    "faqem_asset_destroy": (None, [_object]),
+    "faqem_asset_part_count": (c_size_t, [_object]),
+    "faqem_asset_part_name": (c_char_p, [_object, c_size_t]),
+    "faqem_asset_vertex_count": (c_size_t, [_object, c_size_t]),
+    "faqem_asset_face_count": (c_size_t, [_object, c_size_t]),
+    "faqem_asset_positions": (POINTER(c_double), [_object, c_size_t]),
+    "faqem_asset_triangles": (POINTER(c_uint32), [_object, c_size_t]),
+    "faqem_asset_warning_count": (c_size_t, [_object]),
+    "faqem_asset_warning": (c_char_p, [_object, c_size_t]),
+    "faqem_asset_report_json": (c_char_p, [_object]),
+}
+
+
+def _open():
+    # CDLL releases the interpreter lock while a function runs.
+    opened = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libfaqem_c.so")))
+    for name, (result, arguments) in _declarations.items():
+        function = getattr(opened, name)
+        function.restype, function.argtypes = result, arguments
+    return opened
+
+
+library = _open()
+
+_exceptions = {
+    1: errors.InternalError,
+    2: errors.OptionError,
+    3: errors.InputError,
+    4: errors.UnsupportedError,
+    7: errors.WriteError,
+    8: errors.Error,  # cancelled: the progress callback raised, and what it raised goes on instead
+    11: MemoryError,
+}
+
+
+def version():
+    """Version of the library, "MAJOR.MINOR.PATCH"."""
+    return library.faqem_version().decode()
+
+
+def call(function, *arguments):
+    """Calls a function whose last argument is the error. Raises what it says."""
+    error = _Error()
+    status = function(*arguments, ctypes.byref(error))
+    if status != 0:
+        raise _exceptions.get(status, errors.InternalError)(error.message.decode(errors="replace"))
+
+
+def create(function, *arguments):
+    """Calls a function whose last arguments are the object that it makes and the error. Returns the object."""
+    made = c_void_p()
+    call(function, *arguments, ctypes.byref(made))
+    return made

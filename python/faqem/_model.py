@@ -1,0 +1,98 @@
+"""Textured models: load, bake, save."""
+
+import dataclasses
+import json
+import os
+import weakref
+
+import numpy
+
+from ._arrays import MeshArrays, copied, reference
+from ._library import call, create, library
+from ._options import Options
+from .errors import InputError
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """A copy of one mesh of a model, in its own coordinates."""
+
+    name: str
+    vertices: numpy.ndarray  #: (v, 3) float64; vertices are split at seams, as in the file
+    triangles: numpy.ndarray  #: (f, 3) uint32
+
+
+class Model:
+    """A scene of parts, materials and images. Comes from load(), bake() or Model.from_arrays()."""
+
+    def __init__(self, made):
+        self._object = made
+        weakref.finalize(self, library.faqem_asset_destroy, made)
+
+    @classmethod
+    def from_arrays(cls, vertices, triangles):
+        """One part without materials; the arrays are copied."""
+        arrays = MeshArrays(vertices, triangles)
+        return cls(create(library.faqem_asset_create, reference(arrays)))
+
+    @property
+    def parts(self):
+        """A list of Part, copied anew each time."""
+        count = library.faqem_asset_part_count(self._object)
+        return [self._part(part) for part in range(count)]
+
+    @property
+    def warnings(self):
+        """What was repaired, left out, or could not be saved."""
+        count = library.faqem_asset_warning_count(self._object)
+        return [library.faqem_asset_warning(self._object, i).decode(errors="replace") for i in range(count)]
+
+    @property
+    def report(self):
+        """What bake() did, with the keys of docs/cli.md; None for other models."""
+        text = library.faqem_asset_report_json(self._object)
+        return None if text is None else json.loads(text)
+
+    def _part(self, part):
+        v = library.faqem_asset_vertex_count(self._object, part)
+        f = library.faqem_asset_face_count(self._object, part)
+        return Part(
+            name=library.faqem_asset_part_name(self._object, part).decode(errors="replace"),
+            vertices=copied(library.faqem_asset_positions(self._object, part), v, 3),
+            triangles=copied(library.faqem_asset_triangles(self._object, part), f, 3),
+        )
+
+
+def _path(path):
+    encoded = os.fsencode(path)
+    if b"\0" in encoded:
+        raise InputError(f"{path!r}: a zero byte in a file name")
+    return encoded
+
+
+def load(path):
+    """Loads .glb, .gltf, .obj, .ply, .stl or .off. Raises InputError, UnsupportedError, MemoryError."""
+    return Model(create(library.faqem_asset_load, _path(path)))
+
+
+def bake(model, /, **options):
+    """Simplifies a model and bakes its look anew; the model is left as it is.
+
+    options  those of simplify(), and bake, texture_size, normal_map, normals, image_format; see docs/python.md
+
+    Raises OptionError, InputError, UnsupportedError, MemoryError, and what `progress` raises.
+    """
+    chosen = Options(**options)
+    return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._object, chosen.object)))
+
+
+def save(model, path, *, overwrite=False):
+    """Saves as .glb, .gltf, .obj, .ply or .stl, by name; the file is complete or not there at all.
+
+    model  a Model, or a pair of arrays (vertices, triangles)
+
+    What the format cannot hold is added to model.warnings. Raises WriteError, UnsupportedError, InputError.
+    """
+    if not isinstance(model, Model):
+        model = Model.from_arrays(*model)
+    call(library.faqem_asset_save, model._object, _path(path), 1 if overwrite else 0)

@@ -1,0 +1,109 @@
+"""Keyword arguments as the options of the C door."""
+
+import weakref
+
+from ._library import Progress, library
+from .errors import OptionError
+
+_presets = ["qem", "paper", "stmw", "fast", "balanced", "best"]
+_links = ["as_preset", "off", "by_size", "on", "strict"]
+_borders = ["free", "kept"]
+_bakes = ["automatic", "atlas", "per_triangle", "vertex", "keep", "none"]
+_normal_maps = ["automatic", "on", "off"]
+_normals = ["transfer", "smooth", "flat", "none"]
+_image_formats = ["png", "jpeg", "source"]
+_phases = ["load", "weld", "simplify", "map", "bake", "save"]
+
+
+def _numbered(names, name, option):
+    if name not in names:
+        raise OptionError(f"{option}: unknown value {name!r} (known: {', '.join(names)})")
+    return names.index(name)
+
+
+def _length(value, option):
+    """0.01 in model units, or "0.1%" of the diagonal. Returns number and unit."""
+    try:
+        if isinstance(value, str) and value.endswith("%"):
+            return float(value[:-1]) / 100, 1
+        return float(value), 0
+    except ValueError:
+        raise OptionError(f"{option}: {value!r} is no length") from None
+
+
+def _whole(value, option, bits):
+    if not (isinstance(value, int) or hasattr(value, "__index__")) or not 0 <= int(value) < 2**bits:
+        raise OptionError(f"{option}: {value!r} is no whole number from 0 to 2^{bits} - 1")
+    return int(value)
+
+
+class Options:
+    """The object of the C door. Unset options are None."""
+
+    def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, border=None,
+                 group_borders=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
+                 progress=None, bake=None, texture_size=None, normal_map=None, normals=None, image_format=None):
+        if ratio is not None and faces is not None:
+            raise OptionError("ratio and faces: give one of them")
+        self.object = library.faqem_options_create()
+        if not self.object:
+            raise MemoryError
+        weakref.finalize(self, library.faqem_options_destroy, self.object)
+        self._raised = None
+        if ratio is not None:
+            self._set("ratio", float(ratio))
+        if faces is not None:
+            self._set("faces", _whole(faces, "faces", 53))
+        if max_error is not None:
+            self._set("max_error", *_length(max_error, "max_error"))
+        if weld_distance is not None:
+            self._set("weld_distance", float(weld_distance))
+        if virtual_edges is not None:
+            self._set("virtual_edges", float(virtual_edges))
+        if prune is not None:
+            self._set("prune", *_length(prune, "prune"))
+        if threads is not None:
+            self._set("threads", _whole(threads, "threads", 32))
+        if texture_size is not None:
+            self._set("texture_size", _whole(texture_size, "texture_size", 32))
+        for option, setter, name, names in [
+            ("preset", "preset", preset, _presets),
+            ("link", "link", link, _links),
+            ("border", "border", border, _borders),
+            ("group_borders", "group_border", group_borders, _borders),
+            ("bake", "bake", bake, _bakes),
+            ("normal_map", "normal_map", normal_map, _normal_maps),
+            ("normals", "normals", normals, _normals),
+            ("image_format", "image_format", image_format, _image_formats),
+        ]:
+            if name is not None:
+                self._set(setter, _numbered(names, name, option))
+        self._follow(progress)
+
+    def _set(self, name, *values):
+        if getattr(library, "faqem_options_set_" + name)(self.object, *values) != 0:
+            raise OptionError(f"{name}: {values} is refused")
+
+    def _follow(self, progress):
+        """An exception cannot pass through C: it cancels, and is raised behind the call."""
+
+        def called(_user, phase, fraction):
+            try:
+                if progress is not None:
+                    progress(_phases[phase], fraction)
+            except BaseException as raised:  # Ctrl-C too
+                self._raised = raised
+                return 1
+            return 0
+
+        self._callback = Progress(called)  # C has a pointer to it only
+        self._set("progress", self._callback, None)
+
+    def run(self, work):
+        """Calls `work`, and raises what the callback raised meanwhile."""
+        try:
+            return work()
+        finally:
+            if self._raised is not None:
+                raised, self._raised = self._raised, None
+                raise raised

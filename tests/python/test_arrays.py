@@ -1,0 +1,134 @@
+"""faqem.simplify: numpy arrays in and out."""
+
+import os
+import unittest
+
+import faqem
+import numpy
+from numpy.testing import assert_array_equal
+
+
+def flat_grid(n, dtype=numpy.float64):
+    """(n + 1)^2 vertices and 2 n^2 triangles over [0, n]^2."""
+    x, y = numpy.meshgrid(numpy.arange(n + 1), numpy.arange(n + 1), indexing="ij")
+    vertices = numpy.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1).astype(dtype)
+    a = (numpy.arange(n)[:, None] * (n + 1) + numpy.arange(n)).ravel()
+    b = a + n + 1
+    triangles = numpy.concatenate([numpy.stack([a, b, b + 1], 1), numpy.stack([a, b + 1, a + 1], 1)])
+    return vertices, triangles.astype(numpy.uint32)
+
+
+def area(vertices, triangles):
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return 0.5 * numpy.cross(b - a, c - a)[:, 2].sum()
+
+
+class Arrays(unittest.TestCase):
+    def test_the_installed_module_is_tested(self):
+        self.assertTrue(faqem.__file__.startswith(os.environ["FAQEM_ENVIRONMENT"]))
+        self.assertEqual(faqem.__version__, os.environ["FAQEM_EXPECTED_VERSION"])
+
+    def test_a_flat_square_stays_one_whatever_the_types(self):
+        expected = None
+        for kind in (numpy.float32, numpy.float64, numpy.int32):
+            for index in (numpy.uint32, numpy.int64, numpy.uint16):
+                vertices, triangles = flat_grid(20, kind)
+                out = faqem.simplify(vertices, triangles.astype(index), ratio=0.1)
+                self.assertLessEqual(len(out.triangles), 80)
+                self.assertAlmostEqual(area(out.vertices, out.triangles), 400)
+                self.assertEqual(out.report["stop_reason"], "reached_target")
+                self.assertEqual(out.report["faces_in"], 800)
+                self.assertIsNone(out.groups)
+                expected = out if expected is None else expected
+                assert_array_equal(out.vertices, expected.vertices)
+                assert_array_equal(out.triangles, expected.triangles)
+
+    def test_views_and_lists_are_taken_too(self):
+        vertices, triangles = flat_grid(10)
+        out = faqem.simplify(vertices, triangles, faces=40)
+        for v, t in [
+            (numpy.repeat(vertices, 2, axis=0)[::2], numpy.asfortranarray(triangles)),
+            (vertices.tolist(), triangles.tolist()),
+        ]:
+            again = faqem.simplify(v, t, faces=40)
+            assert_array_equal(again.vertices, out.vertices)
+            assert_array_equal(again.triangles, out.triangles)
+
+    def test_origins_lead_back(self):
+        vertices, triangles = flat_grid(8)
+        groups = numpy.arange(len(triangles)) % 2
+        locks = numpy.zeros(len(vertices), dtype=bool)
+        locks[40] = True  # the middle
+        weights = numpy.ones(len(vertices))
+        out = faqem.simplify(vertices, triangles, groups=groups, locks=locks, weights=weights, faces=60)
+        assert_array_equal(out.groups, groups[out.face_origin])
+        self.assertIn(40, out.vertex_origin)
+        kept = out.vertices[list(out.vertex_origin).index(40)]
+        assert_array_equal(kept, vertices[40])
+
+    def test_a_distance_can_be_asked_for(self):
+        vertices, triangles = flat_grid(12)
+        out = faqem.simplify(vertices, triangles, max_error="0.1%")
+        self.assertTrue(out.report["max_error"]["within"])
+        self.assertAlmostEqual(out.report["max_error"]["allowed"], 0.001 * numpy.sqrt(288))
+        out = faqem.simplify(vertices, triangles, max_error=0.25)
+        self.assertEqual(out.report["max_error"]["allowed"], 0.25)
+
+    def test_every_option_is_taken(self):
+        vertices, triangles = flat_grid(10)
+        for preset in ("qem", "paper", "stmw", "fast", "balanced", "best"):
+            out = faqem.simplify(vertices, triangles, preset=preset, threads=1)
+            self.assertEqual(out.report["preset"], preset)
+        out = faqem.simplify(vertices, triangles, link="strict", border="kept", group_borders="kept",
+                             weld_distance=1e-9, virtual_edges=0.01, prune="1%")
+        self.assertEqual(len(out.triangles), 38)  # the border's 40 corners and nothing else
+
+    def test_nothing_gives_nothing(self):
+        for empty in (numpy.zeros((0, 3)), []):
+            out = faqem.simplify(empty, empty)
+            self.assertEqual(out.vertices.shape, (0, 3))
+            self.assertEqual(out.triangles.shape, (0, 3))
+
+    def test_bad_options_are_named(self):
+        vertices, triangles = flat_grid(4)
+        for option, value in [("ratio", 0), ("ratio", float("nan")), ("faces", 0), ("faces", -1), ("faces", 2.5),
+                              ("max_error", "1 percent"), ("max_error", -1), ("preset", "bestest"),
+                              ("link", "maybe"), ("border", 1), ("threads", 2**32), ("prune", "x%")]:
+            with self.subTest(option=option, value=value):
+                with self.assertRaisesRegex(faqem.OptionError, option.replace("faces", "faces|face count")):
+                    faqem.simplify(vertices, triangles, **{option: value})
+        with self.assertRaises(faqem.OptionError):
+            faqem.simplify(vertices, triangles, ratio=0.5, faces=5)
+        with self.assertRaises(TypeError):
+            faqem.simplify(vertices, triangles, frobnicate=1)
+
+    def test_bad_arrays_are_named(self):
+        vertices, triangles = flat_grid(4)
+        nan = vertices.copy()
+        nan[3, 1] = numpy.nan
+        beyond = triangles.copy()
+        beyond[2, 2] = 25
+        for v, t, name in [(vertices[:, :2], triangles, "vertices"), (nan, triangles, "vertex 3"),
+                           (vertices, triangles[:, :2], "triangles"), (vertices, triangles * 1.0, "triangles"),
+                           (vertices, triangles.astype(int) - 1, "triangles"), (vertices, beyond, "face 2"),
+                           (vertices, triangles.astype(int) + 2**32, "triangles")]:
+            with self.subTest(name=name), self.assertRaisesRegex(faqem.InputError, name):
+                faqem.simplify(v, t)
+        for option in ("groups", "locks", "weights"):
+            with self.subTest(option=option), self.assertRaisesRegex(faqem.InputError, option):
+                faqem.simplify(vertices, triangles, **{option: [1, 1]})
+
+    def test_progress_is_told_and_what_it_raises_comes_out(self):
+        vertices, triangles = flat_grid(20)
+        told = []
+        faqem.simplify(vertices, triangles, progress=lambda phase, fraction: told.append((phase, fraction)))
+        self.assertTrue(told)
+        for phase, fraction in told:
+            self.assertIn(phase, ("weld", "simplify"))
+            self.assertTrue(0 <= fraction <= 1)
+
+        def stop(_phase, _fraction):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            faqem.simplify(vertices, triangles, progress=stop)

@@ -1,0 +1,76 @@
+"""faqem.load, bake and save: models in files."""
+
+import pathlib
+import tempfile
+import unittest
+
+import faqem
+from numpy.testing import assert_array_equal
+from test_arrays import flat_grid
+
+
+class Models(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def painted(self):
+        """A square in four colours, as OBJ with vertex colours."""
+        vertices, triangles = flat_grid(12)
+        lines = [f"v {x} {y} {z} {x < 6:d} {y < 6:d} 0.5" for x, y, z in vertices]
+        lines += [f"f {a} {b} {c}" for a, b, c in triangles + 1]
+        file = self.folder / "painted.obj"
+        file.write_text("\n".join(lines) + "\n")
+        return file
+
+    def test_arrays_come_back_from_a_file(self):
+        vertices, triangles = flat_grid(6)
+        for name in ("a.glb", "a.ply", "ä b.obj"):
+            faqem.save((vertices, triangles), self.folder / name)
+            (part,) = faqem.load(str(self.folder / name)).parts
+            assert_array_equal(part.vertices[part.triangles], vertices[triangles])  # OBJ: in the order of use
+
+    def test_a_model_is_baked(self):
+        source = faqem.load(self.painted())
+        self.assertIsNone(source.report)
+        light = faqem.bake(source, faces=50, texture_size=64, bake="per_triangle", normals="flat", normal_map="off",
+                           image_format="png")
+        self.assertEqual(len(source.parts[0].triangles), 288)
+        self.assertLessEqual(len(light.parts[0].triangles), 50)
+        self.assertEqual(light.report["faces_out"], len(light.parts[0].triangles))
+        self.assertEqual(light.report["pages"][0]["width"], 64)
+        faqem.save(light, self.folder / "light.glb")
+        self.assertEqual(len(faqem.load(self.folder / "light.glb").parts), 1)
+
+    def test_files_are_kept_unless_told_otherwise(self):
+        model = faqem.Model.from_arrays(*flat_grid(2))
+        file = self.folder / "kept.glb"
+        file.write_text("precious")
+        with self.assertRaisesRegex(faqem.WriteError, "kept.glb"):
+            faqem.save(model, file)
+        self.assertEqual(file.read_text(), "precious")
+        faqem.save(model, file, overwrite=True)
+        self.assertEqual(file.read_bytes()[:4], b"glTF")
+
+    def test_what_a_format_cannot_hold_is_a_warning(self):
+        model = faqem.load(self.painted())
+        self.assertEqual(model.warnings, [])
+        faqem.save(model, self.folder / "grey.stl")
+        self.assertTrue(any("STL" in warning for warning in model.warnings))
+
+    def test_errors_have_their_types(self):
+        with self.assertRaisesRegex(faqem.InputError, "missing.glb"):
+            faqem.load(self.folder / "missing.glb")
+        (self.folder / "a.xyz").write_text("1 2 3")
+        with self.assertRaises(faqem.UnsupportedError):
+            faqem.load(self.folder / "a.xyz")
+        with self.assertRaises(faqem.InputError):
+            faqem.load("a\0b.glb")
+        model = faqem.Model.from_arrays(*flat_grid(2))
+        with self.assertRaises(faqem.UnsupportedError):
+            faqem.save(model, self.folder / "a.off")
+        with self.assertRaisesRegex(faqem.OptionError, "texture_size"):
+            faqem.bake(model, texture_size=100)
+        for kind in (faqem.OptionError, faqem.InputError, faqem.WriteError, faqem.InternalError):
+            self.assertTrue(issubclass(kind, faqem.Error))
