@@ -13,4 +13,5 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/faqem-config.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/faqem-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/faqem-config.cmake ${PROJECT_BINARY_DIR}/faqem-config-version.cmake
               ${PROJECT_SOURCE_DIR}/cmake/faqem-dependencies.cmake DESTINATION ${faqem_config_dir})
+include(faqem-pkg-config)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

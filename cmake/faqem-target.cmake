@@ -16,7 +16,7 @@ function(faqem_export target name)
         endif()
         # Installed libraries find each other wherever the tree is moved to.
         set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION} SOVERSION ${abi}
-                                                   INSTALL_RPATH "\$ORIGIN")
+                                                   INSTALL_RPATH "\$ORIGIN" DEFINE_SYMBOL "")
     endif()
     target_compile_features(${target} ${scope} cxx_std_20)
     target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
