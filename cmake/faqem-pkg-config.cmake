@@ -6,7 +6,7 @@ function(faqem_install_pc faqem_pc_name faqem_pc_description faqem_pc_libs)
     file(RELATIVE_PATH faqem_pc_to_prefix /prefix/${faqem_pc_dir} /prefix)
     string(REGEX REPLACE "/$" "" faqem_pc_to_prefix ${faqem_pc_to_prefix})
     configure_file(${PROJECT_SOURCE_DIR}/cmake/faqem.pc.in ${PROJECT_BINARY_DIR}/${faqem_pc_name}.pc @ONLY)
-    install(FILES ${PROJECT_BINARY_DIR}/${faqem_pc_name}.pc DESTINATION ${faqem_pc_dir})
+    install(FILES ${PROJECT_BINARY_DIR}/${faqem_pc_name}.pc DESTINATION ${faqem_pc_dir} COMPONENT development)
 endfunction()
 
 faqem_install_pc(faqem "${PROJECT_DESCRIPTION}" "-lfaqem -pthread")

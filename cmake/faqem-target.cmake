@@ -1,5 +1,11 @@
 # What all faqem targets share.
 
+# In the names of shared libraries. Before 1.0 a minor version may break what was (CHANGELOG.md).
+set(faqem_abi ${PROJECT_VERSION_MAJOR})
+if(faqem_abi EQUAL 0)
+    set(faqem_abi 0.${PROJECT_VERSION_MINOR})
+endif()
+
 # faqem_export(TARGET NAME): the target is faqem::NAME, here and in the installed package.
 function(faqem_export target name)
     add_library(faqem::${name} ALIAS ${target})
@@ -9,13 +15,8 @@ function(faqem_export target name)
         set(scope INTERFACE)
     else()
         set(scope PUBLIC)
-        # Before 1.0 a minor version may break what was (CHANGELOG.md).
-        set(abi ${PROJECT_VERSION_MAJOR})
-        if(abi EQUAL 0)
-            set(abi 0.${PROJECT_VERSION_MINOR})
-        endif()
         # Installed libraries find each other wherever the tree is moved to.
-        set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION} SOVERSION ${abi}
+        set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION} SOVERSION ${faqem_abi}
                                                    INSTALL_RPATH "\$ORIGIN" DEFINE_SYMBOL "")
     endif()
     target_compile_features(${target} ${scope} cxx_std_20)
