@@ -115,14 +115,17 @@ size_t faqem_asset_face_count(const faqem_asset* asset, size_t part) {
 }
 
 const double* faqem_asset_positions(const faqem_asset* asset, size_t part) {
-    return faqem_asset_vertex_count(asset, part) > 0 ? part_of(asset, part)->positions.front().data() : nullptr;
+    return faqem_asset_vertex_count(asset, part) > 0 ? part_of(asset, part)->positions.front().data()
+                                                     : nullptr;
 }
 
 const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
     return faqem_asset_face_count(asset, part) > 0 ? part_of(asset, part)->triangles.front().data() : nullptr;
 }
 
-size_t faqem_asset_warning_count(const faqem_asset* asset) { return asset ? asset->asset.warnings.size() : 0; }
+size_t faqem_asset_warning_count(const faqem_asset* asset) {
+    return asset ? asset->asset.warnings.size() : 0;
+}
 
 const char* faqem_asset_warning(const faqem_asset* asset, size_t index) {
     return index < faqem_asset_warning_count(asset) ? asset->asset.warnings[index].c_str() : nullptr;

@@ -10,8 +10,9 @@ namespace {
 
 void require_array(const void* array, std::size_t count, const char* name) {
     if (count >= no_index) throw InputError("", name, "more than 32-bit indices can count");
-    if (count > 0 && !array) throw InputError("", name, "the array is null, but " + std::to_string(count) +
-                                                            " elements are announced");
+    if (count > 0 && !array)
+        throw InputError("", name,
+                         "the array is null, but " + std::to_string(count) + " elements are announced");
 }
 
 PositionView positions_of(const faqem_mesh& mesh) {

@@ -17,9 +17,8 @@ static_assert(same(FAQEM_PRESET_QEM, Preset::qem) && same(FAQEM_PRESET_PAPER, Pr
 static_assert(same(FAQEM_UNIT_MODEL, Length::Unit::model) &&
               same(FAQEM_UNIT_DIAGONAL, Length::Unit::diagonal));
 static_assert(same(FAQEM_LINK_AS_PRESET, LinkCondition::as_preset) &&
-              same(FAQEM_LINK_OFF, LinkCondition::off) &&
-              same(FAQEM_LINK_BY_SIZE, LinkCondition::by_size) && same(FAQEM_LINK_ON, LinkCondition::on) &&
-              same(FAQEM_LINK_STRICT, LinkCondition::strict));
+              same(FAQEM_LINK_OFF, LinkCondition::off) && same(FAQEM_LINK_BY_SIZE, LinkCondition::by_size) &&
+              same(FAQEM_LINK_ON, LinkCondition::on) && same(FAQEM_LINK_STRICT, LinkCondition::strict));
 static_assert(same(FAQEM_BORDER_FREE, Border::free) && same(FAQEM_BORDER_KEPT, Border::locked) &&
               same(FAQEM_BORDER_FREE, GroupBorders::free) && same(FAQEM_BORDER_KEPT, GroupBorders::kept));
 static_assert(same(FAQEM_PHASE_LOAD, Phase::load) && same(FAQEM_PHASE_WELD, Phase::weld) &&
@@ -48,25 +47,28 @@ faqem_status faqem_options_set_faces(faqem_options* options, uint64_t count) {
 }
 
 faqem_status faqem_options_set_max_error(faqem_options* options, double distance, faqem_unit unit) {
-    return set_length(options, distance, unit, [](Options& o) -> auto& { return o.max_error; });
+    return set_length(
+        options, distance, unit, [](Options & o) -> auto& { return o.max_error; });
 }
 
 faqem_status faqem_options_set_preset(faqem_options* options, faqem_preset preset) {
-    return set_enum(options, preset, FAQEM_PRESET_BEST, [](Options& o) -> auto& { return o.preset; });
+    return set_enum(
+        options, preset, FAQEM_PRESET_BEST, [](Options & o) -> auto& { return o.preset; });
 }
 
 faqem_status faqem_options_set_link(faqem_options* options, faqem_link link) {
-    return set_enum(options, link, FAQEM_LINK_STRICT, [](Options& o) -> auto& { return o.topology.link; });
+    return set_enum(
+        options, link, FAQEM_LINK_STRICT, [](Options & o) -> auto& { return o.topology.link; });
 }
 
 faqem_status faqem_options_set_border(faqem_options* options, faqem_border border) {
-    return set_enum(options, border, FAQEM_BORDER_KEPT,
-                    [](Options& o) -> auto& { return o.topology.border; });
+    return set_enum(
+        options, border, FAQEM_BORDER_KEPT, [](Options & o) -> auto& { return o.topology.border; });
 }
 
 faqem_status faqem_options_set_group_border(faqem_options* options, faqem_border border) {
-    return set_enum(options, border, FAQEM_BORDER_KEPT,
-                    [](Options& o) -> auto& { return o.topology.group_borders; });
+    return set_enum(
+        options, border, FAQEM_BORDER_KEPT, [](Options & o) -> auto& { return o.topology.group_borders; });
 }
 
 faqem_status faqem_options_set_weld_distance(faqem_options* options, double distance) {
@@ -81,7 +83,8 @@ faqem_status faqem_options_set_virtual_edges(faqem_options* options, double shar
 }
 
 faqem_status faqem_options_set_prune(faqem_options* options, double size, faqem_unit unit) {
-    return set_length(options, size, unit, [](Options& o) -> auto& { return o.topology.prune; });
+    return set_length(
+        options, size, unit, [](Options & o) -> auto& { return o.topology.prune; });
 }
 
 faqem_status faqem_options_set_threads(faqem_options* options, uint32_t threads) {

@@ -1,13 +1,15 @@
 // The faqem command: errors on stderr, data on stdout.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 
 #include "faqem/error.hpp"
-#include "faqem/version.hpp"
-#include "tool/commands.hpp"
+#include "tool/command_line.hpp"
+#include "tool/command_tree.hpp"
 #include "tool/exit_code.hpp"
+#include "tool/suggestion.hpp"
 
 namespace faqem::tool {
 
@@ -24,25 +26,16 @@ int run(const Action& action) try {
 }
 
 int parse_and_run(int argc, char** argv) {
-    CLI::App app("Simplifies textured triangle meshes.", "faqem");
-    app.set_version_flag("--version", "faqem " + std::string(version()));
-    app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
-        "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
-        "9 not all files of a batch are done, 10 --max-bytes missed, 11 not enough memory.");
+    CLI::App app;
     Action action;
-    add_simplify_command(app, action);
-    add_lod_command(app, action);
-    add_cut_command(app, action);
-    add_batch_command(app, action);
-    add_info_command(app, action);
-    add_compare_command(app, action);
-    add_render_command(app, action);
+    build_command_line(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_ok : exit_usage;
+        if (app.exit(error) == 0) return exit_ok;
+        const std::string meant = suggestion(command_tree(app), {argv + std::min(argc, 1), argv + argc});
+        if (!meant.empty()) std::cerr << "Did you mean " << meant << "?\n";
+        return exit_usage;
     }
     return run(action);
 }

@@ -8,7 +8,7 @@ using namespace tool_test;
 TEST_CASE("help and version go to stdout and are no errors") {
     const Folder folder;
     for (const char* arguments : {"--help", "--version", "simplify --help", "batch --help", "info --help",
-                                  "compare --help", "render --help"}) {
+                                  "compare --help", "render --help", "man", "completion bash"}) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.code == 0);
         CHECK(!outcome.out.empty());
@@ -154,6 +154,21 @@ TEST_CASE("what cannot be written is found out before the work") {
     CHECK(!fs::exists(folder / "out.glb"));
     // The output is looked at first: the input is not even opened.
     CHECK(run(folder, "simplify missing.glb nowhere/out.glb").code == 7);
+}
+
+TEST_CASE("no colours are written, not even on a terminal") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
+        const std::string command = "cd '" + folder.path().string() + "' && " + environment +
+                                    " script -qec \"'" FAQEM_TOOL "' simplify in.glb out.glb --force --bake "
+                                    "none\" seen >/dev/null </dev/null";
+        REQUIRE(std::system(command.c_str()) == 0);
+        const std::string seen = read(folder / "seen");
+        CHECK(seen.find("load [") != std::string::npos);  // the progress bar
+        for (std::size_t at = seen.find("\x1b["); at != std::string::npos; at = seen.find("\x1b[", at + 1))
+            CHECK(seen.compare(at, 3, "\x1b[K") == 0);  // wipes a line
+    }
 }
 
 TEST_CASE("a full standard output is an error") {
