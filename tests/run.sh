@@ -1,9 +1,10 @@
 #!/bin/sh
-# Builds faqem and runs every test. Usage: tests/run.sh [PRESET], a configure preset of CMakePresets.json;
-# default: release. Needs Debian 12 and nothing else: packages are installed first.
+# Builds faqem and runs every test. Usage: tests/run.sh [PRESET [CTEST-OPTION...]], a configure preset of
+# CMakePresets.json; default: release. Needs Debian 12 and nothing else: packages are installed first.
 set -eu
 cd "$(dirname "$0")/.."
 preset=${1:-release}
+[ $# -eq 0 ] || shift
 
 echo "== packages"
 case $preset in
@@ -15,4 +16,4 @@ cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start turns them of
 echo "== build"
 cmake --build --preset "$preset"
 echo "== test"
-ctest --preset "$preset"
+ctest --preset "$preset" "$@"
