@@ -22,7 +22,7 @@ for deb in "$work"/packages/*.deb; do
     fi
     dpkg-deb --extract "$deb" "$work/root"
 done
-dpkg-deb --field "$work"/packages/faqem_*.deb Depends | grep -q libopenimageio
+dpkg-deb --field "$work"/packages/libfaqem0*.deb Depends | grep -q libopenimageio
 dpkg-deb --field "$work"/packages/libfaqem-dev_*.deb Depends | grep -q libfaqem0
 
 # pkg-config first, the command on the way: nothing of the build is left but the compiler.
