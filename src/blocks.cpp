@@ -194,13 +194,26 @@ private:
     std::atomic<bool> is_cancelled_{false};
 };
 
+/// Of each original vertex: nonzero is looked after.
+std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
+    const bool all = tracking.watched == Watched::borders_and_surface;
+    std::vector<std::uint8_t> watched(tracking.into.size(), all);
+    for (const auto& edge : tracking.original.open_edges()) {
+        for (const Index v : edge) watched[v] = 1;
+    }
+    for (Index v = 0; v < watched.size(); ++v) watched[v] &= tracking.into[v] != no_index;
+    return watched;
+}
+
 /// Which original vertices have gone into those of each block.
 struct Lineages {
     Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
         : begin(blocks + 1, 0), into(tracking ? tracking->into : std::span<const Index>()) {
+        if (!tracking) return;
+        const std::vector<std::uint8_t> watched = watched_vertices(*tracking);
         const auto for_each = [&](auto&& visit) {
             for (Index v = 0; v < into.size(); ++v) {
-                if (into[v] != no_index) visit(input.block_of(into[v]), v);
+                if (watched[v]) visit(input.block_of(into[v]), v);
             }
         };
         for_each([&](std::size_t b, Index) { ++begin[b + 1]; });
@@ -340,9 +353,13 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
         const auto simplify = [&](auto metric) {
             return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress);
         };
-        done[b] = tracking ? simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block),
-                                                            block.triangles.size(), loop.distance_weight))
-                           : simplify(engine::MemorylessMetric());
+        if (!tracking) {
+            done[b] = simplify(engine::MemorylessMetric());
+            return;
+        }
+        const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
+        done[b] = simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block), begin_at,
+                                                 loop.distance_weight));
     });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);

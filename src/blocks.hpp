@@ -43,10 +43,14 @@ inline constexpr std::size_t most_vertices_per_block = 1 << 15;
 /// \param few  up to which they are not cut
 std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vertices_per_block);
 
-/// What the blocks need to watch the distance to the original.
+/// What is watched for its distance to the original.
+enum class Watched { borders, borders_and_surface };
+
+/// What the blocks need for it.
 struct BlockTracking {
     const engine::Original& original;
     std::span<const Index> into;  ///< vertex of the input that each original one has gone into, or no_index
+    Watched watched = Watched::borders_and_surface;
 };
 
 /// A surface without attributes, groups or virtual pairs. Borrows. Vertices that are near should have numbers

@@ -182,10 +182,12 @@ private:
     bool begin_in_blocks(Recorder& recorder) {
         if (!may_be_cut()) return true;
         if (!ground_.original()) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
-        if (!reduce_in_blocks(engine::TrackedMetric::begins_at * loop_.target_faces, nullptr, recorder))
-            return false;
-        const detail::BlockTracking tracking{*ground_.original(), ground_.into()};
-        return reduce_in_blocks(loop_.target_faces, &tracking, recorder);
+        const engine::Original& original = *ground_.original();
+        const std::size_t far = engine::TrackedMetric::begins_at * loop_.target_faces;
+        const detail::BlockTracking borders{original, ground_.into(), detail::Watched::borders};
+        if (!reduce_in_blocks(far, original.open_edges().empty() ? nullptr : &borders, recorder)) return false;
+        const detail::BlockTracking all{original, ground_.into()};
+        return reduce_in_blocks(loop_.target_faces, &all, recorder);
     }
 
     template <class Recorder>

@@ -1,5 +1,6 @@
 #include "blocks.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 #include <stdexcept>
@@ -41,6 +42,36 @@ struct Steps {
 
     std::vector<BlockStep> steps;
 };
+
+TriangleMesh triple(const TriangleMesh& mesh) { return test::both(test::both(mesh, mesh), mesh); }
+
+// What an engine without blocks does to the mesh.
+std::vector<BlockStep> alone(const TriangleMesh& mesh, LoopOptions loop, TrackedMetric metric) {
+    Complex complex = test::complex_of(mesh);
+    PairTable pairs(complex, {});
+    Wedges wedges;
+    std::vector<std::uint8_t> free(mesh.positions.size(), 0);
+    loop.target_faces = 50;
+    Steps steps;
+    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, steps).run(loop);
+    return steps.steps;
+}
+
+// Three meshes in one place, of so many vertices: what was found for all does the same to each.
+void check_that_each_goes_like(const std::vector<BlockStep>& one, const BlockSteps& found, Index size) {
+    REQUIRE(found.steps.size() % 3 == 0);
+    const std::size_t each = found.steps.size() / 3;
+    REQUIRE(each > 80);
+    REQUIRE(one.size() >= each);
+    for (std::size_t i = 0; i < each; ++i) {
+        for (const Index copy : {0u, 1u, 2u}) {
+            const BlockStep& step = found.steps[copy * each + i];
+            REQUIRE(step.survivor == one[i].survivor + copy * size);
+            REQUIRE(step.gone == one[i].gone + copy * size);
+            REQUIRE(step.to == one[i].to);
+        }
+    }
+}
 
 TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
 
@@ -187,7 +218,6 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     // Three spheres in one place, one block each; each was a finer one before.
     const TriangleMesh coarse = test::shaken(test::icosphere(2), 0.01, 7);
     const TriangleMesh fine = test::icosphere(3);
-    const auto triple = [](const TriangleMesh& mesh) { return test::both(test::both(mesh, mesh), mesh); };
     std::vector<Index> into;
     for (const Vec3& p : fine.positions) {
         const auto distance = [&](const Vec3& q) { return to_eigen(test::minus(p, q)).squaredNorm(); };
@@ -210,25 +240,30 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     const BlockInput input{now.positions, now.triangles, locked, size};
     const BlockTracking tracking{originals.surface, into_all};
     const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
-    REQUIRE(found.steps.size() % 3 == 0);
-    const std::size_t each = found.steps.size() / 3;
-    REQUIRE(each > 80);
+    const std::vector<BlockStep> one =
+        alone(coarse, loop, TrackedMetric({}, original.surface, Lineage(into), 320, 0.05));
+    check_that_each_goes_like(one, found, size);
+}
 
-    Complex complex = test::complex_of(coarse);
-    PairTable pairs(complex, {});
-    Wedges wedges;
-    std::vector<std::uint8_t> free(size, 0);
-    loop.target_faces = 50;
-    TrackedMetric metric({}, original.surface, Lineage(into), 320, 0.05);
-    Steps alone;
-    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, alone).run(loop);
-    REQUIRE(alone.steps.size() >= each);
-    for (std::size_t i = 0; i < each; ++i) {
-        for (const Index copy : {0u, 1u, 2u}) {
-            const BlockStep& step = found.steps[copy * each + i];
-            REQUIRE(step.survivor == alone.steps[i].survivor + copy * size);
-            REQUIRE(step.gone == alone.steps[i].gone + copy * size);
-            REQUIRE(step.to == alone.steps[i].to);
-        }
-    }
+TEST_CASE("blocks: where only borders are watched, each holds its own as an engine alone would") {
+    // Three tubes in one place, one block each.
+    const TriangleMesh tube = test::shaken(test::cylinder(16, 12, 2), 0.01, 7);
+    const test::OriginalOf original(tube), now(triple(tube));
+    LoopOptions loop;
+    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
+    loop.distance_weight = 0.05;
+    const auto size = static_cast<Index>(tube.positions.size());
+    const std::vector<std::uint8_t> locked(3 * size, 0);
+    const BlockInput input{now.positions, now.triangles, locked, size};
+    const auto found = [&](const BlockTracking* tracking) {
+        return simplify_in_blocks(input, loop, 500, tracking, Recording::off, 2);
+    };
+    const BlockTracking borders{now.surface, now.lineage.today, Watched::borders};
+    const BlockSteps held = found(&borders);
+    check_that_each_goes_like(alone(tube, loop, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)),
+                              held, size);
+    const BlockSteps free = found(nullptr);
+    REQUIRE(free.steps.size() == held.steps.size());
+    CHECK_FALSE(std::equal(free.steps.begin(), free.steps.end(), held.steps.begin(),
+                           [](const BlockStep& a, const BlockStep& b) { return a.to == b.to; }));
 }

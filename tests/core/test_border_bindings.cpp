@@ -16,9 +16,7 @@ struct Bench {
         : original(mesh),
           complex(original.positions, original.triangles),
           pairs(complex, {}),
-          border(original.surface, original.lineage) {
-        border.begin(complex, pairs, [](Index v) { return v; });
-    }
+          border(original.surface, original.lineage, complex, pairs) {}
     double squared_distance(Index u, Index v, const Vector3& p) {
         return border.squared_distance(complex, pairs, u, v, p);
     }
@@ -75,6 +73,18 @@ TEST_CASE("border bindings: what is bound goes with the border from collapse to 
         last = distance;
         bench.collapse(1, next, p);
     }
+}
+
+TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell how far the border is") {
+    // Of the square only corner 1 is looked after: nothing is bound to the edges at corner 3.
+    const test::OriginalOf original(square);
+    Complex complex(original.positions, original.triangles);
+    PairTable pairs(complex, {});
+    Lineage corner;
+    corner.add(1, 1);
+    BorderBindings border(original.surface, corner, complex, pairs);
+    CHECK(border.squared_distance(complex, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
+    CHECK(border.squared_distance(complex, pairs, 4, 3, {0.5, 0, 0}) == 0);
 }
 
 TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {

@@ -104,13 +104,14 @@ TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the la
     CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
 }
 
-TEST_CASE("tracked: far above the target the planes alone tell, then the lineage tells what is bound where") {
+TEST_CASE("tracked: far above the target the planes and the border tell, then the lineage tells what is bound where") {
     // A cylinder of 16 sides and 16 rings; four times the target is reached by joining a rim with the next.
     const TriangleMesh tube = test::cylinder(16, 16, 4);
     Bench bench(tube, 120);
-    const Candidate in_place{bench.complex.position(1), 0};
+    const Candidate in_place{bench.complex.position(1), 0}, inside{bench.complex.position(17), 0};
     REQUIRE(bench.complex.face_count() > 480);
-    CHECK(bench.refine(1, 0, in_place) == 0);
+    CHECK(bench.refine(17, 16, inside) == 0);
+    CHECK(bench.refine(1, 0, in_place) > 0);
     for (Index v = 0; bench.complex.face_count() > 480; v += 2) {
         bench.collapse(v + 1, v, bench.complex.position(v + 1));
     }

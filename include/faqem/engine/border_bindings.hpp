@@ -21,65 +21,46 @@ namespace faqem::engine {
 /// has come to its end are bound to none. Nothing is kept for a surface without border.
 class BorderBindings {
 public:
-    /// \param lineage  of the vertices to look after; original vertices in ascending order
-    /// O(open edges + lineage)
-    BorderBindings(const Original& original, const Lineage& lineage) {
-        std::vector<std::array<Index, 2>> both_ways;
-        for (const auto& [a, b] : original.open_edges()) {
-            both_ways.push_back({a, b});
-            both_ways.push_back({b, a});
-        }
-        std::sort(both_ways.begin(), both_ways.end());
-        std::size_t i = 0;
-        for (const auto& [v, other] : both_ways) {
-            while (i < lineage.original.size() && lineage.original[i] < v) ++i;
-            if (i == lineage.original.size()) break;
-            if (lineage.original[i] != v) continue;
-            if (points_.empty() || points_.back().vertex != v) {
-                points_.push_back({original.position(v), v, segments_.size()});
-                today_.push_back(lineage.today[i]);
-            }
-            segments_.push_back(original.position(other));
-        }
-    }
-
     /// Binds every point to an open edge near it.
-    /// \param into  what a vertex of the lineage's today has gone into since
-    /// O(vertices), typically
-    template <class Into>
-    void begin(const Complex& complex, const PairTable& pairs, Into&& into) {
+    /// \param lineage  of the vertices to look after; original vertices in ascending order
+    /// O(open edges + lineage), typically
+    BorderBindings(const Original& original, const Lineage& lineage, const Complex& complex,
+                   const PairTable& pairs) {
+        const std::vector<Index> today = collect(original, lineage);
         if (points_.empty()) return;
         first_.assign(pairs.size(), no_index);
         next_.assign(points_.size(), no_index);
         for (Index i = 0; i < points_.size(); ++i) {
-            const Index pair = near_edge(complex, pairs, points_[i].position, into(today_[i]));
+            const Index pair = near_edge(complex, pairs, points_[i].position, today[i]);
             if (pair != no_index) bind(i, pair);
         }
-        today_ = {};
     }
 
     /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
     /// distance of what is bound around the pair from the open edges there would be, and of p from the
-    /// original border there. 0 where there is no border, or it comes to its end.
+    /// original border there: around what is bound to the next open edges, where nothing is to these. 0 where
+    /// there is no border, or it comes to its end.
     /// O(bound points times valence)
     double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v,
                             const Vector3& p) {
         if (!is_near(pairs, u, v)) return 0;
         gather(pairs, u, v);
         edges_.clear();
+        ends_.clear();
         for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
             const Vector3& end = complex.position(edge.vertex);
             edges_.emplace_back(p, end, end);
+            ends_.push_back(edge.vertex);
         });
-        if (edges_.empty() || bound_.empty()) return 0;
-        double worst = 0, nearest_point = std::numeric_limits<double>::infinity();
-        Index nearest = no_index;
-        for (const Index i : bound_) {
+        if (edges_.empty()) return 0;
+        double worst = 0;
+        for (const Index i : bound_)
             worst = std::max(worst, edges_[nearest_of(edges_, points_[i].position)](points_[i].position));
-            const double d = (points_[i].position - p).squaredNorm();
-            if (d < nearest_point) nearest_point = d, nearest = i;
+        if (bound_.empty()) {
+            for (const Index n : ends_) gather_at(pairs, n, no_index);
         }
-        return std::max(worst, squared_distance_around(nearest, p));
+        const Index nearest = nearest_bound(p);
+        return nearest == no_index ? 0 : std::max(worst, squared_distance_around(nearest, p));
     }
 
     /// u and v are about to become one.
@@ -117,6 +98,29 @@ private:
         std::size_t first_segment;  ///< of the far ends of its original open edges
     };
 
+    // Makes the points and their segments. \return the vertex of the complex that each point has gone into
+    std::vector<Index> collect(const Original& original, const Lineage& lineage) {
+        std::vector<Index> today;
+        std::vector<std::array<Index, 2>> both_ways;
+        for (const auto& [a, b] : original.open_edges()) {
+            both_ways.push_back({a, b});
+            both_ways.push_back({b, a});
+        }
+        std::sort(both_ways.begin(), both_ways.end());
+        std::size_t i = 0;
+        for (const auto& [v, other] : both_ways) {
+            while (i < lineage.original.size() && lineage.original[i] < v) ++i;
+            if (i == lineage.original.size()) break;
+            if (lineage.original[i] != v) continue;
+            if (points_.empty() || points_.back().vertex != v) {
+                points_.push_back({original.position(v), v, segments_.size()});
+                today.push_back(lineage.today[i]);
+            }
+            segments_.push_back(original.position(other));
+        }
+        return today;
+    }
+
     // Where the original has no border, one that begins has nothing to be compared with.
     bool is_near(const PairTable& pairs, Index u, Index v) const {
         return !points_.empty() && pairs.boundary_degree(u) + pairs.boundary_degree(v) > 0;
@@ -130,12 +134,27 @@ private:
     // What is bound to the open edges of u and v.
     void gather(const PairTable& pairs, Index u, Index v) {
         bound_.clear();
-        for (const Index a : {u, v}) {
-            pairs.for_each_pair(a, [&](Neighbour n) {
-                if (pairs.face_count(n.pair) != 1 || (a == v && n.vertex == u)) return;
-                for (Index i = first_[n.pair]; i != no_index; i = next_[i]) bound_.push_back(i);
-            });
+        gather_at(pairs, u, no_index);
+        gather_at(pairs, v, u);
+    }
+
+    // Adds what is bound to the open edges of v but the one to `passed_over`.
+    void gather_at(const PairTable& pairs, Index v, Index passed_over) {
+        pairs.for_each_pair(v, [&](Neighbour n) {
+            if (pairs.face_count(n.pair) != 1 || n.vertex == passed_over) return;
+            for (Index i = first_[n.pair]; i != no_index; i = next_[i]) bound_.push_back(i);
+        });
+    }
+
+    // Of what was gathered; no_index where that is nothing.
+    Index nearest_bound(const Vector3& p) const {
+        Index nearest = no_index;
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index i : bound_) {
+            const double d = (points_[i].position - p).squaredNorm();
+            if (d < least) least = d, nearest = i;
         }
+        return nearest;
     }
 
     double squared_distance_around(Index point, const Vector3& p) const {
@@ -172,12 +191,11 @@ private:
     }
 
     std::vector<Point> points_;
-    std::vector<Index> today_;  // until begin(): the vertex of the complex that each has gone into
     std::vector<Vector3> segments_;
-    std::vector<Index> first_, next_;      // lists of points bound to each pair
-    std::vector<Index> bound_;             // points around the pair in hand
-    std::vector<TriangleDistance> edges_;  // open edges there would be, or are
-    std::vector<Index> edge_pairs_;        // their pairs
+    std::vector<Index> first_, next_;       // lists of points bound to each pair
+    std::vector<Index> bound_;              // points around the pair in hand
+    std::vector<TriangleDistance> edges_;   // open edges there would be, or are
+    std::vector<Index> edge_pairs_, ends_;  // their pairs, their far ends
 };
 
 }  // namespace faqem::engine

@@ -22,12 +22,13 @@ namespace faqem::engine {
 /// would be there after it, and of the new vertex from the original faces around the bound vertex nearest to
 /// it; w is the area that a face of the result has on average.
 ///
-/// Far above the target all distances are small, and nothing is tracked. refine() is dear: the engine asks
-/// for it when a pair is about to be collapsed.
+/// Far above the target all distances are small, and only borders are watched: they are few, and a small hole
+/// hardly holds itself against the surface around it. refine() is dear: the engine asks for it when a pair is
+/// about to be collapsed.
 class TrackedMetric {
 public:
-    /// Tracking begins at this many times the target. At all sizes it costs four times as much, and gains
-    /// next to nothing (docs/quality.md).
+    /// The surface is tracked from this many times the target on. At all sizes it costs four times as much,
+    /// and gains next to nothing (docs/quality.md).
     static constexpr std::size_t begins_at = 4;
     /// Squared distances of borders count so many times: outlines are seen first, and what is measured at the
     /// original's border vertices is less than what is between them.
@@ -36,7 +37,7 @@ public:
     /// \param weights       of the memoryless metric
     /// \param original      borrowed
     /// \param lineage       of the vertices to look after, into those of the complex; original ones ascending
-    /// \param target_faces  the result's, > 0
+    /// \param target_faces  the result's; 0: only borders are watched
     /// \param weight        what the square of a distance costs, > 0
     /// \param curves        as MemorylessMetric's
     TrackedMetric(const MemorylessWeights& weights, const Original& original, Lineage lineage,
@@ -49,9 +50,9 @@ public:
 
     void initialise(const Complex& complex, const PairTable& pairs) {
         planes_.initialise(complex, pairs);
-        border_.emplace(*original_, lineage_);
+        border_.emplace(*original_, lineage_, complex, pairs);
         bindings_.emplace(*original_, std::exchange(lineage_, {}), complex);
-        begin_if_time(complex, pairs);
+        begin_if_time(complex);
     }
 
     /// What the memoryless metric says: less than the cost will be.
@@ -63,19 +64,19 @@ public:
     /// The whole cost. O(bound vertices times valence) at worst, one distance per bound vertex typically.
     double refine(const Complex& complex, const PairTable& pairs, Index u, Index v,
                   const Candidate& candidate) {
-        if (!is_tracking_) return candidate.cost;
-        look_ahead(complex, u, v, candidate.point);
-        if (after_.empty()) return candidate.cost;
-        const double border =
-            border_factor * border_->squared_distance(complex, pairs, u, v, candidate.point);
-        return candidate.cost + weight_ * std::max({forward(), backward(candidate.point), border});
+        double farthest = border_factor * border_->squared_distance(complex, pairs, u, v, candidate.point);
+        if (is_tracking_) {
+            look_ahead(complex, u, v, candidate.point);
+            if (!after_.empty()) farthest = std::max({farthest, forward(), backward(candidate.point)});
+        }
+        return candidate.cost + weight_ * farthest;
     }
 
     void collapsing(const Complex& complex, const PairTable& pairs, Index survivor, Index gone,
                     const Vector3& p) {
         planes_.collapsing(complex, pairs, survivor, gone, p);
-        if (!is_tracking_) return bindings_->merge(survivor, gone);
         border_->collapsing(pairs, survivor, gone);
+        if (!is_tracking_) return bindings_->merge(survivor, gone);
         bound_.clear();
         complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
@@ -86,8 +87,8 @@ public:
     void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
                    std::span<const PairTable::Change> around) {
         planes_.collapsed(complex, pairs, survivor, around);
-        if (!is_tracking_) return begin_if_time(complex, pairs);
         border_->collapsed(complex, pairs, survivor, around);
+        if (!is_tracking_) return begin_if_time(complex);
         after_.clear();
         faces_.clear();
         complex.for_each_face(survivor, [&](Index f, unsigned) {
@@ -108,10 +109,9 @@ public:
     }
 
 private:
-    void begin_if_time(const Complex& complex, const PairTable& pairs) {
+    void begin_if_time(const Complex& complex) {
         if (complex.face_count() / begins_at > target_faces_) return;
         is_tracking_ = true;
-        border_->begin(complex, pairs, [&](Index v) { return bindings_->into(v); });
         bindings_->begin(complex);
     }
 
