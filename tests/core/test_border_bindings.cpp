@@ -57,6 +57,23 @@ TEST_CASE("border bindings: the new vertex may be far from the original border")
     CHECK(bench.squared_distance(0, 1, {0.5, -2, 0}) == Approx(4));
 }
 
+TEST_CASE("border bindings: an open edge from one border to another is as far away as its middle") {
+    //  5---6---7---8---9
+    //  | / | / | / | / |
+    //  0---1---2---3---4
+    TriangleMesh strip;
+    for (const double y : {0.0, 1.0}) {
+        for (const double x : {0.0, 1.0, 2.0, 3.0, 4.0}) strip.positions.push_back({x, y, 0});
+    }
+    for (Index i = 0; i < 4; ++i) {
+        strip.triangles.push_back({i, i + 1, i + 6});
+        strip.triangles.push_back({i, i + 6, i + 5});
+    }
+    Bench bench(strip);
+    // Corner 7 is sqrt(1/5) away from the edge to 8; the middles of those to 6 and 8 are 1/2 away from both sides.
+    CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
+}
+
 TEST_CASE("border bindings: what is bound goes with the border from collapse to collapse") {
     // The rim of a disc of 16 triangles; vertices 1, 2, 3 ... go into 1 one after the other.
     Bench bench(test::fan(16));
@@ -84,7 +101,8 @@ TEST_CASE("border bindings: where nothing is bound to the edges at hand, the nex
     corner.add(1, 1);
     BorderBindings border(original.surface, corner, complex, pairs);
     CHECK(border.squared_distance(complex, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
-    CHECK(border.squared_distance(complex, pairs, 4, 3, {0.5, 0, 0}) == 0);
+    // On the side 0 1, but the middle of the edge to 2 is 1/4 away from the side 1 2.
+    CHECK(border.squared_distance(complex, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
 }
 
 TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {

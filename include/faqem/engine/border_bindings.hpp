@@ -37,8 +37,9 @@ public:
     }
 
     /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
-    /// distance of what is bound around the pair from the open edges there would be, and of p from the
-    /// original border there: around what is bound to the next open edges, where nothing is to these. 0 where
+    /// distance of what is bound around the pair from the open edges there would be, and of p and the middles
+    /// of these edges from the original border there: an edge from one border to another is far from both.
+    /// Where nothing is bound to the edges at hand, what is to the next ones says where the border was. 0 where
     /// there is no border, or it comes to its end.
     /// O(bound points times valence)
     double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v,
@@ -59,8 +60,11 @@ public:
         if (bound_.empty()) {
             for (const Index n : ends_) gather_at(pairs, n, no_index);
         }
-        const Index nearest = nearest_bound(p);
-        return nearest == no_index ? 0 : std::max(worst, squared_distance_around(nearest, p));
+        if (bound_.empty()) return 0;
+        worst = std::max(worst, squared_distance_back(p));
+        for (const Index n : ends_)
+            worst = std::max(worst, squared_distance_back(0.5 * (p + complex.position(n))));
+        return worst;
     }
 
     /// u and v are about to become one.
@@ -146,15 +150,15 @@ private:
         });
     }
 
-    // Of what was gathered; no_index where that is nothing.
-    Index nearest_bound(const Vector3& p) const {
+    // From p to the original border around the nearest point that was gathered. \pre there is one
+    double squared_distance_back(const Vector3& p) const {
         Index nearest = no_index;
         double least = std::numeric_limits<double>::infinity();
         for (const Index i : bound_) {
             const double d = (points_[i].position - p).squaredNorm();
             if (d < least) least = d, nearest = i;
         }
-        return nearest;
+        return squared_distance_around(nearest, p);
     }
 
     double squared_distance_around(Index point, const Vector3& p) const {
