@@ -65,9 +65,11 @@ public:
 
     /// As closest(), over the faces f with filter(f) only. The filter is asked for faces that would be the
     /// best so far.
+    /// \param max_refused  that many times the filter may say no; then the best so far is the answer
     template <class Filter>
     Hit closest_if(const Vec3& p, Filter&& filter,
-                   double max_distance_squared = std::numeric_limits<double>::infinity()) const;
+                   double max_distance_squared = std::numeric_limits<double>::infinity(),
+                   std::size_t max_refused = std::numeric_limits<std::size_t>::max()) const;
 
     /// Calls visit(face, const ClosestPoint&) for every face at most sqrt(distance_squared) from p, in no
     /// particular but always the same order.
@@ -168,18 +170,25 @@ void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
 }
 
 template <class Filter>
-Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squared) const {
+Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squared,
+                         std::size_t max_refused) const {
     const Vector3 query = engine::to_eigen(p);
     ClosestPoint best;
     best.distance_squared = max_distance_squared;
     Index face = no_index;
+    std::size_t refused = 0;
+    constexpr double nothing_more = -1;
     traverse(
-        query, [&] { return best.distance_squared; },
+        query, [&] { return refused < max_refused ? best.distance_squared : nothing_more; },
         [&](const Corners& t) {
             const ClosestPoint hit = closest_point_on_triangle(query, t.a, t.b, t.c);
             const bool nearer = hit.distance_squared < best.distance_squared;
             if (!nearer && !(hit.distance_squared == best.distance_squared && t.face < face)) return;
-            if (!filter(t.face)) return;
+            if (refused == max_refused) return;
+            if (!filter(t.face)) {
+                ++refused;
+                return;
+            }
             best = hit;
             face = t.face;
         });

@@ -17,6 +17,14 @@ namespace {
 constexpr double least_cosine = 0.17;
 constexpr double umbrella_penalty = 0.3;
 constexpr double sheet_penalty = 1.0;
+// Of faces that the settling looks at in vain: where others lie between a point and its sheet, it would go
+// through all of them for every sample.
+constexpr std::size_t most_refused = 512;
+// Of faces that a walk looks at, about ten times what is usual: a vertex that swallowed a whole plain, one
+// vertex after the other, was in a patch for each of them.
+constexpr std::uint64_t most_walked = 2048;
+// Of the mean edge of a patch: so close a point lies on the face at hand.
+constexpr double on_it = 1e-6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_squared(const Vector3& p, const Bound& bound) {
@@ -39,6 +47,7 @@ struct ProjectionWalk::Best {
     std::uint64_t entry = 0;
     bool relaxed = false;
     double score = infinity;
+    bool given_up = false;
 };
 
 // One patch and the best of its faces so far.
@@ -49,11 +58,11 @@ struct ProjectionWalk::Patch {
     Best best, best_away;
 };
 
-ProjectionWalk::ProjectionWalk(const CollapseHistory& history)
+ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded)
     : history_(history),
       tree_(history.positions, history.triangles),
-      replay_(replay_patches(history)),
-      sheets_(find_sheets(history.positions, history.triangles)),
+      sheets_(find_sheets(history.positions, history.triangles, unwelded)),
+      replay_(replay_patches(history, sheets_.sheet)),
       last_(final_versions(history)) {}
 
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
@@ -82,16 +91,22 @@ bool ProjectionWalk::faces_away(Index candidate, const Vector3& area_vector, con
 
 // The least score wins, then the smaller face, in whatever order the faces come: so the one that looks
 // closest comes first, and spheres rule out most of the others.
-ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, const Query& query) const {
+ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, const Query& query,
+                                                   std::uint64_t& walked) const {
     const std::uint64_t begin = history_.patch_begin[collapse], end = history_.patch_begin[collapse + 1];
     std::uint64_t own = begin, first = begin;
+    while (own < end && history_.patch_faces[own] != face) ++own;
+    Patch patch{query, replay_.mean_edge[collapse], replay_.umbrella[own], {}, {}};
+    consider(own, patch);
+    ++walked;
+    if (patch.best.score <= on_it * patch.edge) return patch.best;
+    walked += end - begin;
+    patch.best = patch.best_away = {};
     double nearest = infinity;
     for (std::uint64_t e = begin; e < end; ++e) {
-        if (history_.patch_faces[e] == face) own = e;
         const double d = distance_squared(query.p0, replay_.bounds[e]);
         if (d < nearest) nearest = d, first = e;
     }
-    Patch patch{query, replay_.mean_edge[collapse], replay_.umbrella[own], {}, {}};
     consider(first, patch);
     for (std::uint64_t e = begin; e < end; ++e) {
         if (e != first) consider(e, patch);
@@ -151,7 +166,7 @@ bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
 SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
     const Bvh::Hit hit = tree_.closest_if(
         to_array(query.p0), [&](Index f) { return is_around(f, query) && passes(f, query); },
-        distance_squared);
+        distance_squared, most_refused);
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
@@ -167,8 +182,13 @@ SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step
 ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const {
     Best at{query.original, 0, false, infinity};
     bool relaxed = false;
+    std::uint64_t walked = 0;
     for (Index k = replay_.kept_last[face]; k != no_index; k = replay_.previous[at.entry]) {
-        const Best next = best_of_patch(k, at.face, query);
+        if (walked > most_walked) {
+            at.given_up = true;
+            break;
+        }
+        const Best next = best_of_patch(k, at.face, query, walked);
         if (next.face == no_index) {
             relaxed = true;
             break;
@@ -183,19 +203,25 @@ ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const 
 SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     const Query query = start(face, barycentric);
     const Best end = walk(face, query);
-    if (passes(end.face, query)) {
+    if (!end.given_up && passes(end.face, query)) {
         return settle(query, end.face, end.relaxed ? MapStep::relaxed : MapStep::history);
     }
     const ClosestPoint here = on_original(end.face, query.p0);
     const double far = std::sqrt(here.distance_squared) + query.longest_edge;
+    if (end.given_up) {
+        const Bvh::Hit hit = tree_.closest_if(
+            to_array(query.p0), [&](Index f) { return passes(f, query); }, far * far, most_refused);
+        if (hit.face != no_index) return {hit.face, hit.barycentric, MapStep::closest};
+    }
     const SurfacePoint closest = closest_around(query, far * far);
     if (closest.face != no_index) return closest;
     return {end.face, to_array(here.barycentric), MapStep::relaxed};
 }
 
 SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
-    if (near.step != MapStep::history) return map(face, barycentric);
-    return settle(start(face, barycentric), near.face, near.step);
+    const Query query = start(face, barycentric);
+    if (!passes(near.face, query)) return map(face, barycentric);
+    return settle(query, near.face, near.step);
 }
 
 }  // namespace faqem::detail

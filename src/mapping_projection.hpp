@@ -2,6 +2,7 @@
 /// \file
 /// From the small surface to the original by successive projection through the collapse history.
 
+#include <span>
 #include <vector>
 
 #include "bvh.hpp"
@@ -22,18 +23,22 @@ namespace faqem::detail {
 /// - with the least distance from p0, plus 0.3 mean patch edges outside the umbrella of the face at hand,
 /// plus one mean patch edge on another sheet than the small face's.
 ///
+/// A face at hand that p0 lies on is kept. Walks that get too long are given up for the closest face of the
+/// small face's sheet.
+///
 /// The faces that a walk moves over are those that were there at the time: where they were far from the
 /// original, neighbouring samples part ways. So in the end the closest point is taken, of all original faces
 /// around the small one that pass the same tests.
 class ProjectionWalk {
 public:
-    explicit ProjectionWalk(const CollapseHistory& history);
+    /// \param unwelded  as in find_sheets()
+    explicit ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded = {});
 
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
     /// As map(), but without the walk: the answer for a sample close by on the same small face bounds the
     /// distance instead. The same answer, but where the walk would find a closer face that is not around the
-    /// small one. Where `near` was not found by history, map() answers.
+    /// small one. Where `near` fails the tests of sheet, group or side, map() answers.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:
@@ -43,7 +48,7 @@ private:
 
     Query start(Index face, const Vec3& barycentric) const;
     bool faces_away(Index candidate, const engine::Vector3& area_vector, const Query& query) const;
-    Best best_of_patch(Index collapse, Index face, const Query& query) const;
+    Best best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& walked) const;
     void consider(std::uint64_t entry, Patch& patch) const;
     Best walk(Index face, const Query& query) const;
     SurfacePoint settle(const Query& query, Index face, MapStep step) const;
@@ -55,8 +60,8 @@ private:
 
     const CollapseHistory& history_;
     Bvh tree_;  // first: making it takes more for a while than it keeps
-    Replay replay_;
     Sheets sheets_;
+    Replay replay_;
     std::vector<Index> last_;  ///< by version: what became of it in the end
 };
 

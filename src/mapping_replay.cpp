@@ -7,6 +7,7 @@
 #include <span>
 
 #include "edge_swap.hpp"
+#include "sides.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -27,8 +28,10 @@ struct Labeller {
         return i;
     }
 
-    // Labels the patch's components over edges with two faces: 0, 1, ... in the order of their first faces.
-    void label(std::span<const Triangle> corners, std::span<std::uint8_t> labels) {
+    // Labels the patch's components over edges that join two faces: 0, 1, ... in the order of their first
+    // faces. sheet(e): of face e of the patch
+    template <class Sheet>
+    void label(std::span<const Triangle> corners, Sheet&& sheet, std::span<std::uint8_t> labels) {
         edges.clear();
         parent.resize(corners.size());
         std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -41,9 +44,11 @@ struct Labeller {
         std::sort(edges.begin(), edges.end());
         for (std::size_t i = 0, end; i < edges.size(); i = end) {
             for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
-            if (end - i != 2) continue;
-            const std::size_t a = root(edges[i].entry), b = root(edges[i + 1].entry);
-            parent[std::max(a, b)] = std::min(a, b);
+            const auto sheet_of_side = [&](std::size_t k) { return sheet(edges[i + k].entry); };
+            for_each_pair(end - i, sheet_of_side, [&](std::size_t first, std::size_t second) {
+                const std::size_t a = root(edges[i + first].entry), b = root(edges[i + second].entry);
+                parent[std::max(a, b)] = std::min(a, b);
+            });
         }
         std::uint8_t next = 0;
         for (std::size_t e = 0; e < corners.size(); ++e) {
@@ -137,7 +142,7 @@ Replay replay_vertices(const CollapseHistory& history) {
     return result;
 }
 
-Replay replay_patches(const CollapseHistory& history) {
+Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets) {
     const std::size_t entries = history.patch_faces.size();
     Replay result;
     result.positions = version_positions(history);
@@ -160,7 +165,8 @@ Replay replay_patches(const CollapseHistory& history) {
     for (std::size_t k = 0; k < history.patch_count(); ++k) {
         const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
         const std::span<const Triangle> corners = std::span(result.corners).subspan(begin, size);
-        labeller.label(corners, std::span(result.umbrella).subspan(begin, size));
+        const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
+        labeller.label(corners, sheet, std::span(result.umbrella).subspan(begin, size));
         result.mean_edge.push_back(mean_edge_length(result.positions, corners));
     }
     keep(history, last, result);

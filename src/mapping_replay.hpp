@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "faqem/engine/vector.hpp"
@@ -25,8 +26,9 @@ struct Replay {
         corners;                  ///< per entry: corner versions of its face just before the collapse or swap
     std::vector<Bound> bounds;    ///< per entry: around those corners
     std::vector<Index> previous;  ///< per entry: the latest earlier patch that had its face
-    std::vector<std::uint8_t> umbrella;  ///< per entry: component of its patch over edges with two faces
-    std::vector<float> mean_edge;        ///< per patch: mean edge length
+    std::vector<std::uint8_t>
+        umbrella;  ///< per entry: component of its patch over edges with two faces, or two of a sheet
+    std::vector<float> mean_edge;  ///< per patch: mean edge length
 
     std::vector<Triangle> kept_corners;               ///< per face of the small mesh: corner versions
     std::vector<std::array<Vec3, 3>> kept_positions;  ///< per face of the small mesh: where they are
@@ -45,6 +47,7 @@ struct Replay {
 Replay replay_vertices(const CollapseHistory& history);
 
 /// Everything. O(size of the history) time, 37 bytes per patch face.
-Replay replay_patches(const CollapseHistory& history);
+/// \param sheets  of each face of the original
+Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets);
 
 }  // namespace faqem::detail

@@ -1,5 +1,7 @@
 #include "mapping_sheets.hpp"
 
+#include <algorithm>
+
 #include "faqem/engine/vector.hpp"
 #include "sides.hpp"
 
@@ -11,14 +13,22 @@ struct Neighbour {
     bool same_winding = true;
 };
 
-// Neighbours over the three edges of each face, where the edge has exactly two faces.
-std::vector<Neighbour> neighbours(std::span<const Triangle> triangles) {
+// Neighbours over the three edges of each face.
+std::vector<Neighbour> neighbours(std::span<const Triangle> triangles, std::span<const Triangle> unwelded) {
     std::vector<Neighbour> result(3 * triangles.size());
     for_each_edge(sorted_sides(triangles), [&](std::span<const Side> on) {
-        if (on.size() != 2) return;
-        const bool same = on[0].goes_up != on[1].goes_up;
-        result[std::size_t{3} * on[0].face + on[0].corner] = {on[1].face, same};
-        result[std::size_t{3} * on[1].face + on[1].corner] = {on[0].face, same};
+        const auto unwelded_edge = [&](std::size_t i) -> std::uint64_t {
+            if (unwelded.empty()) return 0;
+            const Triangle& t = unwelded[on[i].face];
+            const Index from = t[on[i].corner], to = t[(on[i].corner + 1) % 3];
+            return std::uint64_t{std::min(from, to)} << 32 | std::max(from, to);
+        };
+        for_each_pair(on.size(), unwelded_edge, [&](std::size_t i, std::size_t j) {
+            const Side &a = on[i], &b = on[j];
+            const bool same = a.goes_up != b.goes_up;
+            result[std::size_t{3} * a.face + a.corner] = {b.face, same};
+            result[std::size_t{3} * b.face + b.corner] = {a.face, same};
+        });
     });
     return result;
 }
@@ -32,8 +42,9 @@ double area(std::span<const Vec3> positions, const Triangle& t) {
 
 }  // namespace
 
-Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-    const std::vector<Neighbour> next = neighbours(triangles);
+Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                   std::span<const Triangle> unwelded) {
+    const std::vector<Neighbour> next = neighbours(triangles, unwelded);
     Sheets result{std::vector<Index>(triangles.size(), no_index),
                   std::vector<std::int8_t>(triangles.size(), 1)};
     std::vector<Index> faces;  // of the sheet at hand, in breadth-first order

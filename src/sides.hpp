@@ -2,9 +2,11 @@
 /// \file
 /// The sides of triangles, sorted so that those on one edge lie together.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "faqem/mesh.hpp"
@@ -31,6 +33,23 @@ void for_each_edge(std::span<const Side> sides, Visit&& visit) {
     for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
         for (end = begin + 1; end < sides.size() && sides[end].edge() == sides[begin].edge();) ++end;
         visit(sides.subspan(begin, end - begin));
+    }
+}
+
+/// Calls join(i, j), i < j, for the sides on one edge that carry a surface on across it: two where there are
+/// no others; where three or more meet, those of a surface that has exactly two of them. \param count    of
+/// sides on the edge \param surface  of side i < count: any number that tells surfaces apart O(count log
+/// count)
+template <class Surface, class Join>
+void for_each_pair(std::size_t count, Surface&& surface, Join&& join) {
+    if (count == 2) join(std::size_t{0}, std::size_t{1});
+    if (count < 3) return;
+    std::vector<std::pair<std::uint64_t, std::size_t>> sides;
+    for (std::size_t i = 0; i < count; ++i) sides.emplace_back(surface(i), i);
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin + 1; end < count && sides[end].first == sides[begin].first;) ++end;
+        if (end - begin == 2) join(sides[begin].second, sides[begin + 1].second);
     }
 }
 

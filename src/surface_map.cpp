@@ -12,11 +12,11 @@ struct SurfaceMap::Impl {
     std::unique_ptr<const detail::ClosestPoints> closest;
 };
 
-SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping) {
+SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded) {
     auto impl = std::make_unique<Impl>();
     switch (mapping) {
         case Mapping::projection:
-            impl->projection = std::make_unique<const detail::ProjectionWalk>(history);
+            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded);
             break;
         case Mapping::lineage:
             impl->lineage = std::make_unique<const detail::LineageWalk>(history);

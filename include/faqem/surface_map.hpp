@@ -3,6 +3,7 @@
 /// The map from the small surface to the original, read from the collapse history alone.
 
 #include <memory>
+#include <span>
 
 #include "faqem/history.hpp"
 #include "faqem/options.hpp"
@@ -31,8 +32,11 @@ class SurfaceMap {
 public:
     /// \param history  of the run that made the small mesh; must outlive the map
     /// \param mapping  how places are found
+    /// \param unwelded  empty, or the faces of the original as they were before vertices at one place were
+    ///                  joined, one per face of the history: surfaces that touch, and share vertices only
+    ///                  since then, are told apart by it (projection). Not kept.
     /// O(size of the history) memory; time as well, and O(n log n) for n faces of the original.
-    SurfaceMap(const CollapseHistory& history, Mapping mapping);
+    SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded = {});
     ~SurfaceMap();
     SurfaceMap(SurfaceMap&&) noexcept;
     SurfaceMap& operator=(SurfaceMap&&) noexcept;

@@ -55,7 +55,8 @@ void map_parts(BakeJob& job, const SmallParts& small) {
         job.poll(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
         SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
         if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
-            part.map = std::make_unique<const SurfaceMap>(part.small->history, job.options.bake.mapping);
+            part.map = std::make_unique<const SurfaceMap>(part.small->history, job.options.bake.mapping,
+                                                          part.source->triangles);
         }
         job.parts.push_back(std::move(part));
     }

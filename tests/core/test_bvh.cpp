@@ -171,6 +171,23 @@ TEST_CASE("a filter hides faces from the tree") {
     CHECK(tree.closest_if(p, [](Index) { return false; }).face == no_index);
 }
 
+TEST_CASE("a search that is refused too often ends with the best so far") {
+    const Soup soup(400, 3);
+    const Bvh tree(soup.positions, soup.triangles);
+    const Vec3 p = {0.5, 0.4, 0.6};
+    constexpr double anywhere = std::numeric_limits<double>::infinity();
+    for (std::size_t most = 0; most < 40; ++most) {
+        std::size_t asked = 0;
+        const auto never = [&](Index) { return ++asked, false; };
+        CHECK(tree.closest_if(p, never, anywhere, most).face == no_index);
+        CHECK(asked == most);
+    }
+    const Index nearest = tree.closest(p).face;
+    const auto all_but_nearest = [&](Index f) { return f != nearest; };
+    CHECK(tree.closest_if(p, all_but_nearest, anywhere, 2).distance_squared ==
+          tree.closest_if(p, all_but_nearest).distance_squared);
+}
+
 TEST_CASE("the largest distance asked for is inclusive") {
     const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
     const std::vector<Triangle> triangles = {{0, 1, 2}};

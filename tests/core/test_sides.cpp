@@ -39,3 +39,20 @@ TEST_CASE("sides: faces on an edge come by number, missing triangles and equal e
     CHECK(sides[0].goes_up != sides[1].goes_up);
     CHECK(detail::sorted_sides({}).empty());
 }
+
+TEST_CASE("sides: two on an edge carry a surface on, and of more those that are two of one surface") {
+    using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+    const auto pairs = [](const std::vector<std::uint64_t>& surfaces) {
+        Pairs result;
+        detail::for_each_pair(
+            surfaces.size(), [&](std::size_t i) { return surfaces[i]; },
+            [&](std::size_t i, std::size_t j) { result.emplace_back(i, j); });
+        return result;
+    };
+    CHECK(pairs({}).empty());
+    CHECK(pairs({4}).empty());
+    CHECK(pairs({4, 7}) == Pairs{{0, 1}});
+    CHECK(pairs({4, 4, 4}).empty());
+    CHECK(pairs({7, 4, 7}) == Pairs{{0, 2}});
+    CHECK(pairs({7, 4, 7, 4}) == Pairs{{1, 3}, {0, 2}});
+}

@@ -380,6 +380,71 @@ TEST_CASE("a face that was turned over has no right side and says so") {
     CHECK(hit.face < 2);
 }
 
+// Two plates at one place, wound alike, that share their vertices since they were welded.
+TEST_CASE("samples stay on their plate where two share all vertices") {
+    constexpr Index n = 4, layer = (n + 1) * (n + 1);
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    const std::vector<Triangle> plate = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    const Index count = static_cast<Index>(plate.size());
+    std::vector<Triangle> welded = plate, unwelded = plate;
+    welded.insert(welded.end(), plate.begin(), plate.end());
+    for (const Triangle& t : plate) unwelded.push_back({t[0] + layer, t[1] + layer, t[2] + layer});
+    HandHistory hand(positions, welded);
+    Index last = 6;
+    for (const Index v : {7u, 8u, 13u, 12u, 11u, 16u, 17u, 18u}) last = hand.collapse(last, v, {2, 2, 0});
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < welded.size());
+    const SurfaceMap map(history, Mapping::projection, unwelded);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const bool first = history.kept_faces[f] < count;
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint q = map.map(f, w);
+            CHECK((q.face < count) == first);
+            CHECK(q.step == MapStep::history);
+            CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
+        }
+    }
+}
+
+// A row of vertices between two others is swallowed by its first one: the two faces that are left were in a
+// patch for each of them, more than a walk may look at.
+TEST_CASE("walks that get too long end at the closest point of their sheet") {
+    constexpr Index n = 1500;
+    std::vector<Vec3> positions = {{0, 1, 0}, {0, -1, 0}};
+    for (Index i = 0; i <= n; ++i) positions.push_back({double(i) / n, 0, 0});
+    std::vector<Triangle> faces;
+    for (Index i = 2; i < n + 2; ++i) {
+        faces.push_back({i, i + 1, 0});
+        faces.push_back({i + 1, i, 1});
+    }
+    double bump = 0;
+    SECTION("in a plane") {}
+    SECTION("on a bent sheet") { bump = 0.01; }
+    for (Vec3& p : positions) p[2] = bump * std::sin(20 * p[0]);
+    HandHistory hand(positions, faces);
+    Index last = 2;
+    for (Index i = 3; i < n + 2; ++i) last = hand.collapse(last, i, positions[2]);
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() == 2);
+    const SurfaceMap map(history, Mapping::projection);
+    std::size_t given_up = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        for (const Vec3& w : spread(12)) {
+            const SurfacePoint q = map.map(f, w);
+            given_up += q.step == MapStep::closest;
+            const Vec3 p = small_point(small, f, w);
+            if (p[1] != 0) CHECK(q.face % 2 == history.kept_faces[f] % 2);
+            CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
+        }
+    }
+    if (bump > 0) CHECK(given_up > 0);
+}
+
 TEST_CASE("several threads get the same answers") {
     const CollapseHistory history = squeezed_pillow(pillow(8, 1e-3), {});
     const SurfaceMap map(history, Mapping::projection);
