@@ -26,6 +26,7 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
     const SmallPart& part = job.parts[at.part];
     const TriangleMesh& mesh = part.small->mesh;
     const Triangle& t = mesh.triangles[at.face];
+    const Vector3 side = face_side(part, job.normals[at.part], at.face);
     const Vector3 twice = engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
                                               to_eigen(mesh.positions[t[2]]));
     const std::vector<Vec3f>& normals = job.normals[at.part].normals;
@@ -35,7 +36,7 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
         Vector3 own = Vector3::Zero();
         for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * at.face + i]);
         Vector3 other = smooth_normal(*part.source, part.map->map(at.face, w));
-        if (other.dot(twice) < 0) other = -other;
+        if (other.dot(side) < 0) other = -other;
         sum += std::atan2(own.cross(other).norm(), own.dot(other));
     }
     const double area = twice.norm();

@@ -34,7 +34,8 @@ struct Cluster {
 
 // Writes the mean normals of one vertex; clusters are numbered by their first corner.
 void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corners,
-                   const std::vector<Vector3>& raw, double least_cosine, CornerNormals& result) {
+                   const std::vector<Vector3>& sides, const std::vector<Vector3>& raw, double least_cosine,
+                   CornerNormals& result) {
     std::vector<Cluster> clusters;
     std::vector<std::size_t> member(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -52,7 +53,7 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     std::vector<Index> number(clusters.size(), no_index);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint64_t c = corners[i];
-        const Vector3 side = winding_normal(mesh.positions, mesh.triangles[c / 3]);
+        const Vector3& side = sides[c / 3];
         Vector3 n = unit_or_zero(clusters[member[i]].sum);
         Index& first = number[member[i]];
         Index cluster = first == no_index ? first = static_cast<Index>(c) : first;
@@ -66,17 +67,51 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     }
 }
 
+// Above 0 where a face looks the way its normals do, below where it is wound against them; by area.
+double agreement(const Part& part, std::size_t face) {
+    Vector3 looks = Vector3::Zero();
+    for (std::size_t c = 0; c < 3; ++c) looks += corner_normal(part, face, c);
+    const Triangle& t = part.triangles[face];
+    const Vector3 wound = engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
+                                              to_eigen(part.positions[t[2]]));
+    const double result = looks.dot(wound);
+    return result > 0 ? wound.norm() : result < 0 ? -wound.norm() : 0;
+}
+
+std::vector<std::uint8_t> turned_faces(const SmallPart& part) {
+    std::vector<std::uint8_t> result(part.faces(), 0);
+    if (part.source->normals.empty()) return result;
+    double most = 0;
+    for (std::size_t f = 0; f < part.source->triangles.size(); ++f) most += agreement(*part.source, f);
+    if (!(most > 0)) return result;
+    for (std::size_t f = 0; f < result.size(); ++f) {
+        result[f] = agreement(*part.source, part.small->history.kept_faces[f]) < 0;
+    }
+    return result;
+}
+
 }  // namespace
+
+Vector3 face_side(const SmallPart& part, const CornerNormals& normals, std::size_t face) {
+    const Vector3 side = winding_normal(part.small->mesh.positions, part.small->mesh.triangles[face]);
+    return normals.turned[face] ? Vector3(-side) : side;
+}
 
 CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads) {
     const TriangleMesh& mesh = part.small->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
-    std::vector<Vector3> raw(corners);
+    const bool transfers = options.normals == Normals::transfer;
+    std::vector<Vector3> raw(corners), sides(mesh.triangles.size());
+    CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners), turned_faces(part)};
     parallel_blocks(mesh.triangles.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            sides[f] =
+                transfers ? face_side(part, result, f) : winding_normal(mesh.positions, mesh.triangles[f]);
+        }
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-            const Vector3 side = winding_normal(mesh.positions, mesh.triangles[c / 3]);
+            const Vector3& side = sides[c / 3];
             raw[c] = side;
-            if (options.normals == Normals::transfer) {
+            if (transfers) {
                 const SurfacePoint point =
                     part.map->map(static_cast<Index>(c / 3), near_corner(c % 3, inset));
                 const Vector3 original = smooth_normal(*part.source, point);
@@ -89,9 +124,8 @@ CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, st
     // The cosine is lowered a little: equal normals differ by rounding.
     const double least_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);
-    CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners)};
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        smooth_vertex(mesh, at.at(v), raw, least_cosine, result);
+        smooth_vertex(mesh, at.at(v), sides, raw, least_cosine, result);
     }
     if (options.normals == Normals::flat) {
         std::transform(raw.begin(), raw.end(), result.normals.begin(), to_float);

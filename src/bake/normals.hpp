@@ -2,7 +2,11 @@
 /// \file
 /// Normals of the small mesh.
 
+#include <cstdint>
+#include <vector>
+
 #include "bake/corners.hpp"
+#include "faqem/engine/vector.hpp"
 
 namespace faqem::detail {
 
@@ -10,13 +14,21 @@ namespace faqem::detail {
 struct CornerNormals {
     std::vector<Vec3f> normals;   ///< unit length, on the front side of their face
     std::vector<Index> clusters;  ///< corners of one vertex that share a normal have the same number
+    /// Per face: 1 where the original face that it used to be is wound against its own normals, while most of
+    /// the part is not. Such files are lit as they were, wrong winding or not.
+    std::vector<std::uint8_t> turned;
 };
+
+/// The unit normal of a small face as it is wound, or its opposite where it is CornerNormals::turned. Zero
+/// where the face has no area. O(1)
+engine::Vector3 face_side(const SmallPart& part, const CornerNormals& normals, std::size_t face);
 
 /// As BakeOptions::normals says. Normals::transfer: a corner's normal is the original's (its face's, where it
 /// has none) a little inside the small face. Normals::smooth: the small face's own.
 /// Corners of one vertex whose normals differ by at most the crease angle get their mean, weighted by corner
-/// angles. A normal that would look away from its face gives way to the face's. Normals::flat clusters as
-/// Normals::smooth does. O(corners), for bounded numbers of creases per vertex
+/// angles. A normal that would look away from its face gives way to the face's: face_side() with
+/// Normals::transfer, else the face as it is wound. Normals::flat clusters as Normals::smooth does.
+/// O(corners), for bounded numbers of creases per vertex
 CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads);
 
 }  // namespace faqem::detail

@@ -6,6 +6,7 @@
 
 #include "bake/directions.hpp"
 #include "bake/fill.hpp"
+#include "bake/normals.hpp"
 #include "faqem/engine/vector.hpp"
 
 namespace faqem::detail {
@@ -141,8 +142,10 @@ private:
               place(page.request_.atlas.places[triangle]),
               frame(place),
               right(right_corner(place)),
-              mesh(page.job_.parts[face.part].small->mesh),
-              map(*page.job_.parts[face.part].map),
+              part(page.job_.parts[face.part]),
+              normals_of_part(page.job_.normals[face.part]),
+              mesh(part.small->mesh),
+              map(*part.map),
               spacing(texel_length() / page.samples_) {
             if (page.request_.channels.normal) set_frames(page);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -153,24 +156,22 @@ private:
         }
 
         void set_frames(const Page& page) {
-            const auto& normals = page.job_.normals[face.part].normals;
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::size_t c = std::size_t{3} * face.face + i;
-                frames[i] = {to_vector(normals[c]), page.request_.tangents[face.part][c]};
+                frames[i] = {to_vector(normals_of_part.normals[c]), page.request_.tangents[face.part][c]};
             }
-            normals_of_part = &normals;
         }
 
         // The source's normal where the last sample was, in tangent space. One that lies across an edge is
         // turned with its face into this triangle's plane: at a crease it would lean over by the whole fold.
         Vector3 bent_normal(const SourceSurface& surface, const SmallPoint& at) const {
             const TangentFrame here = blend_frames(frames, own_weights(at));
-            const Vector3 side = winding_normal(mesh.positions, mesh.triangles[at.face]);
+            const Vector3 side = face_side(part, normals_of_part, at.face);
             const Vector3 normal = surface.normal(face.part, trails[at.trail].last, spacing, side);
             if (at.trail == 0) return here.from_mesh(normal);
             Vector3 there = Vector3::Zero();
             for (std::size_t i = 0; i < 3; ++i) {
-                there += at.weights[i] * to_vector((*normals_of_part)[std::size_t{3} * at.face + i]);
+                there += at.weights[i] * to_vector(normals_of_part.normals[std::size_t{3} * at.face + i]);
             }
             return here.from_mesh(Eigen::Quaterniond::FromTwoVectors(there, here.normal) * normal);
         }
@@ -256,13 +257,14 @@ private:
         const AtlasPlace& place;
         const AtlasFrame frame;
         const std::size_t right;
+        const SmallPart& part;
+        const CornerNormals& normals_of_part;
         const TriangleMesh& mesh;
         const SurfaceMap& map;
         const double spacing;
         std::array<Fold, 3> folds;          // by corner opposite
         std::array<FrameCorner, 3> frames;  // for the normal map
-        const std::vector<Vec3f>* normals_of_part = nullptr;
-        std::array<Trail, 4> trails;  // the triangle's own, then those across
+        std::array<Trail, 4> trails;        // the triangle's own, then those across
     };
 
     // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.

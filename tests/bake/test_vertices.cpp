@@ -90,6 +90,20 @@ TEST_CASE("the original's smooth normals are found again") {
     }
 }
 
+TEST_CASE("where some faces are wound against their normals, the normals are right") {
+    Asset asset = pipe(40);
+    Part& part = asset.parts[0];
+    for (std::size_t f = 0; f < part.triangles.size(); f += 3) {
+        std::swap(part.triangles[f][0], part.triangles[f][1]);
+    }
+    const Part light = bake(asset, unchanged(asset), of_kind(Bake::none)).asset.parts[0];
+    for (std::size_t v = 0; v < light.positions.size(); ++v) {
+        const Vec3 radial = {light.positions[v][0], 0, light.positions[v][2]};
+        CHECK(dot(light.normals[v], radial) > 0.9999);
+    }
+    CHECK(light.positions.size() == part.positions.size());
+}
+
 TEST_CASE("normals never point against their face and are never NaN") {
     Asset asset = pipe(4);
     for (Vec3f& n : asset.parts[0].normals) n = {-n[0], -n[1], -n[2]};
