@@ -97,6 +97,13 @@ Vector3 face_side(const SmallPart& part, const CornerNormals& normals, std::size
     return normals.turned[face] ? Vector3(-side) : side;
 }
 
+bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
+               std::size_t other_corner) {
+    const auto cluster = [&](std::size_t f, std::size_t c) { return normals.clusters[3 * f + c % 3]; };
+    return cluster(face, corner + 1) != cluster(other, other_corner + 2) &&
+           cluster(face, corner + 2) != cluster(other, other_corner + 1);
+}
+
 CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads) {
     const TriangleMesh& mesh = part.small->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();

@@ -151,7 +151,11 @@ private:
             for (std::size_t c = 0; c < 3; ++c) {
                 const Across& across = page.request_.across[triangle][c];
                 if (across.triangle == no_index) continue;
-                folds[c] = fold(c, page.request_.faces[across.triangle].face, across.corner);
+                const Index other = page.request_.faces[across.triangle].face;
+                // Beyond a crease another side begins, whose colours would run into a strip a texel wide.
+                if (!is_crease(normals_of_part, face.face, c, other, across.corner)) {
+                    folds[c] = fold(c, other, across.corner);
+                }
             }
         }
 

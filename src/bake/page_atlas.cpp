@@ -167,17 +167,6 @@ bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
     return true;
 }
 
-// An edge is a crease where the normals of both ends are split along it.
-bool creased(const BakeJob& job, const PageFace& face, std::size_t corner, const PageFace& other,
-             std::size_t other_corner) {
-    const std::vector<Index>& clusters = job.normals[face.part].clusters;
-    const auto cluster = [&](const PageFace& f, std::size_t c) {
-        return clusters[std::size_t{3} * f.face + c % 3];
-    };
-    return cluster(face, corner + 1) != cluster(other, other_corner + 2) &&
-           cluster(face, corner + 2) != cluster(other, other_corner + 1);
-}
-
 bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const std::vector<double>& density,
                     PageAtlas& result) {
     std::vector<ChartFace> shapes(faces.size());
@@ -186,8 +175,9 @@ bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const s
         for (std::size_t c = 0; c < 3; ++c) {
             shapes[i].corners[c] = mesh.positions[mesh.triangles[faces[i].face][c]];
             const Across& across = result.across[i][c];
-            shapes[i].crease[c] = across.triangle != no_index &&
-                                  creased(job, faces[i], c, faces[across.triangle], across.corner);
+            shapes[i].crease[c] =
+                across.triangle != no_index && is_crease(job.normals[faces[i].part], faces[i].face, c,
+                                                         faces[across.triangle].face, across.corner);
         }
         shapes[i].density = density[i];
         shapes[i].across = result.across[i];

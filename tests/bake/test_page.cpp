@@ -92,6 +92,41 @@ TEST_CASE("charts split few vertices, and the report says what the page is like"
     CHECK(charts.report.warnings.empty());
 }
 
+// A slab 1.5 texels thick, on every side of it another colour.
+TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
+    const std::array<Rgba, 6> colors = {{{220, 0, 0, 255},
+                                         {0, 0, 220, 255},
+                                         {120, 120, 120, 255},
+                                         {0, 200, 0, 255},
+                                         {200, 200, 0, 255},
+                                         {0, 200, 200, 255}}};
+    Asset source =
+        textured_square(paint(384, 64, [&](std::uint32_t x, std::uint32_t) { return colors[x / 64]; }));
+    Part& part = source.parts[0];
+    part = {};
+    part.uvs.resize(1);
+    const double thick = 1.5 / 48;
+    const std::array<std::array<int, 4>, 6> sides = {
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (std::size_t s = 0; s < 6; ++s) {
+        const auto first = static_cast<Index>(part.positions.size());
+        for (const int i : sides[s]) {
+            part.positions.push_back({double(i & 1), double(i >> 1 & 1), thick * (i >> 2)});
+            // As dense everywhere: 48 texels from end to end, clear of the other colours.
+            const double along = s < 2 ? double(i >> 1 & 1) : thick * (i >> 2);
+            const double across = s < 4 ? double(i & 1) : double(i >> 1 & 1);
+            part.uvs[0].push_back({static_cast<float>((64 * double(s) + 8 + 48 * along) / 384),
+                                   static_cast<float>(0.125 + 0.75 * across)});
+        }
+        part.triangles.push_back({first, first + 1, first + 2});
+        part.triangles.push_back({first, first + 2, first + 3});
+    }
+    part.face_material.assign(12, 0);
+    const auto kind = GENERATE(Bake::atlas, Bake::per_triangle);
+    const LightAsset light = bake(source, unchanged_welded(source), of_kind(kind, 128));
+    CHECK(worst_colour(source, decode(source.images[0]), light.asset, decode(light.asset.images.at(0))) < 4);
+}
+
 TEST_CASE("auto takes charts, and triangles where charts are hardly more than that") {
     Asset source = painted_ball();
     CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
