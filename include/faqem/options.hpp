@@ -171,7 +171,7 @@ enum class NormalMap {
 
 /// Appearance of the result; used by the asset door only.
 struct BakeOptions {
-    Bake kind = Bake::per_triangle;
+    Bake kind = Bake::automatic;
     /// Largest side of a baked image in texels, a power of two in [64, 16384].
     std::uint32_t texture_size = 2048;
     NormalMap normal_map = NormalMap::automatic;

@@ -51,7 +51,9 @@ Result cancelled() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}
 
 Result make(const BatchFile& file, const BatchWork& work, BatchEntry entry, Overwrite overwrite) {
     Asset source = load_model(file.in, work.strictness);
-    LightAsset light = simplify_model(source, file.in, work.options);
+    Options options = work.options;
+    options.bake.kind = bake_for(options.bake.kind, source, file.out);
+    LightAsset light = simplify_model(source, file.in, options);
     const Report& report = light.report;
     if (report.stop == StopReason::cancelled) return cancelled();
     Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, source.warnings};

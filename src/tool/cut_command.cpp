@@ -95,9 +95,11 @@ void check_source(const Asset& source, const SmallParts& small) {
 
 Asset with_look(const Arguments& arguments, const SmallParts& small, const Options& options) {
     const Asset source = load_model(arguments.source, arguments.strictness());
+    Options as_baked = options;
+    as_baked.bake.kind = bake_for(options.bake.kind, source, arguments.out);
     return naming(arguments.source, [&] {
         check_source(source, small);
-        return bake(source, small, options).asset;
+        return bake(source, small, as_baked).asset;
     });
 }
 

@@ -146,7 +146,8 @@ void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
 void add_look_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option(
         "--bake", a.bake,
-        "Where colours go: per-triangle (default), atlas (charts), auto (one of these), vertex, keep, none");
+        "Where colours go: auto (default: atlas or per-triangle; see docs/baking.md), atlas (charts), "
+        "per-triangle, vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
                        "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
     command.add_option("--normal-map", a.normal_map,

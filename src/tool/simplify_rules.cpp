@@ -1,5 +1,7 @@
 #include "tool/simplify_rules.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <sstream>
 
@@ -15,6 +17,18 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     if (faces == 0) throw InputError(file.string(), "", "has no triangles");
     if (strictness == Strictness::strict) require_clean(asset, file.string());
     return asset;
+}
+
+Bake bake_for(Bake kind, const Asset& source, const std::filesystem::path& out) {
+    if (kind != Bake::automatic) return kind;
+    std::string ending = out.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool bare = source.materials.empty() && std::all_of(source.parts.begin(), source.parts.end(),
+                                                              [](const Part& p) { return p.colors.empty(); });
+    if (ending == ".stl") return Bake::none;
+    if (ending == ".ply") return bare ? Bake::none : Bake::vertex;
+    return ending == ".obj" && bare ? Bake::none : kind;
 }
 
 LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,

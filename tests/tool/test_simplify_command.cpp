@@ -66,6 +66,33 @@ TEST_CASE("simplify writes a lighter model, a report and a summary") {
     CHECK(report["peak_rss_bytes"] > 1'000'000);
 }
 
+TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY takes colours to its vertices") {
+    const Folder folder;
+    faqem::Asset bare = sheet(12);
+    for (faqem::Part& part : bare.parts) {
+        part.face_material.clear();
+        part.uvs.clear();
+        part.normals.clear();
+    }
+    bare.materials.clear();
+    bare.images.clear();
+    faqem::save(bare, folder / "bare.ply");
+    faqem::save(sheet(12), folder / "painted.glb");
+    const auto pages = [&](const std::string& files) {
+        CAPTURE(files);
+        const Outcome outcome = run(folder, "simplify " + files + " --ratio 0.5 --report r.json --force");
+        CHECK(outcome.code == 0);
+        return Json::parse(read(folder / "r.json"))["pages"].size();
+    };
+    CHECK(pages("bare.ply bare.glb --normal-map on") == 1);
+    CHECK(pages("bare.ply out.ply --normal-map on") == 0);
+    CHECK(pages("bare.ply out.stl --normal-map on") == 0);
+    CHECK(pages("bare.ply out.obj --normal-map on") == 0);
+    CHECK(pages("painted.glb out.obj") == 1);
+    CHECK(pages("painted.glb painted.ply") == 0);
+    CHECK_FALSE(faqem::load(folder / "painted.ply").parts[0].colors.empty());
+}
+
 TEST_CASE("every choice on the command line is taken") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
