@@ -33,6 +33,7 @@ struct Arranged {
 };
 
 /// Vertices in Morton order of their places (ties by index), faces by their first vertex in it. O(n log n)
-Arranged arrange(const Prepared& prepared);
+/// \throws what the poll throws
+Arranged arrange(const Prepared& prepared, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -62,25 +62,25 @@ struct Error {
 class EdgeSearch {
 public:
     EdgeSearch(const LightMesh& light, const StillSurface& original, const GapsBack& even,
-               const GapsBack& corners, double area, std::uint32_t threads)
+               const GapsBack& corners, double area, Workers workers)
         : light_(light),
           original_(original),
           even_(even),
           corners_(corners),
           weight_(area / static_cast<double>(std::max<std::size_t>(even.size(), 1))),
-          threads_(threads),
-          sides_(sorted_sides(light.triangles)) {
+          workers_(workers),
+          sides_(sorted_sides(light.triangles, workers.poll)) {
         bind();
     }
 
     std::vector<EdgeSwap> operator()() {
         std::vector<Candidate> candidates = find_candidates();
-        parallel_blocks(candidates.size(), 64, threads_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(candidates.size(), 64, workers_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) look_back(candidates[i]);
         });
         std::erase_if(candidates, [](const Candidate& c) { return !(c.after.sum <= c.before.sum); });
         measure_faces(candidates);
-        parallel_blocks(candidates.size(), 16, threads_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(candidates.size(), 16, workers_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) look_there(candidates[i]);
         });
         return choose(candidates);
@@ -107,9 +107,13 @@ private:
             return i < even_.size() ? even_.spot(i).face : corners_.spot(i - even_.size()).face;
         };
         bound_ = Buckets<std::size_t>(light_.triangles.size(), [&](auto&& put) {
-            for (std::size_t i = 0; i < points; ++i) put(face(i), i);
+            for (std::size_t i = 0; i < points; ++i) {
+                workers_.poll();
+                put(face(i), i);
+            }
         });
         for (std::size_t i = 0; i < points; ++i) {
+            workers_.poll();
             const Vector3& gap = i < even_.size() ? even_.gap(i) : corners_.gap(i - even_.size());
             farthest_ = std::max(farthest_, gap.squaredNorm());
         }
@@ -124,6 +128,7 @@ private:
     std::vector<Candidate> find_candidates() const {
         std::vector<Candidate> all;
         for_each_edge(sides_, [&](std::span<const Side> on) {
+            workers_.poll();
             if (on.size() != 2 || (light_.fixed[on[0].low] && light_.fixed[on[0].high])) return;
             const EdgeSwap faces = {on[0].face, on[1].face};
             if (!light_.groups.empty() && light_.groups[faces[0]] != light_.groups[faces[1]]) return;
@@ -214,10 +219,10 @@ private:
     void measure_faces(std::span<const Candidate> candidates) {
         std::vector<Index> wanted;
         for (const Candidate& c : candidates) wanted.insert(wanted.end(), c.faces.begin(), c.faces.end());
-        std::sort(wanted.begin(), wanted.end());
+        std::sort(wanted.begin(), wanted.end(), engine::polled_less(workers_.poll));
         wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
         from_face_.resize(light_.triangles.size());
-        parallel_blocks(wanted.size(), 64, threads_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(wanted.size(), 64, workers_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 from_face_[wanted[i]] = from(light_.triangles[wanted[i]]);
             }
@@ -242,11 +247,15 @@ private:
     std::vector<EdgeSwap> choose(std::vector<Candidate>& candidates) const {
         std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
         std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+                         [this](const Candidate& a, const Candidate& b) {
+                             workers_.poll();
+                             return a.gain > b.gain;
+                         });
         std::vector<EdgeSwap> chosen;
         std::vector<std::uint8_t> swapped(light_.triangles.size(), 0);
         std::set<std::pair<Index, Index>> made;
         for (const Candidate& c : candidates) {
+            workers_.poll();
             const Quadrilateral& q = c.corners;
             bool is_free = true;
             for (const auto& [v, w] : {std::pair(q.a, q.b), std::pair(q.b, q.c), std::pair(q.c, q.a),
@@ -265,7 +274,7 @@ private:
     const GapsBack& even_;
     const GapsBack& corners_;
     double weight_;  // area of an even point
-    std::uint32_t threads_;
+    Workers workers_;
     std::vector<Side> sides_;
     double farthest_ = 0;           // squared
     Buckets<std::size_t> bound_;    // the original's points by the faces that they are closest to
@@ -275,8 +284,8 @@ private:
 }  // namespace
 
 std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
-                                   const GapsBack& corners, double area, std::uint32_t threads) {
-    return EdgeSearch(light, original, even, corners, area, threads)();
+                                   const GapsBack& corners, double area, Workers workers) {
+    return EdgeSearch(light, original, even, corners, area, workers)();
 }
 
 }  // namespace faqem::detail

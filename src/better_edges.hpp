@@ -27,10 +27,10 @@ using EdgeSwap = std::array<Index, 2>;
 /// of the same winding. No two of them touch each other, so that all may be swapped. \param light     is
 /// swapped as it is now \param original  the surface it should be close to \param even      points spread
 /// evenly over the original, measured where light is now \param corners   the original's vertices, measured
-/// likewise: only the farthest counts \param area      of the original \param threads   0: all; the result
+/// likewise: only the farthest counts \param area      of the original \param workers   0: all; the result
 /// does not depend on it \return in order of what they gain Source: Hoppe et al. 1993, Mesh Optimization (the
 /// operation). O(n log n)
 std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
-                                   const GapsBack& corners, double area, std::uint32_t threads);
+                                   const GapsBack& corners, double area, Workers workers);
 
 }  // namespace faqem::detail

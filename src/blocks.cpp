@@ -17,6 +17,7 @@ namespace faqem::detail {
 namespace {
 
 using engine::Complex;
+using engine::Poll;
 using engine::Vector3;
 
 // Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
@@ -28,18 +29,19 @@ constexpr double spare_share = 1.15;
 
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
-    explicit Blocks(const BlockInput& input)
+    Blocks(const BlockInput& input, Poll poll)
         : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
-        for_each(input, [&](std::size_t block, Index) { ++begin[block + 1]; });
+        for_each(input, poll, [&](std::size_t block, Index) { ++begin[block + 1]; });
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
         faces.resize(begin.back());
         std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-        for_each(input, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
+        for_each(input, poll, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
     }
 
     template <class Visit>
-    static void for_each(const BlockInput& input, Visit&& visit) {
+    static void for_each(const BlockInput& input, Poll poll, Visit&& visit) {
         for (Index f = 0; f < input.triangles.size(); ++f) {
+            poll();
             const Triangle& t = input.triangles[f];
             const std::size_t a = input.block_of(t[0]), b = input.block_of(t[1]), c = input.block_of(t[2]);
             visit(a, f);
@@ -159,15 +161,19 @@ private:
     std::size_t before_ = 0;
 };
 
-/// Tells the user's callback on the calling thread how far all blocks are.
+/// Tells the user's callback on the calling thread how far all blocks are; the others ask their poll.
 class SharedProgress {
 public:
     SharedProgress(const engine::LoopOptions& loop, std::size_t all) : loop_(loop), all_(all) {}
 
     /// \param known  what the caller had removed when it called last
-    Continue operator()(std::size_t removed, std::size_t& known) {
+    /// \throws what the poll throws, and what the callback does
+    Continue operator()(std::size_t removed, std::size_t& known, Poll poll) {
         removed_ += removed - std::exchange(known, removed);
-        if (loop_.progress && std::this_thread::get_id() == caller_ && !is_cancelled_) ask();
+        if (std::this_thread::get_id() != caller_)
+            poll.now();
+        else if (loop_.progress && !is_cancelled_)
+            ask();
         return is_cancelled_ ? Continue::cancel : Continue::yes;
     }
     bool is_cancelled() const { return is_cancelled_; }
@@ -237,10 +243,10 @@ struct Lineages {
 
 template <class Metric>
 Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
-                    Recording patches, SharedProgress& progress) {
+                    Recording patches, SharedProgress& progress, Poll poll) {
     Done done;
-    Complex complex(block.positions, block.triangles);
-    engine::PairTable pairs(complex, {});
+    Complex complex(block.positions, block.triangles, poll);
+    engine::PairTable pairs(complex, {}, poll);
     engine::Wedges wedges;
     StepRecorder recorder(block, patches, done);
     engine::LoopOptions options = loop;
@@ -251,13 +257,13 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     const std::size_t to_remove = complex.face_count() - std::min(options.target_faces, complex.face_count());
     std::size_t known = 0;
     options.progress = [&](double fraction) {
-        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known);
+        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
     };
     engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
                                                                      metric, recorder);
     done.result = engine.run(options);
     recorder.end_step(complex);
-    progress(to_remove, known);
+    progress(to_remove, known, poll);
     return done;
 }
 
@@ -334,7 +340,7 @@ std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
 }
 
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              const BlockTracking* tracking, Recording patches, std::uint32_t threads) {
+                              const BlockTracking* tracking, Recording patches, Workers workers) {
     BlockSteps result;
     if (input.positions.size() <= 2 * input.per_block) return result;
     const std::size_t faces = input.triangles.size();
@@ -343,15 +349,16 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     const double kept_share = waiting + (1 - waiting) * share;
     if (!(kept_share < 0.75)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
-    const Blocks blocks(input);
+    const Blocks blocks(input, workers.poll);
     SharedProgress progress(loop, removable);
     const Lineages lineages(input, tracking, blocks.count());
     std::vector<Done> done(blocks.count());
-    parallel_blocks(blocks.count(), 1, threads, [&](std::size_t b, std::size_t) {
+    parallel_blocks(blocks.count(), 1, workers, [&](std::size_t b, std::size_t, Poll poll) {
         if (progress.is_cancelled()) return;
         Block block(input, blocks, b);
         const auto simplify = [&](auto metric) {
-            return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress);
+            return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress,
+                                  poll);
         };
         if (!tracking) {
             done[b] = simplify(engine::MemorylessMetric());
@@ -370,23 +377,25 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     return result;
 }
 
-Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps) {
+Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll poll) {
     SlotTrace trace(input.positions.size());
     std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
     for (const auto& [survivor, gone, to] : steps) {
+        poll();
         trace.collapsing(survivor, gone, positions[survivor], positions[gone], to);
         positions[survivor] = to;
     }
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < input.triangles.size(); ++f) {
+        poll();
         const Triangle& t = input.triangles[f];
         const Triangle now = {trace.root(t[0]), trace.root(t[1]), trace.root(t[2])};
         if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
         faces.push_back(f);
         triangles.push_back(now);
     }
-    return reduced(std::move(faces), std::move(triangles), positions, trace);
+    return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
 }
 
 }  // namespace faqem::detail

@@ -11,6 +11,7 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/original.hpp"
 #include "faqem/options.hpp"
+#include "parallel.hpp"
 #include "reduced.hpp"
 
 namespace faqem::detail {
@@ -77,13 +78,13 @@ struct BlockInput {
 /// \param least    faces to keep, at least: of what is dense between the blocks, a share only
 /// \param tracking null: with the memoryless metric
 /// \param patches  whether to collect the faces of each step
-/// \param threads  at most; 0: all there are. The result does not depend on it.
+/// \param workers  the result does not depend on how many
 /// \return no steps for a surface of one or two blocks, or where little would be gained
 /// O(n) on each thread, for all their vertices
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              const BlockTracking* tracking, Recording patches, std::uint32_t threads);
+                              const BlockTracking* tracking, Recording patches, Workers workers);
 
-/// Does the steps. O(n)
-Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps);
+/// Does the steps. \throws what the poll throws. O(n)
+Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -9,6 +9,7 @@ namespace faqem::detail {
 
 namespace {
 
+using engine::Poll;
 using engine::Vector3;
 
 constexpr int bins = 16;
@@ -57,6 +58,7 @@ struct Bvh::Build {
     };
 
     std::vector<Item> items;
+    Poll poll;
 
     /// Surface-area heuristic over bins of the longest axis; returns begin where it finds no split.
     std::uint32_t split_by_area(const Range& range, const Box& centres, int axis) {
@@ -68,6 +70,7 @@ struct Bvh::Build {
         std::array<Box, bins> boxes;
         std::array<std::uint32_t, bins> counts = {};
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            poll();
             const auto bin = static_cast<std::size_t>(bin_of(items[i]));
             boxes[bin].add(items[i].box);
             ++counts[bin];
@@ -96,8 +99,11 @@ struct Bvh::Build {
             }
         }
         if (best < 0) return range.begin;
-        const auto middle = std::partition(items.begin() + range.begin, items.begin() + range.end,
-                                           [&](const Item& item) { return bin_of(item) <= best; });
+        const auto middle =
+            std::partition(items.begin() + range.begin, items.begin() + range.end, [&](const Item& item) {
+                poll();
+                return bin_of(item) <= best;
+            });
         return static_cast<std::uint32_t>(middle - items.begin());
     }
 
@@ -105,6 +111,7 @@ struct Bvh::Build {
     std::uint32_t halve(const Range& range, int axis) {
         const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
         const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
+        poll(range.size());
         std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                          [axis](const Item& a, const Item& b) {
                              return std::pair(a.centre[axis], a.triangle) <
@@ -115,7 +122,10 @@ struct Bvh::Build {
 
     std::uint32_t split(const Range& range) {
         Box centres;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) centres.add(items[i].centre);
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            poll();
+            centres.add(items[i].centre);
+        }
         int axis = 0;
         (centres.high - centres.low).maxCoeff(&axis);
         if (range.size() > short_range && range.depth < sah_levels) {
@@ -143,11 +153,13 @@ struct Bvh::Build {
 };
 
 template <class Positions>
-std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles) {
+std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles,
+                                       Poll poll) {
     std::vector<Corners> all;
     all.reserve(triangles.size());
     const auto place = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
     for (std::size_t f = 0; f < triangles.size(); ++f) {
+        poll();
         const auto [a, b, c] = triangles[f];
         if (a == no_index || b == no_index || c == no_index) continue;
         all.push_back({place(a), place(b), place(c), static_cast<Index>(f)});
@@ -155,11 +167,11 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
     return all;
 }
 
-Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles)
-    : Bvh(corners(positions, triangles)) {}
+Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, Poll poll)
+    : Bvh(corners(positions, triangles, poll), poll) {}
 
-Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles)
-    : Bvh(corners(positions, triangles)) {}
+Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll)
+    : Bvh(corners(positions, triangles, poll), poll) {}
 
 namespace {
 
@@ -188,13 +200,14 @@ float Bvh::limit_in_frame(double distance_squared) const {
            std::numeric_limits<float>::min();
 }
 
-Bvh::Bvh(std::vector<Corners> triangles) {
+Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
     if (triangles.empty()) return;
     assert(triangles.size() < leaf_bit);
-    Build build;
+    Build build{{}, poll};
     build.items.reserve(triangles.size());
     Box whole;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        poll();
         Build::Item item;
         for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
         item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
@@ -224,20 +237,22 @@ Bvh::Bvh(std::vector<Corners> triangles) {
             }
         }
     }
-    fit_boxes();
+    fit_boxes(poll);
 }
 
-void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
+void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll) {
     for (Corners& t : triangles_) {
+        poll();
         const auto [a, b, c] = triangles[t.face];
         t.a = positions[a], t.b = positions[b], t.c = positions[c];
     }
-    fit_boxes();
+    fit_boxes(poll);
 }
 
-void Bvh::fit_boxes() {
+void Bvh::fit_boxes(Poll poll) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
+        poll();
         Node& node = nodes_[n];
         for (std::size_t i = 0; i < 3; ++i) node.low[i].fill(infinity), node.high[i].fill(-infinity);
         for (std::uint32_t k = 0; k < node.count; ++k) {

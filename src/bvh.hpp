@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 #include "triangle.hpp"
 
@@ -24,14 +25,16 @@ public:
     /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without
     ///                   area count as the segment or point that they are.
     /// \pre fewer than 2^31 triangles
-    /// Keeps copies. O(n log n) time, about 140 bytes per face.
-    Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
-    Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
+    /// Keeps copies. O(n log n) time, about 140 bytes per face. \throws what the poll throws
+    Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, engine::Poll poll = {});
+    Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
+        engine::Poll poll = {});
 
     /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
     /// \param triangles  those of the constructor
-    /// O(n)
-    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
+    /// \throws what the poll throws: then the tree is of no use any more. O(n)
+    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
+               engine::Poll poll = {});
 
     /// A point of the mesh.
     struct Hit {
@@ -121,12 +124,13 @@ private:
     static constexpr std::size_t sah_levels = 48, max_depth = sah_levels + 32;
 
     template <class Positions>
-    static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles);
+    static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles,
+                                        engine::Poll poll);
 
     struct Build;
 
-    explicit Bvh(std::vector<Corners> triangles);
-    void fit_boxes();
+    Bvh(std::vector<Corners> triangles, engine::Poll poll);
+    void fit_boxes(engine::Poll poll);
 
     /// A squared distance in the frame, rounded up.
     float limit_in_frame(double distance_squared) const;

@@ -39,7 +39,7 @@ struct Attempt : Result {
 /// \tparam Out     has the members of SimplifiedLevel
 /// \param faces    of the original
 /// \param run      (targets, Options) -> results, as run_to()
-/// \param measure  (Result, allowed, Look) -> Distance
+/// \param measure  (Result, allowed, Look, Poll) -> Distance
 template <class Out, class Run, class Measure>
 std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, std::uint64_t faces,
                            Run&& run, Measure&& measure) {
@@ -49,7 +49,8 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
     Options own = options;
     if (options.progress) {
         own.progress = [&](Phase phase, double fraction) {
-            return options.progress(phase, (steps_done + fraction) / static_cast<double>(searches + 1));
+            const double done = phase == Phase::simplify ? fraction : 0;
+            return options.progress(Phase::simplify, (steps_done + done) / static_cast<double>(searches + 1));
         };
     }
 
@@ -72,7 +73,9 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
                 targets.pop_back();
                 return attempt;
             },
-            [&](const Result& result, Look look) { return measure(result, goals[i].allowed, look); });
+            [&](const Result& result, Look look, Poll poll) {
+                return measure(result, goals[i].allowed, look, poll);
+            });
         targets.push_back(found.target);
         out[i].result = std::move(found);
         if (out[i].result.report.stop == StopReason::cancelled) {
@@ -96,20 +99,30 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
     }
     const bool is_cancelled = !results.empty() && results.back().report.stop == StopReason::cancelled;
     double largest = 0;
+    const auto done = [&](std::size_t levels) {
+        return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out.size());
+    };
+    // False: cancelled.
+    const auto take_measure = [&](std::size_t i) {
+        try {
+            const AskMeanwhile meanwhile(own, done(i));
+            const Distance found = measure(out[i].result, goals[i].allowed, Look::in_full, meanwhile.poll());
+            out[i].distance = found.value;
+            out[i].error = found.bound;
+            return true;
+        } catch (const engine::Cancelled&) {
+            return false;
+        }
+    };
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (goals[i].faces) out[i].result = std::move(results[i]);
         if (is_cancelled && i + 1 == out.size()) {
             out[i].result.report.stop = StopReason::cancelled;
             break;
         }
-        if (goals[i].faces) {
-            const Distance found = measure(out[i].result, goals[i].allowed, Look::in_full);
-            out[i].distance = found.value;
-            out[i].error = found.bound;
-        }
+        const bool goes_on = !goals[i].faces || take_measure(i);
         largest = out[i].error = std::max(out[i].error, largest);
-        const double done = 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(out.size());
-        if (own.progress && own.progress(Phase::simplify, done) == Continue::cancel) {
+        if (!goes_on || (own.progress && own.progress(Phase::simplify, done(i + 1)) == Continue::cancel)) {
             out[i].result.report.stop = StopReason::cancelled;
             out.resize(i + 1);
         }

@@ -9,11 +9,12 @@ namespace {
 
 // What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
 // whichever level of a chain comes first to ask.
-void to_model_units(const Prepared& prepared, std::vector<Collapse>& collapses) {
-    std::vector<engine::Vector3> at = prepared.engine_positions();
+void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions(poll);
     std::vector<Index> place(at.size());
     std::iota(place.begin(), place.end(), Index{0});
     for (Collapse& collapse : collapses) {
+        poll();
         const engine::Vector3 to = engine::to_eigen(collapse.position);
         Index original = no_index;
         if (to == at[collapse.first])
@@ -30,16 +31,18 @@ void to_model_units(const Prepared& prepared, std::vector<Collapse>& collapses) 
 
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
-                           std::span<const Index> places, SimplifyResult& result) {
+                           std::span<const Index> places, engine::Poll poll, SimplifyResult& result) {
     std::vector<Index> slots;
     std::vector<Vec3> position(complex.vertex_slots());
     for (Index v = 0; v < position.size(); ++v) {
+        poll();
         const Index at = places[v];
         position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(complex.position(v));
     }
     std::vector<Index> slot_of_face(mesh.triangles.size(), no_index);
     std::vector<Index> slot_of_vertex(prepared.positions.size(), no_index);
     for (Index f = 0; f < complex.face_slots(); ++f) {
+        poll();
         if (!complex.alive(f)) continue;
         const Triangle& t = complex.triangle(f);
         if (has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
@@ -52,6 +55,7 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
     TriangleMesh& out = result.mesh;
     std::vector<Index> vertex(complex.vertex_slots(), no_index);
     for (Index v = 0; v < slot_of_vertex.size(); ++v) {
+        poll();
         const Index slot = slot_of_vertex[v];
         if (slot == no_index) continue;
         vertex[slot] = static_cast<Index>(out.positions.size());
@@ -60,6 +64,7 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
         slots.push_back(slot);
     }
     for (Index f = 0; f < slot_of_face.size(); ++f) {
+        poll();
         const Index slot = slot_of_face[f];
         if (slot == no_index) continue;
         const Triangle& t = complex.triangle(slot);
@@ -75,9 +80,10 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
     return slots;
 }
 
-void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResult& result) {
+void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll poll,
+                    SimplifyResult& result) {
     CollapseHistory& history = result.history;
-    to_model_units(prepared, history.collapses);
+    to_model_units(prepared, poll, history.collapses);
     history.positions = prepared.positions;
     history.triangles = prepared.triangles;
     // What was pruned is deleted before the first collapse.

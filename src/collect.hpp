@@ -19,17 +19,18 @@ namespace faqem::detail {
 /// \param now     the slots of the complex
 /// \param places  of each vertex slot: the vertex of the prepared mesh whose place it has, or no_index
 /// \return the slot of each vertex of the result
-/// O(n)
+/// \throws what the poll throws. O(n)
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
-                           std::span<const Index> places, SimplifyResult& result);
+                           std::span<const Index> places, engine::Poll poll, SimplifyResult& result);
 
 /// Fills what the recorder left open in the history of the result, and brings it to model units.
 /// \param result  its mesh not relaxed; of its history the collapses, their patches, the deleted faces and
 /// the
 ///                kept versions
-/// O(n)
-void finish_history(const MeshView& mesh, const Prepared& prepared, SimplifyResult& result);
+/// \throws what the poll throws. O(n)
+void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll poll,
+                    SimplifyResult& result);
 
 /// Adds to the history of the result where its vertices went in the end, and which edges were swapped.
 /// \param swaps  of faces of the result

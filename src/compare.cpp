@@ -44,7 +44,7 @@ detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint3
     return {.tolerance = tolerance,
             .floor = detail::gap_floor * diagonal,
             .max_pieces = HausdorffOptions{}.max_pieces,
-            .threads = threads};
+            .workers = threads};
 }
 
 OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, const CompareOptions& options,

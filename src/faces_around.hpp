@@ -6,6 +6,7 @@
 #include <span>
 
 #include "buckets.hpp"
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -15,10 +16,13 @@ using FacesAround = Buckets<Index>;
 
 /// \param vertices   their number
 /// \param triangles  a triangle with no_index corners is none
+/// \throws what the poll throws
 /// O(vertices + faces)
-inline FacesAround faces_around(std::size_t vertices, std::span<const Triangle> triangles) {
+inline FacesAround faces_around(std::size_t vertices, std::span<const Triangle> triangles,
+                                engine::Poll poll = {}) {
     return FacesAround(vertices, [&](auto&& put) {
         for (Index f = 0; f < triangles.size(); ++f) {
+            poll();
             if (triangles[f][0] == no_index) continue;
             for (const Index v : triangles[f]) put(v, f);
         }

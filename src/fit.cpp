@@ -74,15 +74,21 @@ void add(const Pull& pull, double weight, FaceSystem& face) {
 }
 
 std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power,
-                                     std::uint32_t threads) {
+                                     Workers workers) {
     double mean = 0;
-    for (const Pull& pull : pulls) mean += pull.gap.norm();
+    for (const Pull& pull : pulls) {
+        workers.poll();
+        mean += pull.gap.norm();
+    }
     mean /= static_cast<double>(std::max<std::size_t>(pulls.size(), 1));
     const Buckets<std::size_t> by_face(faces, [&](auto&& put) {
-        for (std::size_t i = 0; i < pulls.size(); ++i) put(pulls[i].spot.face, i);
+        for (std::size_t i = 0; i < pulls.size(); ++i) {
+            workers.poll();
+            put(pulls[i].spot.face, i);
+        }
     });
     std::vector<FaceSystem> all(faces);
-    parallel_blocks(faces, 512, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces, 512, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             for (const std::size_t i : by_face[f]) {
                 const double distance = std::max(pulls[i].gap.norm(), least_distance * mean);
@@ -97,15 +103,17 @@ std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pu
 class System {
 public:
     System(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-           std::span<const std::uint8_t> fixed, double power, std::uint32_t threads)
+           std::span<const std::uint8_t> fixed, double power, Workers workers)
         : triangles_(triangles),
-          faces_(face_systems(triangles.size(), pulls, power, threads)),
+          faces_(face_systems(triangles.size(), pulls, power, workers)),
           free_(fixed.size()),
           own_(fixed.size()),
           inverse_(fixed.size(), Matrix3::Zero()),
-          right_(fixed.size(), Vector3::Zero()) {
+          right_(fixed.size(), Vector3::Zero()),
+          poll_(workers.poll) {
         for (std::size_t v = 0; v < free_.size(); ++v) free_[v] = !fixed[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
+            poll_();
             if (triangles_[f][0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 own_[triangles_[f][k]].add(1, faces_[f].own[k]);
@@ -120,6 +128,7 @@ public:
     void multiply(std::span<const Vector3> x, std::vector<Vector3>& result) const {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = own_[v] * x[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
+            poll_();
             const Triangle& t = triangles_[f];
             if (t[0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -146,6 +155,7 @@ private:
         }
         const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(free_.size(), 1));
         for (std::size_t v = 0; v < free_.size(); ++v) {
+            poll_();
             if (!free_[v]) {
                 right_[v].setZero();
                 continue;
@@ -162,6 +172,7 @@ private:
     std::vector<Symmetric3> own_;
     std::vector<Matrix3> inverse_;
     std::vector<Vector3> right_;
+    Poll poll_;
 };
 
 double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
@@ -173,8 +184,8 @@ double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
 }  // namespace
 
 std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                  std::span<const std::uint8_t> fixed, double power, std::uint32_t threads) {
-    const System system(triangles, pulls, fixed, power, threads);
+                                  std::span<const std::uint8_t> fixed, double power, Workers workers) {
+    const System system(triangles, pulls, fixed, power, workers);
     const std::size_t size = fixed.size();
     std::vector<Vector3> x(size, Vector3::Zero()), residual = system.right(), direction(size), along(size),
                                                    eased(size);

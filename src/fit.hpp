@@ -9,6 +9,7 @@
 
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
+#include "parallel.hpp"
 #include "spots.hpp"
 
 namespace faqem::detail {
@@ -26,11 +27,10 @@ struct Pull {
 /// \param triangles  a triangle with no_index corners is none
 /// \param fixed      one per vertex: nonzero stays
 /// \param power      p: what gets smaller is the sum of d^(2 + p); >= 0
-/// \param threads    0: all; the result does not depend on it
+/// \param workers    the result does not depend on how many
 /// \return one step per vertex; not finite where the system cannot be solved
 /// O(pulls + faces), and at most 60 steps of conjugate gradients
 std::vector<engine::Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                          std::span<const std::uint8_t> fixed, double power,
-                                          std::uint32_t threads);
+                                          std::span<const std::uint8_t> fixed, double power, Workers workers);
 
 }  // namespace faqem::detail

@@ -16,14 +16,18 @@ class FoldGuard {
 public:
     /// \param mesh        as it is at the start; its triangles are referred to
     /// \param least_fold  cosine between the faces' normals below which an edge is a fold
+    /// \throws what the poll throws
     /// O(faces log faces)
-    FoldGuard(const Patchwork& mesh, double least_fold);
+    FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll = {});
 
-    /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now. O(faces)
+    /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now. \throws what the poll
+    /// throws. O(faces)
     template <class Visit>
-    void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit) const {
-        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_});
+    void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit,
+                       engine::Poll poll = {}) const {
+        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_}, poll);
         for (const Edge& edge : edges_) {
+            poll();
             if (is_fold(edge, normals)) visit(triangles_[edge.faces[0]], triangles_[edge.faces[1]]);
         }
     }

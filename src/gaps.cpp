@@ -66,16 +66,20 @@ Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p
 
 /// What search_farthest() does, with search(i) for gap i.
 template <class Gap, class Search>
-void search_farthest_of(std::span<const Gap> gaps, double share, std::uint32_t threads, Search&& search) {
+void search_farthest_of(std::span<const Gap> gaps, double share, Workers workers, Search&& search) {
     while (true) {
         double longest = 0;
-        for (const Gap& gap : gaps) longest = std::max(longest, gap.gap.squaredNorm());
+        for (const Gap& gap : gaps) {
+            workers.poll();
+            longest = std::max(longest, gap.gap.squaredNorm());
+        }
         std::vector<std::size_t> far;
         for (std::size_t i = 0; i < gaps.size(); ++i) {
+            workers.poll();
             if (!gaps[i].is_found && gaps[i].gap.squaredNorm() > share * share * longest) far.push_back(i);
         }
         if (far.empty()) return;
-        parallel_blocks(far.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(far.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) search(far[i]);
         });
     }
@@ -83,9 +87,10 @@ void search_farthest_of(std::span<const Gap> gaps, double share, std::uint32_t t
 
 /// Of each triangle: has it a corner that is not where it was? All of them where nothing was before.
 std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, std::span<const Vector3> from,
-                                          std::span<const Vector3> to) {
+                                          std::span<const Vector3> to, Poll poll) {
     std::vector<std::uint8_t> moved(triangles.size(), 0);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
+        poll();
         if (triangles[f][0] == no_index) continue;
         for (const Index v : triangles[f]) moved[f] |= from.empty() || from[v] != to[v];
     }
@@ -94,10 +99,10 @@ std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, s
 
 }  // namespace
 
-void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t threads) {
-    const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
+void GapsThere::move_to(std::span<const Vector3> positions, Workers workers) {
+    const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions, workers.poll);
     positions_.assign(positions.begin(), positions.end());
-    parallel_blocks(spots_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(spots_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (!moved[spots_[i].face] && gaps_[i].face != no_index) continue;
             const Index last = gaps_[i].face;
@@ -111,8 +116,8 @@ void GapsThere::move_to(std::span<const Vector3> positions, std::uint32_t thread
     });
 }
 
-void GapsThere::search_farthest(double share, std::uint32_t threads) {
-    search_farthest_of<Gap>(gaps_, share, threads, [&](std::size_t i) { search(i, gaps_[i].face); });
+void GapsThere::search_farthest(double share, Workers workers) {
+    search_farthest_of<Gap>(gaps_, share, workers, [&](std::size_t i) { search(i, gaps_[i].face); });
 }
 
 void GapsThere::search(std::size_t i, Index near) {
@@ -144,8 +149,8 @@ Vector3 GapsThere::normal(std::size_t i) const {
 
 Pull GapsThere::pull(std::size_t i) const { return {spots_[i], gaps_[i].gap, normal(i)}; }
 
-void GapsThere::measure_turns(double tolerance, std::uint32_t threads) {
-    parallel_blocks(spots_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+void GapsThere::measure_turns(double tolerance, Workers workers) {
+    parallel_blocks(spots_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Gap& gap = gaps_[i];
             if (!(gap.turn < 0)) continue;
@@ -164,22 +169,23 @@ void GapsThere::measure_turns(double tolerance, std::uint32_t threads) {
     });
 }
 
-void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads,
+void GapsBack::move_to(std::span<const Vector3> positions, Workers workers,
                        std::span<const std::uint8_t> swapped) {
-    if (positions_.empty()) return start_at(positions, threads);
-    std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
+    if (positions_.empty()) return start_at(positions, workers);
+    std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions, workers.poll);
     for (std::size_t f = 0; f < swapped.size(); ++f) moved[f] |= swapped[f];
-    if (!swapped.empty()) around_ = faces_around(positions.size(), triangles_);
+    if (!swapped.empty()) around_ = faces_around(positions.size(), triangles_, workers.poll);
     positions_.assign(positions.begin(), positions.end());
     tree_is_behind_ = true;
     std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
+        workers.poll();
         if (!moved[f]) continue;
         for (const Index v : triangles_[f]) {
             for (const Index neighbour : around_[v]) to_measure[neighbour] = 1;
         }
     }
-    parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(points_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Spot& last = gaps_[i].spot;
             gaps_[i].is_found = false;  // faces that were far away may have come near
@@ -190,18 +196,18 @@ void GapsBack::move_to(std::span<const Vector3> positions, std::uint32_t threads
     });
 }
 
-void GapsBack::start_at(std::span<const Vector3> positions, std::uint32_t threads) {
-    around_ = faces_around(positions.size(), triangles_);
+void GapsBack::start_at(std::span<const Vector3> positions, Workers workers) {
+    around_ = faces_around(positions.size(), triangles_, workers.poll);
     positions_.assign(positions.begin(), positions.end());
-    tree_.emplace(positions_, triangles_);
-    parallel_blocks(points_.size(), block, threads, [&](std::size_t begin, std::size_t end) {
+    tree_.emplace(positions_, triangles_, workers.poll);
+    parallel_blocks(points_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) search(i, i == begin ? no_index : gaps_[i - 1].spot.face);
     });
 }
 
-void GapsBack::search_farthest(double share, std::uint32_t threads) {
-    if (std::exchange(tree_is_behind_, false)) tree_->refit(positions_, triangles_);
-    search_farthest_of<Gap>(gaps_, share, threads, [&](std::size_t i) { search(i, gaps_[i].spot.face); });
+void GapsBack::search_farthest(double share, Workers workers) {
+    if (std::exchange(tree_is_behind_, false)) tree_->refit(positions_, triangles_, workers.poll);
+    search_farthest_of<Gap>(gaps_, share, workers, [&](std::size_t i) { search(i, gaps_[i].spot.face); });
 }
 
 void GapsBack::search(std::size_t i, Index near) {

@@ -13,17 +13,19 @@
 #include "bvh.hpp"
 #include "faces_around.hpp"
 #include "fit.hpp"
+#include "parallel.hpp"
 #include "spots.hpp"
 
 namespace faqem::detail {
 
 /// A surface that stays, with what is asked of it again and again. Refers to its arguments.
 struct StillSurface {
-    explicit StillSurface(const Patchwork& surface)
+    /// \throws what the poll throws
+    explicit StillSurface(const Patchwork& surface, Poll poll = {})
         : mesh(surface),
-          tree(surface.positions, surface.triangles),
-          normals(unit_normals(surface)),
-          around(faces_around(surface.positions.size(), surface.triangles)) {}
+          tree(surface.positions, surface.triangles, poll),
+          normals(unit_normals(surface, poll)),
+          around(faces_around(surface.positions.size(), surface.triangles, poll)) {}
 
     Patchwork mesh;
     Bvh tree;
@@ -41,15 +43,15 @@ public:
         : original_(original), triangles_(triangles), spots_(std::move(spots)), gaps_(spots_.size()) {}
 
     /// Measures where the mesh has moved since the last time; all of it at first.
-    /// \param threads  0: all; the result does not depend on it
+    /// \param workers  the result does not depend on how many
     /// O(spots log faces) at first, typically; then O(1) for each spot whose face has moved, where it has
     /// moved by few faces
-    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads);
+    void move_to(std::span<const engine::Vector3> positions, Workers workers);
 
     /// Searches anew where a gap is longer than a share of the longest, until all of those are what a search
     /// finds: what was followed may lead to a false farthest point. O(spots), and O(log faces) for each of
     /// them
-    void search_farthest(double share, std::uint32_t threads);
+    void search_farthest(double share, Workers workers);
 
     /// Takes other spots on some faces, whose corners may be others too.
     /// \param faces  of each triangle: nonzero has other spots now
@@ -65,7 +67,7 @@ public:
 
     /// Distance between the unit normals at spot i and at its closest point; there, of all faces that are as
     /// near but for `tolerance`, the one with the nearest normal counts. Remembered until the face moves.
-    void measure_turns(double tolerance, std::uint32_t threads);
+    void measure_turns(double tolerance, Workers workers);
     double turn(std::size_t i) const { return gaps_[i].turn; }
 
 private:
@@ -96,11 +98,11 @@ public:
 
     /// As GapsThere::move_to(), of the points whose closest face or a neighbour of it has moved. O(faces)
     /// more. \param swapped  of each triangle, or empty: nonzero has other corners than the last time
-    void move_to(std::span<const engine::Vector3> positions, std::uint32_t threads,
+    void move_to(std::span<const engine::Vector3> positions, Workers workers,
                  std::span<const std::uint8_t> swapped = {});
 
     /// As GapsThere::search_farthest(). O(faces) more.
-    void search_farthest(double share, std::uint32_t threads);
+    void search_farthest(double share, Workers workers);
 
     std::size_t size() const { return points_.size(); }
     const OrientedPoint& point(std::size_t i) const { return points_[i]; }
@@ -116,7 +118,7 @@ private:
         engine::Vector3 gap = engine::Vector3::Zero();
         bool is_found = false;  ///< by a search, not followed
     };
-    void start_at(std::span<const engine::Vector3> positions, std::uint32_t threads);
+    void start_at(std::span<const engine::Vector3> positions, Workers workers);
     void search(std::size_t i, Index near);
     void set(std::size_t i, const Bvh::Hit& hit);
 

@@ -18,14 +18,15 @@ std::vector<T> taken(const std::vector<T>& of, const std::vector<Index>& slots) 
 
 }  // namespace
 
-Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border)
-    : now_(arrange(prepared)),
+Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
+               engine::Poll poll)
+    : now_(arrange(prepared, poll)),
       into_(now_.positions.size()),
       places_(now_.vertex),
       locked_(taken(locked, now_.vertex)) {
     std::iota(into_.begin(), into_.end(), Index{0});
     if (border != Border::locked) return;
-    for (const auto& [a, b] : engine::find_open_edges(now_.triangles, now_.positions.size()))
+    for (const auto& [a, b] : engine::find_open_edges(now_.triangles, now_.positions.size(), poll))
         locked_[a] = locked_[b] = 1;
 }
 

@@ -18,10 +18,14 @@ class Ground {
 public:
     Ground() = default;
     /// \param locked  one per vertex of the prepared mesh
-    Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border);
+    /// \throws what the poll throws
+    Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
+           engine::Poll poll = {});
 
-    /// Lets engines watch the distance to what is there now. O(faces)
-    void remember_original() { original_.emplace(now_.positions, now_.triangles); }
+    /// Lets engines watch the distance to what is there now. \throws what the poll throws. O(faces)
+    void remember_original(engine::Poll poll = {}) {
+        original_.emplace(now_.positions, now_.triangles, poll);
+    }
 
     /// Goes on with what is left after some steps.
     void take(Reduced&& reduced);

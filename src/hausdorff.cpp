@@ -127,9 +127,10 @@ struct Found {
 /// allow
 void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
                  const std::vector<Nearest>& at_vertices, double enough, bool refine, std::size_t begin,
-                 std::size_t end, Found& found) {
+                 std::size_t end, Poll poll, Found& found) {
     CoherentQuery query(to, tree);
     for (std::size_t f = begin; f < end; ++f) {
+        poll();
         Piece piece;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from.triangles[f][k];
@@ -234,7 +235,7 @@ private:
 }  // namespace
 
 std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
-                                         std::uint32_t threads, double stop_above) {
+                                         Workers workers, double stop_above) {
     const std::size_t size = from.positions.size();
     std::vector<Nearest> result;
     result.reserve(size);
@@ -242,7 +243,7 @@ std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to,
     while (result.size() < size) {
         const std::size_t first = result.size();
         result.resize(std::min(size, first + interval));
-        parallel_blocks(result.size() - first, vertex_block, threads,
+        parallel_blocks(result.size() - first, vertex_block, workers,
                         [&](std::size_t begin, std::size_t end) {
                             CoherentQuery query(to, tree);
                             for (std::size_t i = first + begin; i < first + end; ++i) {
@@ -267,7 +268,10 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
         for (Found& found : blocks) {
             value_squared = std::max(value_squared, found.value_squared);
             closed_squared = std::max(closed_squared, found.closed_squared);
-            for (const Piece& piece : found.open) open.push(piece);
+            for (const Piece& piece : found.open) {
+                limits.workers.poll();
+                open.push(piece);
+            }
             found = {};
         }
     };
@@ -276,9 +280,9 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
     const bool refine = std::isfinite(limits.tolerance);
     std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
     const double enough_at_first = refine ? enough() : 0;
-    parallel_blocks(from.triangles.size(), face_block, limits.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
+    parallel_blocks(from.triangles.size(), face_block, limits.workers,
+                    [&](std::size_t begin, std::size_t end, Poll poll) {
+                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end, poll,
                                     blocks[begin / face_block]);
                     });
     join(blocks);
@@ -292,7 +296,7 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
         while (needs_work() && batch.size() < batch_size) batch.push_back(open.pop());
         const double enough_now = enough();
         blocks.resize((batch.size() + piece_block - 1) / piece_block);
-        parallel_blocks(batch.size(), piece_block, limits.threads, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(batch.size(), piece_block, limits.workers, [&](std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
                 split(to, query, batch[i], enough_now, blocks[begin / piece_block]);
@@ -314,10 +318,10 @@ Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& 
         for (const Nearest& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
         return value;
     };
-    const auto there = nearest_of_vertices(a, b, tree_b, limits.threads, limits.stop_above);
+    const auto there = nearest_of_vertices(a, b, tree_b, limits.workers, limits.stop_above);
     double value = largest(there, 0);
     if (value > limits.stop_above) return {value, unknown, 0};
-    const auto back = nearest_of_vertices(b, a, tree_a, limits.threads, limits.stop_above);
+    const auto back = nearest_of_vertices(b, a, tree_a, limits.workers, limits.stop_above);
     value = largest(back, value);
     if (value > limits.stop_above) return {value, unknown, 0};
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "parallel.hpp"
 #include "surface.hpp"
 
 namespace faqem::detail {
@@ -19,7 +20,7 @@ struct Nearest {
 /// Per position of `from` the nearest face of `to`. Ends early, with fewer entries, once one of them is
 /// farther than stop_above; how early does not depend on the number of threads.
 std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
-                                         std::uint32_t threads,
+                                         Workers workers,
                                          double stop_above = std::numeric_limits<double>::infinity());
 
 /// A gap between value and bound below this share of the diagonal is none: identical meshes have to end.
@@ -32,7 +33,7 @@ struct SearchLimits {
     double stop_above = std::numeric_limits<double>::infinity();  ///< give up once the value exceeds it
     double stop_below = 0;                                        ///< a bound this low is good enough
     std::uint64_t max_pieces = 0;                                 ///< parts of faces to look at
-    std::uint32_t threads = 0;
+    Workers workers = {};
 };
 
 /// No point of the one surface is farther than `bound` from the other, and one is `value` away.

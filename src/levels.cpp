@@ -58,21 +58,27 @@ std::vector<detail::Goal> detail::goals(const std::vector<Level>& levels, const 
 }
 
 std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::vector<Level>& levels,
-                                             const Options& options) {
+                                             const Options& options) try {
     validate(options);
-    const detail::Original original(mesh, options);
+    const detail::AskMeanwhile meanwhile(options, 0);
+    const detail::Original original(mesh, options, meanwhile.poll());
     const std::uint64_t faces = mesh.triangles.size();
-    const std::vector<detail::Goal> goals = detail::goals(levels, options, static_cast<double>(faces),
-                                                          detail::diagonal_of_all(mesh, options, original));
+    const std::vector<detail::Goal> goals =
+        detail::goals(levels, options, static_cast<double>(faces),
+                      detail::diagonal_of_all(mesh, options, original, meanwhile.poll()));
     if (goals.empty()) return {};
     return detail::run_chain<SimplifiedLevel>(
         goals, options, faces,
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
             return detail::run_to(mesh, targets, own);
         },
-        [&](const SimplifyResult& result, double allowed, detail::Look look) {
-            return detail::distance(original, result, allowed, look, options);
+        [&](const SimplifyResult& result, double allowed, detail::Look look, detail::Poll poll) {
+            return detail::distance(original, result, allowed, look, options, poll);
         });
+} catch (const engine::Cancelled&) {
+    std::vector<SimplifiedLevel> none(1);
+    none.front().result.report.stop = StopReason::cancelled;
+    return none;
 }
 
 }  // namespace faqem

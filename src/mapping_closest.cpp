@@ -6,8 +6,10 @@ namespace faqem::detail {
 
 using engine::to_eigen;
 
-ClosestPoints::ClosestPoints(const CollapseHistory& history)
-    : history_(history), replay_(replay_vertices(history)), tree_(history.positions, history.triangles) {}
+ClosestPoints::ClosestPoints(const CollapseHistory& history, engine::Poll poll)
+    : history_(history),
+      replay_(replay_vertices(history, poll)),
+      tree_(history.positions, history.triangles, poll) {}
 
 SurfacePoint ClosestPoints::found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const {
     if (hit.face == no_index) return {history_.kept_faces[face], barycentric, MapStep::closest};

@@ -13,7 +13,8 @@ namespace faqem::detail {
 /// the wrong side as often as not.
 class ClosestPoints {
 public:
-    explicit ClosestPoints(const CollapseHistory& history);
+    /// \throws what the poll throws
+    explicit ClosestPoints(const CollapseHistory& history, engine::Poll poll = {});
 
     /// Of faces at the same distance the one with the smallest index. O(log faces) typically
     SurfacePoint map(Index face, const Vec3& barycentric) const;

@@ -7,9 +7,12 @@ namespace faqem::detail {
 using engine::to_eigen;
 using engine::Vector3;
 
-LineageWalk::LineageWalk(const CollapseHistory& history)
-    : history_(history), replay_(replay_vertices(history)), first_face_(history.positions.size() + 1, 0) {
+LineageWalk::LineageWalk(const CollapseHistory& history, engine::Poll poll)
+    : history_(history),
+      replay_(replay_vertices(history, poll)),
+      first_face_(history.positions.size() + 1, 0) {
     for (const Triangle& t : history.triangles) {
+        poll();
         if (t[0] == no_index) continue;
         for (Index v : t) ++first_face_[v + std::size_t{1}];
     }
@@ -17,6 +20,7 @@ LineageWalk::LineageWalk(const CollapseHistory& history)
     faces_.resize(first_face_.back());
     std::vector<std::uint64_t> fill(first_face_.begin(), first_face_.end() - 1);
     for (std::size_t f = 0; f < history.triangles.size(); ++f) {
+        poll();
         if (history.triangles[f][0] == no_index) continue;
         for (Index v : history.triangles[f]) faces_[fill[v]++] = static_cast<Index>(f);
     }

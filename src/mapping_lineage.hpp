@@ -14,7 +14,8 @@ namespace faqem::detail {
 /// every un-collapse to the closer of the two parents, and ends at a vertex of the original.
 class LineageWalk {
 public:
-    explicit LineageWalk(const CollapseHistory& history);
+    /// \throws what the poll throws
+    explicit LineageWalk(const CollapseHistory& history, engine::Poll poll = {});
 
     /// The answer is a face at the vertex, one of the small face's material group where there is one, then
     /// the smallest index, with weight 1 at the vertex.

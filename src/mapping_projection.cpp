@@ -58,11 +58,12 @@ struct ProjectionWalk::Patch {
     Best best, best_away;
 };
 
-ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded)
+ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
+                               engine::Poll poll)
     : history_(history),
-      tree_(history.positions, history.triangles),
-      sheets_(find_sheets(history.positions, history.triangles, unwelded)),
-      replay_(replay_patches(history, sheets_.sheet)),
+      tree_(history.positions, history.triangles, poll),
+      sheets_(find_sheets(history.positions, history.triangles, unwelded, poll)),
+      replay_(replay_patches(history, sheets_.sheet, poll)),
       last_(final_versions(history)) {}
 
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {

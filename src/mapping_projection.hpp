@@ -32,7 +32,9 @@ namespace faqem::detail {
 class ProjectionWalk {
 public:
     /// \param unwelded  as in find_sheets()
-    explicit ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded = {});
+    /// \throws what the poll throws
+    explicit ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded = {},
+                            engine::Poll poll = {});
 
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 

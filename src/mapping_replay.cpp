@@ -98,12 +98,13 @@ Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
 // Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or swaps
 // its edge.
 template <class Before>
-std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& before) {
+std::vector<Triangle> replay_forward(const CollapseHistory& history, engine::Poll poll, Before&& before) {
     std::vector<Triangle> now = history.triangles;
     for (std::size_t k = 0; k < history.collapses.size(); ++k) {
         const Collapse& c = history.collapses[k];
         const Index made = static_cast<Index>(history.positions.size() + k);
         for (std::uint64_t e = history.patch_begin[k]; e < history.patch_begin[k + 1]; ++e) {
+            poll();
             Triangle& t = now[history.patch_faces[e]];
             before(k, e, t);
             for (Index& v : t) {
@@ -121,12 +122,14 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
 }
 
 // The faces of the small mesh: their corners' versions, and where those are in the end.
-void keep(const CollapseHistory& history, const std::vector<Triangle>& last, Replay& result) {
+void keep(const CollapseHistory& history, const std::vector<Triangle>& last, engine::Poll poll,
+          Replay& result) {
     std::vector<Vec3> in_the_end = result.positions;
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         in_the_end[history.kept_versions[i]] = history.kept_position(i);
     }
     for (const Index f : history.kept_faces) {
+        poll();
         const Triangle& t = last[f];
         result.kept_corners.push_back(t);
         result.kept_positions.push_back({in_the_end[t[0]], in_the_end[t[1]], in_the_end[t[2]]});
@@ -135,14 +138,15 @@ void keep(const CollapseHistory& history, const std::vector<Triangle>& last, Rep
 
 }  // namespace
 
-Replay replay_vertices(const CollapseHistory& history) {
+Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
     Replay result;
     result.positions = version_positions(history);
-    keep(history, replay_forward(history, [](std::size_t, std::uint64_t, const Triangle&) {}), result);
+    const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
+    keep(history, replay_forward(history, poll, nothing), poll, result);
     return result;
 }
 
-Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets) {
+Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets, engine::Poll poll) {
     const std::size_t entries = history.patch_faces.size();
     Replay result;
     result.positions = version_positions(history);
@@ -154,7 +158,7 @@ Replay replay_patches(const CollapseHistory& history, std::span<const Index> she
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
-        replay_forward(history, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
+        replay_forward(history, poll, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
             result.corners[e] = t;
             result.bounds[e] = bound_of(result.positions, t);
             Index& latest = touched[history.patch_faces[e]];
@@ -164,12 +168,13 @@ Replay replay_patches(const CollapseHistory& history, std::span<const Index> she
     Labeller labeller;
     for (std::size_t k = 0; k < history.patch_count(); ++k) {
         const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
+        poll(size);
         const std::span<const Triangle> corners = std::span(result.corners).subspan(begin, size);
         const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
         labeller.label(corners, sheet, std::span(result.umbrella).subspan(begin, size));
         result.mean_edge.push_back(mean_edge_length(result.positions, corners));
     }
-    keep(history, last, result);
+    keep(history, last, poll, result);
     for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
     return result;
 }

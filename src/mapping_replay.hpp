@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/history.hpp"
 
@@ -43,11 +44,11 @@ struct Replay {
 };
 
 /// What is needed by the walk over vertices: positions, kept_corners and kept_positions. O(size of the
-/// history)
-Replay replay_vertices(const CollapseHistory& history);
+/// history) \throws what the poll throws
+Replay replay_vertices(const CollapseHistory& history, engine::Poll poll = {});
 
-/// Everything. O(size of the history) time, 37 bytes per patch face.
+/// Everything. O(size of the history) time, 37 bytes per patch face. \throws what the poll throws
 /// \param sheets  of each face of the original
-Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets);
+Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets, engine::Poll poll = {});
 
 }  // namespace faqem::detail

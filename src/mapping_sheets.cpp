@@ -14,9 +14,11 @@ struct Neighbour {
 };
 
 // Neighbours over the three edges of each face.
-std::vector<Neighbour> neighbours(std::span<const Triangle> triangles, std::span<const Triangle> unwelded) {
+std::vector<Neighbour> neighbours(std::span<const Triangle> triangles, std::span<const Triangle> unwelded,
+                                  engine::Poll poll) {
     std::vector<Neighbour> result(3 * triangles.size());
-    for_each_edge(sorted_sides(triangles), [&](std::span<const Side> on) {
+    for_each_edge(sorted_sides(triangles, poll), [&](std::span<const Side> on) {
+        poll();
         const auto unwelded_edge = [&](std::size_t i) -> std::uint64_t {
             if (unwelded.empty()) return 0;
             const Triangle& t = unwelded[on[i].face];
@@ -43,8 +45,8 @@ double area(std::span<const Vec3> positions, const Triangle& t) {
 }  // namespace
 
 Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                   std::span<const Triangle> unwelded) {
-    const std::vector<Neighbour> next = neighbours(triangles, unwelded);
+                   std::span<const Triangle> unwelded, engine::Poll poll) {
+    const std::vector<Neighbour> next = neighbours(triangles, unwelded, poll);
     Sheets result{std::vector<Index>(triangles.size(), no_index),
                   std::vector<std::int8_t>(triangles.size(), 1)};
     std::vector<Index> faces;  // of the sheet at hand, in breadth-first order
@@ -55,6 +57,7 @@ Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> tr
         result.sheet[root] = sheets;
         double balance = 0;
         for (std::size_t i = 0; i < faces.size(); ++i) {
+            poll();
             const Index f = faces[i];
             balance += result.sign[f] * area(positions, triangles[f]);
             for (std::size_t c = 0; c < 3; ++c) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -22,7 +23,8 @@ struct Sheets {
 /// \param triangles  faces with a corner no_index are left out
 /// \param unwelded   empty, or the faces as they were before vertices at one place were joined
 /// O(n log n) time, 48 bytes per face while it runs.
+/// \throws what the poll throws
 Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                   std::span<const Triangle> unwelded = {});
+                   std::span<const Triangle> unwelded = {}, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -5,53 +5,158 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
+
 namespace faqem::detail {
+
+using engine::Poll;
+
+/// Who does the work of a phase: so many threads, of which the calling one asks whether to go on.
+struct Workers {
+    // Not explicit: where nobody is to be asked, a number says it all.
+    Workers(std::uint32_t at_most = 0, Poll poll_of_caller = {}) : threads(at_most), poll(poll_of_caller) {}
+
+    std::uint32_t threads;  ///< at most; 0: all there are
+    Poll poll;
+};
 
 /// Number of threads for a request of `wanted` (0: all there are).
 inline unsigned thread_count(std::uint32_t wanted) {
     return wanted ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// Calls work(begin, end) for consecutive blocks of [0, size), each call once, in any order.
-/// Blocks depend on `size` and `block` only, never on the number of threads, so that per-block results can be
-/// joined in block order to the same sum anywhere. The first exception is thrown again here. Where the system
-/// gives fewer threads, fewer do it.
-template <class Work>
-void parallel_blocks(std::size_t size, std::size_t block, std::uint32_t threads, Work&& work) {
-    const std::size_t blocks = (size + block - 1) / block;
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr error;
-    std::mutex error_mutex;
-    auto run = [&] {
-        for (std::size_t b; (b = next.fetch_add(1)) < blocks;) {
+/// What the threads of one parallel_blocks() share.
+class BlockQueue {
+public:
+    BlockQueue(std::size_t size, std::size_t block)
+        : size_(size), block_(block), blocks_((size + block - 1) / block) {}
+
+    std::size_t blocks() const { return blocks_; }
+
+    /// Works on one block after the other, until there are none left or a thread has failed.
+    template <class Work>
+    void run(Work& work, Poll poll) {
+        for (std::size_t b; (b = next_.fetch_add(1)) < blocks_;) {
             try {
-                work(b * block, std::min(size, (b + 1) * block));
+                const std::size_t begin = b * block_, end = std::min(size_, begin + block_);
+                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, Poll>) {
+                    work(begin, end, poll);
+                } else {
+                    work(begin, end);
+                    poll(end - begin);
+                }
             } catch (...) {
-                const std::lock_guard lock(error_mutex);
-                if (!error) error = std::current_exception();
-                next = blocks;
+                fail();
             }
         }
-    };
-    const std::size_t count = std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(blocks, 1));
+    }
+
+    /// run() on a thread that helps: its poll tells it that another one has failed.
+    template <class Work>
+    void help(Work& work) {
+        engine::Asker asker([this] { return has_failed_ ? Continue::cancel : Continue::yes; });
+        run(work, Poll(asker));
+        const std::lock_guard lock(mutex_);
+        --helpers_;
+        ended_.notify_one();
+    }
+    void expect_helper() {
+        const std::lock_guard lock(mutex_);
+        ++helpers_;
+    }
+    void expect_no_helper() {
+        const std::lock_guard lock(mutex_);
+        --helpers_;
+    }
+
+    /// Until all helpers have ended; the caller is asked meanwhile.
+    void wait(Poll poll) {
+        std::unique_lock lock(mutex_);
+        while (helpers_ > 0) {
+            ended_.wait_for(lock, std::chrono::milliseconds(10));
+            if (helpers_ == 0 || has_failed_) continue;
+            lock.unlock();
+            try {
+                poll.now();
+            } catch (...) {
+                fail();
+            }
+            lock.lock();
+        }
+    }
+
+    /// Throws again what was thrown: by the calling thread, or else first.
+    void rethrow() const {
+        if (error_) std::rethrow_exception(error_);
+    }
+
+private:
+    /// \pre in a handler
+    void fail() {
+        // A helper that was told to stop comes second, whoever is sooner here.
+        const std::lock_guard lock(mutex_);
+        if (!error_ || std::this_thread::get_id() == caller_) error_ = std::current_exception();
+        has_failed_ = true;
+        next_ = blocks_;
+    }
+
+    std::size_t size_, block_, blocks_;
+    std::thread::id caller_ = std::this_thread::get_id();
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> has_failed_{false};
+    std::mutex mutex_;
+    std::condition_variable ended_;
+    std::size_t helpers_ = 0;
+    std::exception_ptr error_;
+};
+
+/// Calls work(begin, end) for consecutive blocks of [0, size), each call once, in any order.
+/// Blocks depend on `size` and `block` only, never on the number of threads, so that per-block results can be
+/// joined in block order to the same sum anywhere. Where the system gives fewer threads, fewer do it.
+/// \param work  one that takes long for a block takes a Poll as well, and polls it. Elsewhere the operations
+///              of a block are as many as its length.
+/// \throws what the calling thread throws, and else the first exception; the others stop before that
+template <class Work>
+void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers, Work&& work) {
+    BlockQueue queue(size, block);
+    const std::size_t count =
+        std::min<std::size_t>(thread_count(workers.threads), std::max<std::size_t>(queue.blocks(), 1));
     std::vector<std::thread> helpers;
     helpers.reserve(count);
     try {
-        for (std::size_t i = 1; i < count; ++i) helpers.emplace_back(run);
+        for (std::size_t i = 1; i < count; ++i) {
+            queue.expect_helper();
+            helpers.emplace_back([&] { queue.help(work); });
+        }
     } catch (const std::system_error&) {
         // The system gives no more threads: those there are do it all.
+        queue.expect_no_helper();
     }
-    run();
+    queue.run(work, workers.poll);
+    queue.wait(workers.poll);
     for (std::thread& helper : helpers) helper.join();
-    if (error) std::rethrow_exception(error);
+    queue.rethrow();
+}
+
+/// Calls visit(i) for each i below size, here, and polls.
+template <class Visit>
+void polled(std::size_t size, Poll poll, Visit&& visit) {
+    constexpr std::size_t stretch = 1024;
+    for (std::size_t begin = 0; begin < size; begin += stretch) {
+        poll(std::min(stretch, size - begin));
+        for (std::size_t i = begin; i < std::min(size, begin + stretch); ++i) visit(i);
+    }
 }
 
 }  // namespace faqem::detail

@@ -24,17 +24,17 @@ struct Prepared {
     double scale = 1;                  ///< model units to engine units
 
     /// Engine units: (p - centre) * scale.
-    std::vector<engine::Vector3> engine_positions() const;
+    std::vector<engine::Vector3> engine_positions(engine::Poll poll = {}) const;
     /// Back to model units.
     Vec3 to_model(const engine::Vector3& p) const;
 };
 
-/// \throws InputError  see simplify()
-Prepared prepare(const MeshView& mesh, const Settings& settings);
+/// \throws InputError  see simplify(); and what the poll throws
+Prepared prepare(const MeshView& mesh, const Settings& settings, engine::Poll poll = {});
 
 /// The input's faces less those that are pruned.
-/// \throws InputError  see simplify()
-std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options);
+/// \throws as prepare()
+std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, engine::Poll poll = {});
 
 /// One per welded vertex: nonzero where a locked vertex went into it.
 std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,

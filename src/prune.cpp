@@ -17,10 +17,11 @@ double half_diagonal(const Box& box) { return (0.5 * box.max() - 0.5 * box.min()
 }  // namespace
 
 Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
-             std::vector<Triangle>& triangles) {
+             std::vector<Triangle>& triangles, engine::Poll poll) {
     engine::DisjointSets joined(positions.size());
     Box all;
     for (const Triangle& t : triangles) {
+        poll();
         if (t == no_face) continue;
         joined.join(t[0], t[1]);
         joined.join(t[0], t[2]);
@@ -30,6 +31,7 @@ Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> lock
     std::vector<Box> box(positions.size());
     std::vector<std::uint8_t> stays(positions.size(), 0);
     for (const Triangle& t : triangles) {
+        poll();
         if (t == no_face) continue;
         const Index root = joined.root(t[0]);
         for (const Index v : t) {
@@ -41,6 +43,7 @@ Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> lock
     const double least = size.value * unit;
     Index largest = no_index;
     for (const Triangle& t : triangles) {
+        poll();
         if (t == no_face) continue;
         const Index root = joined.root(t[0]);
         if (largest == no_index || half_diagonal(box[root]) > half_diagonal(box[largest])) largest = root;
@@ -48,6 +51,7 @@ Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> lock
     Pruned pruned;
     std::vector<std::uint8_t> counted(positions.size(), 0);
     for (Index f = 0; f < triangles.size(); ++f) {
+        poll();
         if (triangles[f] == no_face) continue;
         const Index root = joined.root(triangles[f][0]);
         if (root == largest || stays[root] || !(half_diagonal(box[root]) < least)) continue;

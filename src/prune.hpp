@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 
@@ -29,7 +30,8 @@ struct Pruned {
 /// \param locked     empty, or one per vertex
 /// \param triangles  three no_index: no face, which is also what those become that are taken
 /// \param size       finite and > 0; a share is one of the diagonal of all faces' box
+/// \throws what the poll throws
 Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
-             std::vector<Triangle>& triangles);
+             std::vector<Triangle>& triangles, engine::Poll poll = {});
 
 }  // namespace faqem::detail

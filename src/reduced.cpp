@@ -20,15 +20,17 @@ Index SlotTrace::root(Index slot) {
 }
 
 Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::span<const Vector3> positions,
-                SlotTrace& trace) {
+                SlotTrace& trace, engine::Poll poll) {
     Reduced out;
     out.faces = std::move(faces);
     out.triangles = std::move(triangles);
     std::vector<Index> number(positions.size(), no_index);
     for (const Triangle& t : out.triangles) {
+        poll();
         for (const Index v : t) number[v] = 0;
     }
     for (Index v = 0; v < number.size(); ++v) {
+        poll();
         if (number[v] == no_index) continue;
         number[v] = static_cast<Index>(out.vertices.size());
         out.vertices.push_back(v);
@@ -39,14 +41,18 @@ Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::
         for (Index& v : t) v = number[v];
     }
     out.into.reserve(number.size());
-    for (Index v = 0; v < number.size(); ++v) out.into.push_back(number[trace.root(v)]);
+    for (Index v = 0; v < number.size(); ++v) {
+        poll();
+        out.into.push_back(number[trace.root(v)]);
+    }
     return out;
 }
 
-Reduced reduced(const engine::Complex& complex, SlotTrace& trace) {
+Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll) {
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < complex.face_slots(); ++f) {
+        poll();
         if (!complex.alive(f)) continue;
         faces.push_back(f);
         triangles.push_back(complex.triangle(f));
@@ -54,7 +60,7 @@ Reduced reduced(const engine::Complex& complex, SlotTrace& trace) {
     std::vector<Vector3> positions;
     positions.reserve(complex.vertex_slots());
     for (Index v = 0; v < complex.vertex_slots(); ++v) positions.push_back(complex.position(v));
-    return reduced(std::move(faces), std::move(triangles), positions, trace);
+    return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
 }
 
 }  // namespace faqem::detail

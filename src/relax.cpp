@@ -41,9 +41,9 @@ constexpr int most_draws = 40;
 constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange = 0.15;
 
 /// Vertices on edges with one face.
-std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices) {
+std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices, Poll poll) {
     std::vector<std::uint8_t> border(vertices, 0);
-    for_each_edge(sorted_sides(triangles), [&](std::span<const Side> on) {
+    for_each_edge(sorted_sides(triangles, poll), [&](std::span<const Side> on) {
         if (on.size() == 1) border[on[0].low] = border[on[0].high] = 1;
     });
     return border;
@@ -52,27 +52,27 @@ std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::si
 class Relaxation {
 public:
     Relaxation(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
-               double least_turn, std::uint32_t threads)
+               double least_turn, Workers workers)
         : least_turn_(least_turn),
-          threads_(threads),
-          original_(original),
+          workers_(workers),
+          original_(original, workers.poll),
           triangles_(light.triangles.begin(), light.triangles.end()),
           positions_(light.positions.begin(), light.positions.end()),
-          fixed_(on_border(light.triangles, positions_.size())),
-          gaps_(original_, triangles_, positions_, threads) {
+          fixed_(on_border(light.triangles, positions_.size(), workers.poll)),
+          gaps_(original_, triangles_, positions_, workers) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
     /// Moves the vertices, by steps on all of them.
     void settle(int steps) {
         start_ = positions_;
-        guard_.emplace(Patchwork{start_, triangles_}, least_fold);
+        guard_.emplace(Patchwork{start_, triangles_}, least_fold, workers_.poll);
         if (gaps_.empty()) return;
         fits_ = gaps_.measure(positions_);
         const std::vector<Fit> first = fits_;
         const double before = farthest(first);
         for (int step = 0; step < steps; ++step) {
-            move(fitting_step(triangles_, gaps_.pulls(), fixed_, power, threads_));
+            move(fitting_step(triangles_, gaps_.pulls(), fixed_, power, workers_));
             if (step + 1 < steps) gaps_.measure_pulls(positions_);
         }
         fits_ = gaps_.measure(positions_);
@@ -96,7 +96,7 @@ public:
                 for (const Index v : triangles_[f]) held[v] = fixed_[v];
             }
             const std::vector<Pull> pulls = gaps_.pulls_at(faces_that_move(held));
-            if (!draw_in(before, fitting_step(triangles_, pulls, held, draw_power, threads_))) return;
+            if (!draw_in(before, fitting_step(triangles_, pulls, held, draw_power, workers_))) return;
         }
     }
 
@@ -105,7 +105,7 @@ public:
         if (gaps_.empty()) return {};
         const std::vector<EdgeSwap> better =
             better_edges({positions_, triangles_, fixed_, groups}, original_, gaps_.back(), gaps_.corners(),
-                         area(original_.mesh), threads_);
+                         area(original_.mesh), workers_);
         std::vector<std::uint8_t> swapped(triangles_.size(), 0);
         for (const EdgeSwap& swap : better) {
             swap_edge(triangles_[swap[0]], triangles_[swap[1]]);
@@ -144,6 +144,7 @@ private:
     std::vector<Fit> around_vertices(std::span<const Fit> fits) const {
         std::vector<Fit> sums(start_.size());
         for (std::size_t f = 0; f < fits.size(); ++f) {
+            workers_.poll();
             if (triangles_[f][0] == no_index) continue;
             for (const Index v : triangles_[f]) sums[v].add(fits[f]);
         }
@@ -154,6 +155,7 @@ private:
     std::vector<std::uint8_t> faces_that_move(std::span<const std::uint8_t> held) const {
         std::vector<std::uint8_t> any(triangles_.size(), 0);
         for (std::size_t f = 0; f < any.size(); ++f) {
+            workers_.poll();
             if (triangles_[f][0] == no_index) continue;
             for (const Index v : triangles_[f]) any[f] |= !held[v];
         }
@@ -186,9 +188,11 @@ private:
     template <class Visit>
     void for_each_bad_face(std::span<const Vector3> positions, Visit&& visit) const {
         for (const Triangle& t : triangles_) {
+            workers_.poll();
             if (t[0] != no_index && !keeps_its_side(t, positions)) visit(t);
         }
-        guard_->for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
+        guard_->for_each_fold(
+            positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); }, workers_.poll);
     }
 
     bool keeps_its_side(const Triangle& t, std::span<const Vector3> positions) const {
@@ -217,6 +221,7 @@ private:
         const double limit = put_back_from * put_back_from * before;
         bool any = false;
         for (std::size_t f = 0; f < fits_.size(); ++f) {
+            workers_.poll();
             const Fit& fit = fits_[f];
             if (fit.farthest > limit && fit.farthest > first[f].farthest) any |= put_back(triangles_[f]);
         }
@@ -245,7 +250,7 @@ private:
     }
 
     double least_turn_;
-    std::uint32_t threads_;
+    Workers workers_;
     StillSurface original_;
     std::vector<Triangle> triangles_;  // of the light mesh
     std::vector<Vector3> start_, positions_;
@@ -258,16 +263,16 @@ private:
 }  // namespace
 
 std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
-                           std::span<const std::uint8_t> fixed, double least_turn, std::uint32_t threads) {
-    Relaxation relaxation(original, light, fixed, least_turn, threads);
+                           std::span<const std::uint8_t> fixed, double least_turn, Workers workers) {
+    Relaxation relaxation(original, light, fixed, least_turn, workers);
     relaxation.settle(first_steps);
     relaxation.draw_in();
     return relaxation.take_positions();
 }
 
 Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
-                       std::span<const Index> groups, double least_turn, std::uint32_t threads) {
-    Relaxation relaxation(original, light, fixed, least_turn, threads);
+                       std::span<const Index> groups, double least_turn, Workers workers) {
+    Relaxation relaxation(original, light, fixed, least_turn, workers);
     Relaxed result;
     relaxation.settle(first_steps);
     for (int round = 0; round < swaps; ++round) {

@@ -19,13 +19,12 @@ namespace faqem::detail {
 /// \param light       finite, in the same units
 /// \param fixed       one per vertex of light: nonzero must not move. Open borders do not move either.
 /// \param least_turn  cosine between old and new normal of a face, at least
-/// \param threads     0: all; the result does not depend on it
+/// \param workers     the result does not depend on how many
 /// \return the positions of all vertices of light
 /// Complexity: O(points log faces) a step; ten points per face of the light mesh on it, twice as many on the
 /// original.
 std::vector<engine::Vector3> relax(const Patchwork& original, const Patchwork& light,
-                                   std::span<const std::uint8_t> fixed, double least_turn,
-                                   std::uint32_t threads);
+                                   std::span<const std::uint8_t> fixed, double least_turn, Workers workers);
 
 /// What relax_and_swap() did.
 struct Relaxed {
@@ -38,6 +37,6 @@ struct Relaxed {
 /// \param groups  of the triangles of light, or empty: edges between groups are not swapped
 /// The other parameters are those of relax(). Complexity: that of relax(), about twice over.
 Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
-                       std::span<const Index> groups, double least_turn, std::uint32_t threads);
+                       std::span<const Index> groups, double least_turn, Workers workers);
 
 }  // namespace faqem::detail

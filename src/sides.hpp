@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -25,7 +26,8 @@ struct Side {
 
 /// All sides of all triangles by low end, high end, face and corner. Triangles with no_index corners are
 /// none, and sides with equal ends are left out. O(n log n)
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles);
+/// \throws what the poll throws
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll poll = {});
 
 /// Calls visit(std::span<const Side>) for the sides on each edge. \param sides  sorted. O(n)
 template <class Visit>

@@ -30,11 +30,13 @@ namespace {
 
 using detail::Stopwatch;
 using engine::Complex;
+using engine::Poll;
 using engine::Vector3;
 
 // What the engine works on, in slots.
 struct Work {
-    explicit Work(const detail::Arranged& arranged) : complex(arranged.positions, arranged.triangles) {}
+    Work(const detail::Arranged& arranged, Poll poll)
+        : complex(arranged.positions, arranged.triangles, poll) {}
     Work(const Work&) = delete;
 
     Complex complex;
@@ -95,17 +97,47 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
 class Run {
 public:
     Run(const MeshView& mesh, const Options& options)
-        : mesh_(mesh), options_(options), settings_(detail::settings(options)) {}
+        : mesh_(mesh), options_(options), settings_(detail::settings(options)) {
+        if (options_.progress) poll_ = Poll(asker_);
+    }
+    Run(const Run&) = delete;
 
     std::vector<SimplifyResult> simplify(std::span<const std::uint64_t> targets) {
         targets_ = targets;
         counted_.preset = options_.preset;
         counted_.faces_in = mesh_.triangles.size();
         counted_.vertices_in = mesh_.positions.size();
-        prepared_ = detail::prepare(mesh_, settings_);
-        counted_.faces_dropped = prepared_.dropped_faces;
-        counted_.seconds.weld = watch_.seconds();
-        arrange();
+        try {
+            simplify_to_targets();
+        } catch (const engine::Cancelled&) {
+            SimplifyResult nothing;
+            nothing.report = counted_;
+            nothing.report.stop = StopReason::cancelled;
+            results_.push_back(std::move(nothing));
+        }
+        return std::move(results_);
+    }
+
+    detail::CostCurve curve() {
+        const std::uint64_t target = detail::smallest_target;
+        targets_ = {&target, 1};
+        try {
+            prepare();
+            aim();
+            Work work(ground_.now(), poll_);
+            detail::CostRecorder recorder;
+            const engine::LoopResult looped =
+                collapse(work, recorder, [](const engine::LoopResult&) { return false; });
+            return {recorder.take(), work.complex.face_count(), settings_.diagonal / prepared_.scale,
+                    looped.stop != StopReason::cancelled};
+        } catch (const engine::Cancelled&) {
+            return {{}, 0, 0, false};
+        }
+    }
+
+private:
+    void simplify_to_targets() {
+        prepare();
         if (options_.history == Recording::on) {
             engine::HistoryRecorder history(ground_.now().vertex, ground_.now().face,
                                             static_cast<Index>(prepared_.positions.size()));
@@ -114,29 +146,16 @@ public:
             engine::NoRecorder nothing;
             collapse_to_targets(nothing);
         }
-        return std::move(results_);
     }
 
-    detail::CostCurve curve() {
-        const std::uint64_t target = detail::smallest_target;
-        targets_ = {&target, 1};
-        prepared_ = detail::prepare(mesh_, settings_);
-        arrange();
-        aim();
-        Work work(ground_.now());
-        detail::CostRecorder recorder;
-        const engine::LoopResult looped =
-            collapse(work, recorder, [](const engine::LoopResult&) { return false; });
-        return {recorder.take(), work.complex.face_count(), settings_.diagonal / prepared_.scale,
-                looped.stop != StopReason::cancelled};
-    }
-
-private:
-    void arrange() {
+    void prepare() {
+        prepared_ = detail::prepare(mesh_, settings_, poll_);
+        counted_.faces_dropped = prepared_.dropped_faces;
+        counted_.seconds.weld = watch_.seconds();
         ground_ = detail::Ground(prepared_,
                                  detail::locks_of_welded(mesh_, prepared_.welded, prepared_.positions.size()),
-                                 options_.topology.border);
-        if (settings_.carry == detail::Settings::Carry::tracked) ground_.remember_original();
+                                 options_.topology.border, poll_);
+        if (settings_.carry == detail::Settings::Carry::tracked) ground_.remember_original(poll_);
         area_ = ground_.area();
         loop_.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};
         loop_.tiny_component = 0.02 * settings_.diagonal;
@@ -157,7 +176,7 @@ private:
     }
 
     // Targets count by the faces that go on the way to them.
-    Continue progress(double done) const {
+    Continue progress(double done) {
         const auto gone = [&](std::size_t targets) {
             const double faces = static_cast<double>(mesh_.triangles.size());
             return targets == 0 ? 0 : faces - std::min(faces, static_cast<double>(targets_[targets - 1]));
@@ -165,8 +184,12 @@ private:
         const double before = gone(results_.size()), after = gone(results_.size() + 1);
         const double all = gone(targets_.size());
         const double share = all > 0 ? (before + done * (after - before)) / all : done;
-        return options_.progress(Phase::simplify, share);
+        phase_ = Phase::simplify;
+        share_ = share;
+        return options_.progress(phase_, share_);
     }
+
+    detail::Workers workers() const { return {options_.threads, poll_}; }
 
     double least_length() const { return 1e-8 * settings_.diagonal; }
 
@@ -207,7 +230,7 @@ private:
         const detail::BlockInput input{now.positions, now.triangles, ground_.locked(),
                                        detail::vertices_per_block(now.positions.size(), few)};
         const detail::BlockSteps blocks =
-            detail::simplify_in_blocks(input, loop, least, tracking, options_.history, options_.threads);
+            detail::simplify_in_blocks(input, loop, least, tracking, options_.history, workers());
         if (blocks.is_cancelled) return false;
         if (blocks.steps.empty()) return true;
         is_cut_ = true;
@@ -215,7 +238,7 @@ private:
         counted_.collapses += blocks.steps.size();
         for (std::size_t i = 0; i < refusal_kinds; ++i) counted_.refusals[i] += blocks.refusals[i];
         for (std::size_t i = 0; i < rung_kinds; ++i) counted_.rungs[i] += blocks.rungs[i];
-        detail::Reduced reduced = detail::reduce(input, blocks.steps);
+        detail::Reduced reduced = detail::reduce(input, blocks.steps, poll_);
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) record(blocks, reduced, recorder);
         ground_.take(std::move(reduced));
         return true;
@@ -240,18 +263,19 @@ private:
         if (options_.topology.virtual_edges == VirtualEdges::on) {
             extra = detail::virtual_edges(complex, ground_.now().per_face(mesh_.face_groups),
                                           options_.topology.virtual_edge_distance * settings_.diagonal,
-                                          least_length());
+                                          least_length(), poll_);
         }
         counted_.virtual_edges = extra.size();
-        engine::PairTable pairs(complex, extra);
+        engine::PairTable pairs(complex, extra, poll_);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
-            work.wedges = engine::Wedges(complex, {ground_.now().per_face<float>(values, 3 * width), width});
+            work.wedges =
+                engine::Wedges(complex, {ground_.now().per_face<float>(values, 3 * width), width}, poll_);
         }
         work.locked = ground_.locked();
         if (options_.topology.group_borders == GroupBorders::kept) {
             work.groups = ground_.now().per_face(mesh_.face_groups);
-            work.curves = engine::GroupCurves(complex, work.groups);
+            work.curves = engine::GroupCurves(complex, work.groups, poll_);
         }
         work.importance = importance(mesh_, prepared_, ground_.now());
         return run(work, pairs, settings_, recorder, loop_, ground_, goes_on);
@@ -264,7 +288,7 @@ private:
         while (results_.size() < targets_.size()) {
             aim();
             const bool is_cancelled = !begin_in_blocks(recorder);
-            Work work(ground_.now());
+            Work work(ground_.now(), poll_);
             detail::TracingRecorder<Recorder> tracing(recorder, work.complex.vertex_slots());
             engine::LoopResult looped;
             if (is_cancelled) {
@@ -280,7 +304,7 @@ private:
             }
             if (is_done()) return;
             detail::count(looped, counted_);
-            detail::Reduced left = detail::reduced(work.complex, tracing.trace());
+            detail::Reduced left = detail::reduced(work.complex, tracing.trace(), poll_);
             if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
                 recorder.renumber(left.vertices, left.faces);
             ground_.take(std::move(left));
@@ -299,16 +323,18 @@ private:
         result.report = counted_;
         detail::count(looped, result.report);
         result.report.stop = looped.stop;
+        const bool is_cancelled = looped.stop == StopReason::cancelled;
+        const Poll poll = is_cancelled ? Poll() : poll_;  // who has cancelled is not asked again
         const std::vector<Index> slots =
             detail::collect(mesh_, prepared_, ground_.now(), work.complex, work.wedges,
-                            ground_.places_of(trace.places()), result);
+                            ground_.places_of(trace.places()), poll, result);
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) {
             const bool is_last = results_.size() + 1 == targets_.size();
             result.history = is_last ? recorder.take() : recorder.so_far();
             for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
-            detail::finish_history(mesh_, prepared_, result);
+            detail::finish_history(mesh_, prepared_, poll, result);
         }
-        if (settings_.relax) relax(work, slots, result);
+        if (settings_.relax && !is_cancelled) relax(work, slots, result);
         detail::finish_report(options_, settings_, prepared_, result);
         result.report.seconds.simplify = result.report.seconds.total = watch_.seconds();
         watch_ = {};
@@ -330,10 +356,9 @@ private:
         detail::Relaxed relaxed;
         if (work.wedges.empty()) {
             relaxed = detail::relax_and_swap(ground_.whole(), light, fixed, mesh.face_groups,
-                                             settings_.least_turn, options_.threads);
+                                             settings_.least_turn, workers());
         } else {  // a swap would have to say what the corners' attributes are
-            relaxed.positions =
-                detail::relax(ground_.whole(), light, fixed, settings_.least_turn, options_.threads);
+            relaxed.positions = detail::relax(ground_.whole(), light, fixed, settings_.least_turn, workers());
         }
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed.positions[v] == now[v]) continue;
@@ -347,6 +372,10 @@ private:
 
     const MeshView& mesh_;
     const Options& options_;
+    Phase phase_ = Phase::weld;
+    double share_ = 0;  // of the phase, when it was told last
+    engine::Asker asker_{[this] { return options_.progress(phase_, share_); }};
+    Poll poll_;  // never asks where nobody wants to know
     detail::Settings settings_;
     detail::Prepared prepared_;
     detail::Ground ground_;

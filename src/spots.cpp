@@ -23,20 +23,22 @@ Vec3 even_weight(std::size_t k) {
 
 }  // namespace
 
-std::vector<Vector3> unit_normals(const Patchwork& mesh) {
+std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
+        poll();
         normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
                                            : area_vector(mesh.positions, t).normalized());
     }
     return normals;
 }
 
-std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count) {
+std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll) {
     std::vector<double> area_up_to;
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
+        poll();
         if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
         area_up_to.push_back(area);
     }
@@ -44,6 +46,7 @@ std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count) {
     if (!(area > 0)) return spots;
     Index face = 0;
     for (std::size_t k = 0; k < count; ++k) {
+        poll();
         const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
         while (face + 1 < area_up_to.size() && !(area_up_to[face] > place)) ++face;
         spots.push_back({face, even_weight(k)});
@@ -51,10 +54,11 @@ std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count) {
     return spots;
 }
 
-std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles) {
+std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll) {
     std::vector<Spot> spots;
     std::vector<std::uint8_t> seen;
     for (Index f = 0; f < triangles.size(); ++f) {
+        poll();
         const Triangle& t = triangles[f];
         if (t[0] == no_index) continue;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -69,16 +73,18 @@ std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles) {
     return spots;
 }
 
-std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh) {
+std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll) {
     std::vector<Vector3> normal(mesh.positions.size(), Vector3::Zero());
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : mesh.triangles) {
         if (t[0] == no_index) continue;
+        poll();
         const Vector3 n = area_vector(mesh.positions, t);
         for (const Index v : t) normal[v] += n, used[v] = 1;
     }
     std::vector<OrientedPoint> points;
     for (std::size_t v = 0; v < used.size(); ++v) {
+        poll();
         if (used[v]) points.push_back({mesh.positions[v], normal[v].normalized()});
     }
     return points;

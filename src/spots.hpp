@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
 
@@ -23,7 +24,7 @@ inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, c
 }
 
 /// Unit normal of each triangle; zero where it has no area, or is none.
-std::vector<engine::Vector3> unit_normals(const Patchwork& mesh);
+std::vector<engine::Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll = {});
 
 /// A point of a face.
 struct Spot {
@@ -44,14 +45,14 @@ struct OrientedPoint {
 
 /// `count` points spread by area, in the order of the faces; none where there is no area.
 /// Source: Roberts 2018, the sequence of the plastic number. O(faces + count)
-std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count);
+std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll = {});
 
 /// The corners of faces, each vertex once, and the middles of their edges, once for each face: where a light
 /// mesh sticks out. O(faces)
-std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles);
+std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll = {});
 
 /// The vertices of faces, with the mean normal of the faces around each by area; zero where it has none.
 /// O(faces)
-std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh);
+std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -25,9 +25,10 @@ void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
 }
 
 /// Keeps the used positions, each once, and makes the triangles refer to them.
-void weld(Surface& s) {
+void weld(Surface& s, engine::Poll poll) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;
     for (const Triangle& t : s.triangles) {
+        poll();
         for (const Index v : t) {
             if (new_index[v] != no_index) continue;
             new_index[v] = 0;
@@ -35,15 +36,18 @@ void weld(Surface& s) {
         }
     }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        poll();
         if (s.positions[a] != s.positions[b]) return s.positions[a] < s.positions[b];
         return a < b;
     });
     std::vector<Vec3> kept;
     for (const Index v : order) {
+        poll();
         if (kept.empty() || kept.back() != s.positions[v]) kept.push_back(s.positions[v]);
         new_index[v] = static_cast<Index>(kept.size() - 1);
     }
     for (Triangle& t : s.triangles) {
+        poll();
         for (Index& v : t) v = new_index[v];
     }
     s.positions = std::move(kept);
@@ -51,12 +55,13 @@ void weld(Surface& s) {
 
 }  // namespace
 
-Surface surface_of(const MeshView& mesh) {
+Surface surface_of(const MeshView& mesh, engine::Poll poll) {
     Surface s;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
     double area = 0;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        poll();
         const Triangle t = mesh.triangles[f];
         check_indices(t, f, s.positions.size());
         const Vector3 a = engine::to_eigen(s.positions[t[0]]), b = engine::to_eigen(s.positions[t[1]]),
@@ -72,7 +77,7 @@ Surface surface_of(const MeshView& mesh) {
         s.normals.push_back(n / twice_area);
         s.area_up_to.push_back(area);
     }
-    weld(s);
+    weld(s, poll);
     if (s.positions.empty()) return s;
     s.low = s.high = engine::to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {

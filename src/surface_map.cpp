@@ -12,20 +12,26 @@ struct SurfaceMap::Impl {
     std::unique_ptr<const detail::ClosestPoints> closest;
 };
 
-SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded) {
-    auto impl = std::make_unique<Impl>();
+SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded)
+    : SurfaceMap(detail::polled_map(history, mapping, unwelded, {})) {}
+
+SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
+                              std::span<const Triangle> unwelded, const engine::Poll& poll) {
+    auto impl = std::make_unique<SurfaceMap::Impl>();
     switch (mapping) {
         case Mapping::projection:
-            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded);
+            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded, poll);
             break;
         case Mapping::lineage:
-            impl->lineage = std::make_unique<const detail::LineageWalk>(history);
+            impl->lineage = std::make_unique<const detail::LineageWalk>(history, poll);
             break;
         case Mapping::closest:
-            impl->closest = std::make_unique<const detail::ClosestPoints>(history);
+            impl->closest = std::make_unique<const detail::ClosestPoints>(history, poll);
             break;
     }
-    impl_ = std::move(impl);
+    return SurfaceMap(std::move(impl));
 }
 
 SurfaceMap::~SurfaceMap() = default;

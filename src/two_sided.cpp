@@ -40,16 +40,16 @@ double area(const Patchwork& mesh) {
 }
 
 TwoSidedGaps::TwoSidedGaps(const StillSurface& original, std::span<const Triangle> triangles,
-                           std::span<const Vector3> positions, std::uint32_t threads)
+                           std::span<const Vector3> positions, Workers workers)
     : original_(original),
       triangles_(triangles),
-      threads_(threads),
+      workers_(workers),
       faces_(face_count(triangles)),
       is_coarse_(point_count() == least_points && coarse * faces_ <= face_count(original.mesh.triangles)),
-      there_(original, triangles, evenly_spread({positions, triangles}, point_count())),
-      ends_(std::in_place, original, triangles, corners_and_middles(triangles)),
+      there_(original, triangles, evenly_spread({positions, triangles}, point_count(), workers.poll)),
+      ends_(std::in_place, original, triangles, corners_and_middles(triangles, workers.poll)),
       back_(even_points(), triangles),
-      corners_(oriented_vertices(original.mesh), triangles) {}
+      corners_(oriented_vertices(original.mesh, workers.poll), triangles) {}
 
 std::size_t TwoSidedGaps::point_count() const {
     return std::clamp(points_per_face * faces_, least_points, most_points);
@@ -58,7 +58,8 @@ std::size_t TwoSidedGaps::point_count() const {
 std::vector<OrientedPoint> TwoSidedGaps::even_points() const {
     const Patchwork& mesh = original_.mesh;
     std::vector<OrientedPoint> points;
-    for (const Spot& spot : evenly_spread(mesh, more_back * point_count())) {
+    for (const Spot& spot : evenly_spread(mesh, more_back * point_count(), workers_.poll)) {
+        workers_.poll();
         points.push_back({spot.on(mesh.positions, mesh.triangles), original_.normals[spot.face]});
     }
     return points;
@@ -67,8 +68,8 @@ std::vector<OrientedPoint> TwoSidedGaps::even_points() const {
 // Those beyond a share of the longest are searched for.
 void TwoSidedGaps::move_to(std::span<const Vector3> positions, double searched_share) {
     const auto move = [&](auto& gaps) {
-        gaps.move_to(positions, threads_);
-        if (searched_share < 1) gaps.search_farthest(searched_share, threads_);
+        gaps.move_to(positions, workers_);
+        if (searched_share < 1) gaps.search_farthest(searched_share, workers_);
     };
     move(there_), move(*ends_), move(back_);
 }
@@ -87,21 +88,24 @@ std::vector<Fit> TwoSidedGaps::measure_again(std::span<const Vector3> positions)
 
 std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions, double searched_share) {
     move_to(positions, searched_share);
-    corners_.move_to(positions, threads_);
-    corners_.search_farthest(searched_share, threads_);
+    corners_.move_to(positions, workers_);
+    corners_.search_farthest(searched_share, workers_);
     std::vector<Fit> fits(triangles_.size());
     for (GapsThere* there : {&there_, &*ends_}) {
-        there->measure_turns(tie_tolerance, threads_);
+        there->measure_turns(tie_tolerance, workers_);
         for (std::size_t i = 0; i < there->size(); ++i) {
+            workers_.poll();
             const double distance = there->gap(i).squaredNorm();
             fits[there->spot(i).face].add({distance, distance, least_turn_counted + there->turn(i)});
         }
     }
     for (std::size_t i = 0; i < back_.size(); ++i) {
+        workers_.poll();
         const double distance = back_.gap(i).squaredNorm();
         fits[back_.spot(i).face].add({distance, distance, 0});
     }
     for (std::size_t i = 0; i < corners_.size(); ++i) {
+        workers_.poll();
         fits[corners_.spot(i).face].add({corners_.gap(i).squaredNorm(), 0, 0});
     }
     return fits;
@@ -111,7 +115,7 @@ std::span<const Pull> TwoSidedGaps::pulls() {
     pulls_.resize(there_.size() + ends_->size() + back_.size());
     std::size_t first = 0;
     const auto add = [&](const auto& gaps) {
-        parallel_blocks(gaps.size(), 4096, threads_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(gaps.size(), 4096, workers_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) pulls_[first + i] = gaps.pull(i);
         });
         first += gaps.size();
@@ -124,6 +128,7 @@ std::vector<Pull> TwoSidedGaps::pulls_at(std::span<const std::uint8_t> faces) co
     std::vector<Pull> all;
     const auto add = [&](const auto& gaps) {
         for (std::size_t i = 0; i < gaps.size(); ++i) {
+            workers_.poll();
             if (faces[gaps.spot(i).face]) all.push_back(gaps.pull(i));
         }
     };
@@ -139,10 +144,10 @@ void TwoSidedGaps::swap(std::span<const Vector3> positions, std::span<const std:
     const Patchwork part{positions, those};
     const double share = area(part) / area({positions, triangles_});
     const auto count = std::llround(share * static_cast<double>(point_count()));
-    there_.replace(swapped, evenly_spread(part, static_cast<std::size_t>(count)));
-    ends_.emplace(original_, triangles_, corners_and_middles(triangles_));
-    back_.move_to(positions, threads_, swapped);
-    corners_.move_to(positions, threads_, swapped);
+    there_.replace(swapped, evenly_spread(part, static_cast<std::size_t>(count), workers_.poll));
+    ends_.emplace(original_, triangles_, corners_and_middles(triangles_, workers_.poll));
+    back_.move_to(positions, workers_, swapped);
+    corners_.move_to(positions, workers_, swapped);
 }
 
 }  // namespace faqem::detail

@@ -36,9 +36,9 @@ public:
     /// \param original   a surface of diagonal 1
     /// \param triangles  of the mesh; two of them may be swapped later
     /// \param positions  of the mesh, where it is now
-    /// \param threads    0: all; no result depends on it
+    /// \param workers    no result depends on how many
     TwoSidedGaps(const StillSurface& original, std::span<const Triangle> triangles,
-                 std::span<const engine::Vector3> positions, std::uint32_t threads);
+                 std::span<const engine::Vector3> positions, Workers workers);
 
     /// Is there nothing to measure?
     bool empty() const { return there_.size() == 0 || back_.size() == 0; }
@@ -76,7 +76,7 @@ private:
 
     const StillSurface& original_;
     std::span<const Triangle> triangles_;
-    std::uint32_t threads_;
+    Workers workers_;
     std::size_t faces_;  // of the mesh
     bool is_coarse_;
     GapsThere there_;                // from points spread by area

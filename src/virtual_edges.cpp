@@ -99,15 +99,16 @@ bool compatible(const Complex& complex, std::span<const Index> groups, Index u, 
 }  // namespace
 
 std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
-                                                   double distance, double least) {
-    const std::vector<engine::Component> parts = engine::components(complex);
+                                                   double distance, double least, engine::Poll poll) {
+    const std::vector<engine::Component> parts = engine::components(complex, poll);
     if (parts.size() < 2) return {};
-    const engine::PairTable surface(complex, {});
+    const engine::PairTable surface(complex, {}, poll);
     Points points{complex, {}};
     std::vector<Index> component_of;
     std::vector<std::uint8_t> seen(complex.vertex_slots(), 0);
     for (Index part = 0; part < parts.size(); ++part) {
         for (const Index f : parts[part].faces) {
+            poll();
             for (const Index v : complex.triangle(f)) {
                 if (std::exchange(seen[v], std::uint8_t{1})) continue;
                 points.vertices.push_back(v);
@@ -126,6 +127,7 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
     };
     std::vector<Edge> edges;
     for (std::size_t i = 0; i < points.vertices.size(); ++i) {
+        poll();
         NearestElsewhere nearest(component_of, component_of[i], distance * distance);
         const Index v = points.vertices[i];
         if (surface.boundary_degree(v) == 0) continue;
@@ -137,7 +139,7 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
             edges.push_back({hit.distance, std::min(v, w), std::max(v, w)});
         }
     }
-    std::sort(edges.begin(), edges.end());
+    std::sort(edges.begin(), edges.end(), engine::polled_less(poll));
     edges.erase(std::unique(edges.begin(), edges.end(),
                             [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; }),
                 edges.end());

@@ -20,10 +20,11 @@ namespace faqem::detail {
 /// \param distance     largest length, engine units, > 0
 /// \param least        shorter pairs are left out: they would be degenerate (paper: 1e-8 of the diagonal)
 /// \return distinct pairs, smaller vertex first, ordered by both
+/// \throws what the poll throws
 ///
 /// Complexity: O(n log n) expected.
 std::vector<std::pair<Index, Index>> virtual_edges(const engine::Complex& complex,
                                                    std::span<const Index> face_groups, double distance,
-                                                   double least);
+                                                   double least, engine::Poll poll = {});
 
 }  // namespace faqem::detail

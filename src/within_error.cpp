@@ -10,19 +10,19 @@
 
 namespace faqem::detail {
 
-Original::Original(const MeshView& mesh, const Options& options)
-    : surface_(surface_of({mesh.positions, triangles_left(mesh, options)})),
-      tree_(surface_.positions, surface_.triangles) {}
+Original::Original(const MeshView& mesh, const Options& options, Poll poll)
+    : surface_(surface_of({mesh.positions, triangles_left(mesh, options, poll)}, poll)),
+      tree_(surface_.positions, surface_.triangles, poll) {}
 
-Distance Original::distance(const MeshView& result, double allowed, Look look, std::uint32_t threads) const {
+Distance Original::distance(const MeshView& result, double allowed, Look look, Workers workers) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (surface_.triangles.empty()) return {};
-    const Surface small = surface_of(result);
+    const Surface small = surface_of(result, workers.poll);
     if (small.triangles.empty()) return {infinity, infinity};
-    const Bvh tree(small.positions, small.triangles);
+    const Bvh tree(small.positions, small.triangles, workers.poll);
     SearchLimits limits{.floor = gap_floor * surface_.diagonal(),
                         .max_pieces = HausdorffOptions{}.max_pieces,
-                        .threads = threads};
+                        .workers = workers};
     Distance found{0, infinity};
     const auto search = [&] {
         const Farthest most = farthest_both_ways(surface_, tree_, small, tree, limits);
@@ -41,7 +41,7 @@ Distance Original::distance(const MeshView& result, double allowed, Look look, s
 }
 
 Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
-                  const Options& options) {
+                  const Options& options, Poll poll) {
     const Report& report = result.report;
     const Settings exact = settings(options);
     const bool exact_weld = exact.weld == Weld::none || exact.weld_distance == 0;
@@ -49,23 +49,27 @@ Distance distance(const Original& original, const SimplifyResult& result, double
         report.vertices_relaxed == 0 && report.edges_swapped == 0) {
         return {};
     }
-    return original.distance(result.mesh.view(), allowed, look, options.threads);
+    return original.distance(result.mesh.view(), allowed, look, {options.threads, poll});
 }
 
-double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original) {
-    return options.topology.prune ? surface_of(mesh).diagonal() : original.surface().diagonal();
+double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original, Poll poll) {
+    return options.topology.prune ? surface_of(mesh, poll).diagonal() : original.surface().diagonal();
 }
 
-SimplifyResult simplify_within(const MeshView& mesh, const Options& options) {
-    const Original original(mesh, options);
+SimplifyResult simplify_within(const MeshView& mesh, const Options& options) try {
+    const AskMeanwhile meanwhile(options, 0);
+    const Original original(mesh, options, meanwhile.poll());
     const MaxError& error = *options.max_error;
-    const double unit = error.unit == MaxError::Unit::model ? 1 : diagonal_of_all(mesh, options, original);
+    const double unit =
+        error.unit == MaxError::Unit::model ? 1 : diagonal_of_all(mesh, options, original, meanwhile.poll());
     const double allowed = error.value * unit;
     return run_within<SimplifyResult>(
         options, mesh.triangles.size(), allowed, [&](const Options& own) { return simplify(mesh, own); },
-        [&](const SimplifyResult& result, Look look) {
-            return distance(original, result, allowed, look, options);
+        [&](const SimplifyResult& result, Look look, Poll poll) {
+            return distance(original, result, allowed, look, options, poll);
         });
+} catch (const engine::Cancelled&) {
+    return cancelled<SimplifyResult>();
 }
 
 void finish_search(Report& report, std::uint64_t unsettled) {

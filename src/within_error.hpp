@@ -10,6 +10,7 @@
 #include "bvh.hpp"
 #include "face_count_search.hpp"
 #include "faqem/simplify.hpp"
+#include "parallel.hpp"
 #include "stopwatch.hpp"
 #include "surface.hpp"
 
@@ -34,15 +35,15 @@ class Original {
 public:
     /// \param mesh     read here only
     /// \param options  of the runs: what they prune is left out
-    /// \throws InputError  as simplify()
-    explicit Original(const MeshView& mesh, const Options& options = {});
+    /// \throws InputError  as simplify(); and what the poll throws
+    explicit Original(const MeshView& mesh, const Options& options = {}, Poll poll = {});
 
     /// Its faces with area.
     const Surface& surface() const { return surface_; }
 
     /// The two-sided distance of a result. Where the original has no area it is 0, where only the result has
-    /// none it is infinite.
-    Distance distance(const MeshView& result, double allowed, Look look, std::uint32_t threads) const;
+    /// none it is infinite. \throws what the poll of the workers throws
+    Distance distance(const MeshView& result, double allowed, Look look, Workers workers) const;
 
 private:
     Surface surface_;
@@ -51,10 +52,34 @@ private:
 
 /// The distance of a result of simplify(). A mesh that was only welded exactly is the same surface: 0.
 Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
-                  const Options& options);
+                  const Options& options, Poll poll = {});
 
 /// What lengths can be shares of: the diagonal of the whole mesh, pruned or not.
-double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original);
+double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original,
+                       Poll poll = {});
+
+/// Asks the callback of the options while something is measured; nobody where there is none.
+class AskMeanwhile {
+public:
+    /// \param fraction  of Phase::simplify, to be told
+    AskMeanwhile(const Options& options, double fraction)
+        : asker_([&options, fraction] { return options.progress(Phase::simplify, fraction); }),
+          poll_(options.progress ? Poll(asker_) : Poll()) {}
+
+    Poll poll() const { return poll_; }
+
+private:
+    engine::Asker asker_;
+    Poll poll_;
+};
+
+/// What is left where there was no time for more.
+template <class Result>
+Result cancelled() {
+    Result nothing;
+    nothing.report.stop = StopReason::cancelled;
+    return nothing;
+}
 
 /// simplify() on arrays with max_error. \pre options are valid
 SimplifyResult simplify_within(const MeshView& mesh, const Options& options);
@@ -67,7 +92,7 @@ void finish_search(Report& report, std::uint64_t unsettled);
 /// \param faces    of the input
 /// \param allowed  the error, in the units of `measure`
 /// \param run      Options -> Result, which has a report
-/// \param measure  (Result, Look) -> Distance
+/// \param measure  (Result, Look, Poll) -> Distance
 template <class Result, class Run, class Measure>
 Result run_within(const Options& options, std::uint64_t faces, double allowed, Run&& run, Measure&& measure) {
     const Stopwatch watch;
@@ -75,24 +100,35 @@ Result run_within(const Options& options, std::uint64_t faces, double allowed, R
     MeasuredError error{.allowed = allowed};
     // If nothing is within, the input is run in the end.
     const double planned = searching ? static_cast<double>(FaceCountSearch::most_runs + 1) : 1;
-    const auto progress = [&](Phase phase, double fraction) {
-        return options.progress(phase, (static_cast<double>(error.runs) + fraction) / planned);
-    };
+    const auto done = [&](double of_run) { return (static_cast<double>(error.runs) + of_run) / planned; };
     Options own = options;
     own.max_error.reset();
     if (options.progress) {
-        // Measuring takes about as long as the run.
-        own.progress = [&](Phase phase, double fraction) { return progress(phase, fraction / 2); };
+        // Measuring takes about as long as the run. All of them together are one phase.
+        own.progress = [&](Phase phase, double fraction) {
+            return options.progress(Phase::simplify, done(phase == Phase::simplify ? fraction / 2 : 0));
+        };
     }
     Distance distance;
     std::uint64_t unsettled = 0;
+    // False: cancelled.
+    const auto take_measure = [&](Result& result, Look look) {
+        try {
+            const AskMeanwhile meanwhile(options, done(0.5));
+            distance = measure(std::as_const(result), look, meanwhile.poll());
+            return true;
+        } catch (const engine::Cancelled&) {
+            result.report.stop = StopReason::cancelled;
+            return false;
+        }
+    };
     const auto attempt = [&](const Target& target, Look look) {
         own.target = target;
         Result result = run(std::as_const(own));
         if (result.report.stop == StopReason::cancelled) return result;
-        distance = measure(std::as_const(result), look);
+        if (!take_measure(result, look)) return result;
         unsettled += distance.unsettled;
-        if (options.progress && progress(Phase::simplify, 1) == Continue::cancel) {
+        if (options.progress && options.progress(Phase::simplify, done(1)) == Continue::cancel) {
             result.report.stop = StopReason::cancelled;
         }
         ++error.runs;
@@ -112,7 +148,7 @@ Result run_within(const Options& options, std::uint64_t faces, double allowed, R
         }
     }
     if (best) {
-        distance = measure(std::as_const(*best), Look::in_full);
+        if (!take_measure(*best, Look::in_full)) return std::move(*best);
     } else {
         best = attempt(searching ? faqem::faces(std::max<std::uint64_t>(faces, 1)) : options.target,
                        Look::in_full);

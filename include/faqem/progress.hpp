@@ -12,7 +12,7 @@ enum class Phase { load, weld, simplify, map, bake, save };
 /// What a callback answers.
 enum class Continue { yes, cancel };
 
-/// Called from time to time on the calling thread.
+/// Called on the calling thread, after every few thousand operations. The fraction may stay for a while.
 /// \param phase     what is being done
 /// \param fraction  share of the phase that is done, in [0, 1]
 /// An exception thrown by the callback passes through to the caller of faqem.

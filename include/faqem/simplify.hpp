@@ -24,7 +24,9 @@ struct SimplifyResult {
 /// \param mesh     any triangle soup; read only during the call
 /// \param options  see Options; `bake` is ignored here
 /// \return the small mesh, the report, and the history if asked for. An empty mesh gives an empty result.
-///         A vertex that was not moved keeps its position to the last bit.
+///         A vertex that was not moved keeps its position to the last bit. Where the progress callback
+///         cancels, report.stop says so, and the mesh is as far as it was if collapses were under way, or
+///         else empty.
 /// \throws OptionError  an option is out of range
 /// \throws InputError   an index is out of range, a position is not finite, an array has the wrong length,
 ///                      or there are more than 2^32 - 2 vertices or faces, or 2^32 - 2 corners / 3

@@ -10,6 +10,18 @@
 
 namespace faqem {
 
+class SurfaceMap;
+
+namespace engine {
+class Poll;
+}
+
+namespace detail {
+/// A map whose making polls. \throws what the poll throws
+SurfaceMap polled_map(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded,
+                      const engine::Poll& poll);
+}  // namespace detail
+
 /// How a sample found its place.
 enum class MapStep {
     history,  ///< the walk through the history, every test passed
@@ -53,6 +65,10 @@ public:
 
 private:
     struct Impl;
+    explicit SurfaceMap(std::unique_ptr<const Impl> impl);
+    friend SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
+                                         std::span<const Triangle> unwelded, const engine::Poll& poll);
+
     std::unique_ptr<const Impl> impl_;
 };
 

@@ -101,8 +101,27 @@ OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int chann
                            OIIO::TypeDesc::UINT8);
 }
 
+/// What OpenImageIO calls between rows. Nothing may be thrown through it.
+struct RowCallback {
+    engine::Poll poll;
+    std::exception_ptr error = {};
+
+    static bool call(void* self, float) {
+        auto& [poll, error] = *static_cast<RowCallback*>(self);
+        try {
+            poll.now();
+        } catch (...) {
+            error = std::current_exception();
+        }
+        return error != nullptr;
+    }
+    void rethrow() const {
+        if (error) std::rethrow_exception(error);
+    }
+};
+
 Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
-             const std::string& format) {
+             const std::string& format, engine::Poll poll) {
     std::vector<std::uint8_t> rgb;
     if (spec.nchannels == 3) {
         const std::size_t count = std::size_t{pixels.width} * pixels.height;
@@ -117,11 +136,15 @@ Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpe
     if (!output) throw Error("OpenImageIO has no writer for " + format + ": " + OIIO::geterror());
     output->set_ioproxy(&bytes);
     const bool opened = output->open("memory." + format, spec);
+    RowCallback rows{poll};
     const bool written =
-        opened && output->write_image(OIIO::TypeDesc::UINT8, rgb.empty() ? pixels.rgba.data() : rgb.data());
+        opened &&
+        output->write_image(OIIO::TypeDesc::UINT8, rgb.empty() ? pixels.rgba.data() : rgb.data(),
+                            OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, RowCallback::call, &rows);
     const bool closed = opened && output->close();
     // OpenImageIO 2.4 reports some failures here only.
     const std::string error = output->geterror();
+    rows.rethrow();
     if (!written || !closed || !error.empty())
         throw WriteError("image '" + name + "': cannot encode: " + error);
     return image;
@@ -160,12 +183,23 @@ std::string file_ending(const std::string& mime_type) {
 
 }  // namespace detail
 
-Pixels decode(const Image& image) {
+Pixels decode(const Image& image) { return detail::decode(image, {}); }
+
+Image encode_png(const Pixels& pixels, const std::string& name) {
+    return detail::encode_png(pixels, name, {});
+}
+
+Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
+    return detail::encode_jpeg(pixels, name, quality, content, {});
+}
+
+Pixels detail::decode(const Image& image, engine::Poll poll) {
     const std::string type = detail::sniff_mime_type(image.encoded);
     if (!detail::can_decode_image(type))
-        throw UnsupportedError(image.uri, detail::title(image),
-                               (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") +
-                                   ", only " + detail::decodable_images() + " are");
+        throw UnsupportedError(
+            image.uri, detail::title(image),
+            (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") + ", only " +
+                detail::decodable_images() + " are");
     detail::check_header(image);
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::string format = type.substr(6);
@@ -184,9 +218,13 @@ Pixels decode(const Image& image) {
     const int channels = std::min(spec.nchannels, 4);
     const std::size_t count = std::size_t{pixels.width} * pixels.height;
     pixels.rgba.resize(count * 4);
-    const bool read = input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.rgba.data());
+    detail::RowCallback rows{poll};
+    const bool read =
+        input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.rgba.data(), OIIO::AutoStride,
+                          OIIO::AutoStride, OIIO::AutoStride, detail::RowCallback::call, &rows);
     const bool closed = input->close();
     const std::string error = input->geterror();
+    rows.rethrow();
     if (!read || !closed || !error.empty())
         detail::fail(image, error.empty() ? "is damaged" : "is damaged: " + detail::first_line(error));
     detail::spread_to_rgba(pixels.rgba, count, static_cast<std::size_t>(channels));
@@ -195,17 +233,18 @@ Pixels decode(const Image& image) {
     return pixels;
 }
 
-Image encode_png(const Pixels& pixels, const std::string& name) {
+Image detail::encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll) {
     OIIO::ImageSpec spec = detail::spec_of(pixels, name, pixels.has_alpha ? 4 : 3);
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    return detail::encode(pixels, name, spec, "png");
+    return detail::encode(pixels, name, spec, "png", poll);
 }
 
-Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
+Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
+                          Content content, engine::Poll poll) {
     OIIO::ImageSpec spec = detail::spec_of(pixels, name, 3);
     spec.attribute("CompressionQuality", static_cast<int>(quality));
     if (content == Content::data) spec.attribute("jpeg:subsampling", "4:4:4");
-    return detail::encode(pixels, name, spec, "jpeg");
+    return detail::encode(pixels, name, spec, "jpeg", poll);
 }
 
 }  // namespace faqem

@@ -121,9 +121,11 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
 // One attempt at a scale and a page.
 class Packing {
 public:
-    Packing(std::span<const AtlasTriangle> triangles, double scale) : triangles_(triangles), scale_(scale) {
+    Packing(std::span<const AtlasTriangle> triangles, double scale, engine::Poll poll)
+        : triangles_(triangles), scale_(scale) {
         std::vector<Unit> strangers;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
+            poll();
             const auto t = static_cast<Index>(i);
             const AtlasTriangle& a = triangles[i];
             if (a.partner != no_index) {
@@ -140,7 +142,8 @@ public:
             }
             strangers.push_back({shape_of(a.legs, scale, false), t, no_index, a.order, false});
         }
-        std::sort(strangers.begin(), strangers.end(), [](const Unit& a, const Unit& b) {
+        std::sort(strangers.begin(), strangers.end(), [poll](const Unit& a, const Unit& b) {
+            poll();
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
         for (std::size_t i = 0; i < strangers.size(); ++i) {
@@ -150,7 +153,8 @@ public:
             if (two) unit.second = strangers[++i].first;
             units_.push_back(unit);
         }
-        std::sort(units_.begin(), units_.end(), [](const Unit& a, const Unit& b) {
+        std::sort(units_.begin(), units_.end(), [poll](const Unit& a, const Unit& b) {
+            poll();
             if (a.shape.size() != b.shape.size()) return a.shape.size() > b.shape.size();
             return std::tuple(a.order, a.first) < std::tuple(b.order, b.first);
         });
@@ -221,11 +225,11 @@ private:
 
 // The largest scale in [low, high] that fits, to a thousandth; low must fit.
 double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t width, std::uint32_t height,
-                     double low, double high) {
-    if (Packing(triangles, high).fits(width, height)) return high;
+                     double low, double high, engine::Poll poll) {
+    if (Packing(triangles, high, poll).fits(width, height)) return high;
     for (int i = 0; i < 40 && high - low > 1e-3 * high; ++i) {
         const double middle = (low + high) / 2;
-        (Packing(triangles, middle).fits(width, height) ? low : high) = middle;
+        (Packing(triangles, middle, poll).fits(width, height) ? low : high) = middle;
     }
     return low;
 }
@@ -234,17 +238,18 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side) {
-    const Packing wanted(triangles, 1);
+std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side,
+                                    engine::Poll poll) {
+    const Packing wanted(triangles, 1, poll);
     for (std::uint32_t width = 4; width <= side; width *= 2) {
         for (std::uint32_t height : {width / 2, width}) {
             if (!wanted.fits(width, height)) continue;
-            const double scale = largest_scale(triangles, width, height, 1, std::sqrt(2.0));
-            return Packing(triangles, scale).atlas(width, height);
+            const double scale = largest_scale(triangles, width, height, 1, std::sqrt(2.0), poll);
+            return Packing(triangles, scale, poll).atlas(width, height);
         }
     }
-    if (!Packing(triangles, 0).fits(side, side)) return std::nullopt;
-    return Packing(triangles, largest_scale(triangles, side, side, 0, 1)).atlas(side, side);
+    if (!Packing(triangles, 0, poll).fits(side, side)) return std::nullopt;
+    return Packing(triangles, largest_scale(triangles, side, side, 0, 1, poll), poll).atlas(side, side);
 }
 
 AtlasFrame::AtlasFrame(const AtlasPlace& place) : place_(place) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -55,7 +56,9 @@ struct Atlas {
 /// \param side  largest width and height, a power of two
 /// \return nothing if there are more triangles than texels
 /// O(n log n)
-std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side);
+/// \throws what the poll throws
+std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side,
+                                    engine::Poll poll = {});
 
 /// Barycentrics of a triangle with a place, at texel coordinates.
 class AtlasFrame {

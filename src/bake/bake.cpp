@@ -52,18 +52,18 @@ bool needs_map(const Part& part, const BakeOptions& bake) {
 void map_parts(BakeJob& job, const SmallParts& small) {
     double done = 0;
     for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
-        job.poll(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
+        job.go_on(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
         SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
         if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
-            part.map = std::make_unique<const SurfaceMap>(part.small->history, job.options.bake.mapping,
-                                                          part.source->triangles);
+            part.map = std::make_unique<const SurfaceMap>(polled_map(
+                part.small->history, job.options.bake.mapping, part.source->triangles, job.poll()));
         }
         job.parts.push_back(std::move(part));
     }
     for (const SmallPart& part : job.parts) {
-        job.poll(Phase::map, 1);
+        job.go_on(Phase::map, 1);
         const bool has_normals = part.faces() > 0 && job.options.bake.normals != Normals::none;
-        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.options.threads)
+        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
                                           : CornerNormals{});
     }
 }
@@ -92,7 +92,7 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence needs a new atlas (Bake::atlas, per_triangle or automatic)");
     }
-    BakeJob job{source, options, {}, {}, {}};
+    BakeJob job(source, options);
     job.result.report = small.report;
     job.result.asset.source = source.source;
     job.result.asset.warnings = source.warnings;
@@ -103,8 +103,8 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
         map_parts(job, small);
         seconds.map = watch.seconds();
         bake_kind(job);
-        job.poll(Phase::bake, 1);
-    } catch (const Cancelled&) {
+        job.go_on(Phase::bake, 1);
+    } catch (const engine::Cancelled&) {
         job.result.asset.parts.clear();
         job.result.asset.materials.clear();
         job.result.asset.images.clear();

@@ -316,7 +316,9 @@ Chart chart_of(Patch& patch, const std::vector<Complex>& z, double stretch) {
 
 }  // namespace
 
-Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work) {
+Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
+                   engine::Poll poll) {
+    poll(faces.size());
     Patch patch(all, std::move(faces));
     Flattening result;
     if (patch.size() == 1) {
@@ -337,8 +339,10 @@ Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std
         if (z.empty()) return result;
     }
     double least = HUGE_VAL;
+    poll(patch.size());
     const RigidRounds rigid(patch);
     for (int round = 0;; ++round) {
+        poll(patch.size());
         const std::vector<Index> turned = turned_faces(patch, z);
         if (turned.empty()) {
             const double stretch = stretch_of(patch, z);
@@ -361,7 +365,7 @@ Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std
     }
     result.turned.clear();
     Chart chart = chart_of(patch, best, least);
-    if (!apart(chart.places, work)) return result;
+    if (!apart(chart.places, work, poll)) return result;
     result.chart = std::move(chart);
     result.outcome = Flattening::Outcome::flat;
     return result;

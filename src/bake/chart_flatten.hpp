@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/chart_face.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -31,7 +32,9 @@ inline constexpr std::uint64_t flatten_work = 256;
 /// \param all    of the page
 /// \param faces  into `all`, ascending, connected over `across`
 /// \param work   as in apart(); a flattening itself counts as `flatten_work` comparisons a face
+/// \throws what the poll throws; solving a system of all vertices is one operation
 /// O(n^1.5) expected
-Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work);
+Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
+                   engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -48,7 +48,8 @@ struct Merge {
 
 class Growth {
 public:
-    explicit Growth(std::span<const ChartFace> faces) : regions_(faces.size()), parent_(faces.size()) {
+    Growth(std::span<const ChartFace> faces, engine::Poll poll)
+        : regions_(faces.size()), parent_(faces.size()), poll_(poll) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
         for (std::size_t f = 0; f < faces.size(); ++f) start(faces, static_cast<Index>(f));
         for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -60,6 +61,7 @@ public:
 
     void run() {
         while (!queue_.empty()) {
+            poll_();
             const Merge m = queue_.top();
             queue_.pop();
             const Region &a = regions_[m.a], &b = regions_[m.b];
@@ -84,6 +86,7 @@ public:
 
 private:
     void start(std::span<const ChartFace> faces, Index f) {
+        poll_();
         const ChartFace& face = faces[f];
         std::array<Vector3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
@@ -122,6 +125,7 @@ private:
     }
 
     void offer(Index i, Index j) {
+        poll_();
         if (i > j) std::swap(i, j);
         const Region &a = regions_[i], &b = regions_[j];
         const double shared = shared_length(a, j);
@@ -160,7 +164,8 @@ private:
         for (const Shared& s : a.neighbours) offer(i, s.region);
     }
 
-    static void rename(std::vector<Shared>& neighbours, Index from, Index to) {
+    void rename(std::vector<Shared>& neighbours, Index from, Index to) const {
+        poll_(1 + neighbours.size() / 16);
         for (Shared& s : neighbours) {
             if (s.region == from) s.region = to;
         }
@@ -175,6 +180,7 @@ private:
     std::vector<Region> regions_;
     std::vector<Index> parent_;
     std::priority_queue<Merge> queue_;
+    engine::Poll poll_;
 };
 
 // Positions of the neighbours of faces[i] in `faces`.
@@ -207,8 +213,8 @@ std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span
 
 }  // namespace
 
-std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces) {
-    Growth growth(faces);
+std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces, engine::Poll poll) {
+    Growth growth(faces, poll);
     growth.run();
     return growth.regions();
 }

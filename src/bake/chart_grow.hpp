@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/chart_face.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -14,7 +15,8 @@ namespace faqem::detail {
 /// normal; Ward's rule, as in the face clusters of Garland et al. 2001) and to its outline's square. None is
 /// made whose mean normal is shorter than 1 - `most_spread`, or whose densities differ by more than 2.
 /// \return by region, faces ascending; regions by smallest face. O(n log n) expected
-std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces);
+/// \throws what the poll throws
+std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces, engine::Poll poll = {});
 
 /// The connected groups of `faces`. \param faces  ascending \return each ascending, by smallest face
 std::vector<std::vector<Index>> connected_groups(std::span<const ChartFace> all,

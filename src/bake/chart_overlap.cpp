@@ -93,7 +93,7 @@ private:
 
 }  // namespace
 
-bool apart(std::span<const Flat> triangles, std::uint64_t& work) {
+bool apart(std::span<const Flat> triangles, std::uint64_t& work, engine::Poll poll) {
     if (triangles.size() < 2) return true;
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
@@ -120,9 +120,11 @@ bool apart(std::span<const Flat> triangles, std::uint64_t& work) {
         grid.visit(boxes[i], [&](std::size_t cell) { members[fill[cell]++] = static_cast<Index>(i); });
     }
     for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
+        poll();
         for (std::uint64_t i = begin[cell]; i < begin[cell + 1]; ++i) {
             const Box& a = boxes[members[i]];
             for (std::uint64_t j = i + 1; j < begin[cell + 1]; ++j) {
+                poll();
                 if (work-- == 0) {
                     work = 0;
                     return false;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bake/chart_face.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -17,6 +18,7 @@ namespace faqem::detail {
 /// Triangles are compared where their boxes share a cell of a grid. Expected O(n).
 /// \param work  comparisons to make at most; lowered by those made
 /// \return false too if the work is used up before it is known
-bool apart(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work);
+/// \throws what the poll throws
+bool apart(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -189,10 +189,14 @@ struct Placed {
 // One attempt at a scale and a page.
 class Packing {
 public:
-    Packing(std::span<const Shape> shapes, double scale, std::uint32_t width, std::uint32_t height)
-        : width_(width), height_(height) {
+    Packing(std::span<const Shape> shapes, double scale, std::uint32_t width, std::uint32_t height,
+            engine::Poll poll)
+        : width_(width), height_(height), poll_(poll) {
         cuts_.reserve(shapes.size());
-        for (const Shape& shape : shapes) cuts_.push_back(cut_at(shape, scale, width, height));
+        for (const Shape& shape : shapes) {
+            poll(shape.places.size());
+            cuts_.push_back(cut_at(shape, scale, width, height));
+        }
     }
 
     bool run() {
@@ -234,7 +238,7 @@ public:
                 std::uint32_t& from =
                     well ? top : first_row[{grain, size_class(mask.columns), size_class(mask.rows)}];
                 const std::uint32_t step = well ? 1 : 1 + mask.rows / 8;
-                const auto spot = sheet.find(mask, from, best_end - mask.rows, step);
+                const auto spot = sheet.find(mask, from, best_end - mask.rows, step, poll_);
                 if (!spot) continue;
                 from = spot->y;
                 best = Placed{*spot, t};
@@ -253,6 +257,7 @@ public:
 
 private:
     std::uint32_t width_, height_;
+    engine::Poll poll_;
     std::vector<Cut> cuts_;
     std::vector<Placed> placed_;
 };
@@ -304,10 +309,12 @@ ChartPage page_of(std::span<const Chart> charts, std::span<const Shape> shapes, 
 
 }  // namespace
 
-std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side) {
+std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side,
+                                     engine::Poll poll) {
     std::vector<Shape> shapes;
     double area = 0;
     for (const Chart& chart : charts) {
+        poll(chart.places.size());
         shapes.push_back(shape_of(chart));
         area += shapes.back().area;
     }
@@ -316,7 +323,7 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     for (; !fits; width *= 2) {
         for (const std::uint32_t h : {width / 2, width}) {
             height = h;
-            fits = area <= double(width) * height && Packing(shapes, 1, width, height).run();
+            fits = area <= double(width) * height && Packing(shapes, 1, width, height, poll).run();
             if (fits) break;
         }
         if (fits || width == side) break;
@@ -327,11 +334,11 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     double next = std::sqrt(0.55 * double(width) * height / area);
     while (high - low > 0.01 * high && high > 1e-6) {
         if (!(next > low && next < high)) next = (low + high) / 2;
-        const bool good = Packing(shapes, next, width, height).run();
+        const bool good = Packing(shapes, next, width, height, poll).run();
         (good ? low : high) = next;
         next *= good ? 1.07 : 1 / 1.07;
     }
-    Packing packing(shapes, low, width, height);
+    Packing packing(shapes, low, width, height, poll);
     if (!packing.run()) return std::nullopt;
     return page_of(charts, shapes, packing, faces, width, height, low);
 }

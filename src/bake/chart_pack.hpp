@@ -9,6 +9,7 @@
 
 #include "bake/atlas_per_triangle.hpp"
 #include "bake/chart_face.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -42,6 +43,8 @@ struct ChartPage {
 /// chart, the larger its blocks, 16 at most. Large blocks come first; each chart goes to the lowest free
 /// place in one of four turns. \param faces  of all charts together \param side  largest width and height, a
 /// power of two \return nothing if there are more charts than texels
-std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side);
+/// \throws what the poll throws
+std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side,
+                                     engine::Poll poll = {});
 
 }  // namespace faqem::detail

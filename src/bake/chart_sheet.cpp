@@ -111,11 +111,12 @@ bool BlockSheet::free_places(std::span<const Run> runs, std::uint32_t y, Row& pl
 }
 
 std::optional<BlockSheet::Spot> BlockSheet::find(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
-                                                 std::uint32_t step) const {
+                                                 std::uint32_t step, engine::Poll poll) const {
     if (mask.columns > columns_ || mask.rows > rows_) return std::nullopt;
     const std::vector<Run> runs = runs_of(mask);
     Row places, scratch;
     for (std::uint32_t y = from; y < std::min(end, rows_ - mask.rows + 1); y += step) {
+        poll();
         if (!free_places(runs, y, places, scratch)) continue;
         for (std::uint32_t i = 0; i < places.size(); ++i) {
             if (places[i]) return Spot{64 * i + static_cast<std::uint32_t>(std::countr_zero(places[i])), y};

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
+
 namespace faqem::detail {
 
 /// The blocks that a chart needs, row by row.
@@ -34,8 +36,9 @@ public:
     };
     /// The first place, by row and then by column, where all of the mask's blocks are free.
     /// \param from, end  range of rows for the mask's first one \param step  only every step-th of them
-    std::optional<Spot> find(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
-                             std::uint32_t step) const;
+    /// \throws what the poll throws
+    std::optional<Spot> find(const BlockMask& mask, std::uint32_t from, std::uint32_t end, std::uint32_t step,
+                             engine::Poll poll = {}) const;
 
     void take(const BlockMask& mask, Spot spot);
 

@@ -38,7 +38,8 @@ bool good(const Flattening& flattening, double longest) {
 }
 
 // One region's charts.
-Charts lay_region(std::span<const ChartFace> all, const std::vector<Index>& region, double longest) {
+Charts lay_region(std::span<const ChartFace> all, const std::vector<Index>& region, double longest,
+                  Poll poll) {
     Charts result;
     std::uint64_t work = work_per_region * flatten_work * region.size();
     std::vector<std::vector<Index>> waiting = {region};
@@ -50,7 +51,7 @@ Charts lay_region(std::span<const ChartFace> all, const std::vector<Index>& regi
             for (Index f : faces) waiting.push_back({f});
             continue;
         }
-        Flattening flattening = flatten(all, faces, work);
+        Flattening flattening = flatten(all, faces, work, poll);
         if (faces.size() == 1 || good(flattening, longest)) {
             result.charts.push_back(std::move(flattening.chart));
             continue;
@@ -74,8 +75,8 @@ Charts lay_region(std::span<const ChartFace> all, const std::vector<Index>& regi
 // Joins charts, those first that share most of the smaller one's outline.
 class Joining {
 public:
-    Joining(std::span<const ChartFace> all, std::vector<Chart> charts, double longest)
-        : all_(all), charts_(std::move(charts)), of_face_(all.size()), longest_(longest) {
+    Joining(std::span<const ChartFace> all, std::vector<Chart> charts, double longest, Poll poll)
+        : all_(all), charts_(std::move(charts)), of_face_(all.size()), longest_(longest), poll_(poll) {
         for (std::size_t i = 0; i < charts_.size(); ++i) own(static_cast<Index>(i));
         for (std::size_t i = 0; i < charts_.size(); ++i) offer(static_cast<Index>(i), Partners::later);
     }
@@ -89,7 +90,7 @@ public:
             std::vector<Index> faces;
             std::merge(charts_[join.a].faces.begin(), charts_[join.a].faces.end(),
                        charts_[join.b].faces.begin(), charts_[join.b].faces.end(), std::back_inserter(faces));
-            Flattening flattening = flatten(all_, std::move(faces), work);
+            Flattening flattening = flatten(all_, std::move(faces), work, poll_);
             if (!good(flattening, longest_)) continue;
             charts_[join.a] = charts_[join.b] = {};
             charts_.push_back(std::move(flattening.chart));
@@ -112,6 +113,7 @@ private:
     enum class Partners { later, all };
 
     void own(Index chart) {
+        poll_(charts_[chart].faces.size());
         outline_.resize(charts_.size());
         for (Index f : charts_[chart].faces) of_face_[f] = chart;
         for (Index f : charts_[chart].faces) {
@@ -154,6 +156,7 @@ private:
     std::vector<double> outline_;  // of the chart
     std::priority_queue<Join> queue_;
     double longest_;
+    Poll poll_;
 };
 
 }  // namespace
@@ -165,21 +168,21 @@ double wanted_texels(const ChartFace& face) {
            2 * face.density * face.density;
 }
 
-Charts make_charts(std::span<const ChartFace> faces, std::uint32_t threads) {
-    const std::vector<std::vector<Index>> regions = grow_regions(faces);
+Charts make_charts(std::span<const ChartFace> faces, Workers workers) {
+    const std::vector<std::vector<Index>> regions = grow_regions(faces, workers.poll);
     double texels = 0;
     for (const ChartFace& face : faces) texels += wanted_texels(face);
     const double longest = 0.9 * std::sqrt(texels);
     std::vector<Charts> laid(regions.size());
-    parallel_blocks(regions.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) laid[i] = lay_region(faces, regions[i], longest);
+    parallel_blocks(regions.size(), 1, workers, [&](std::size_t begin, std::size_t end, Poll poll) {
+        for (std::size_t i = begin; i < end; ++i) laid[i] = lay_region(faces, regions[i], longest, poll);
     });
     Charts result;
     for (Charts& region : laid) {
         std::move(region.charts.begin(), region.charts.end(), std::back_inserter(result.charts));
         result.given_up += region.given_up;
     }
-    result.charts = Joining(faces, std::move(result.charts), longest).run();
+    result.charts = Joining(faces, std::move(result.charts), longest, workers.poll).run();
     std::sort(result.charts.begin(), result.charts.end(),
               [](const Chart& a, const Chart& b) { return a.faces.front() < b.faces.front(); });
     return result;

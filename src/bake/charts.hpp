@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/chart_face.hpp"
+#include "parallel.hpp"
 
 namespace faqem::detail {
 
@@ -23,6 +24,7 @@ struct Charts {
 /// Every region, and the joining, may use so much work only; what is not done then lies face by face, or
 /// stays apart. Independent of the number of threads.
 /// O(n log n) expected, and O(n) flattenings of a face at most
-Charts make_charts(std::span<const ChartFace> faces, std::uint32_t threads);
+/// \throws what the poll of the workers throws
+Charts make_charts(std::span<const ChartFace> faces, Workers workers);
 
 }  // namespace faqem::detail

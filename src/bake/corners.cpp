@@ -31,14 +31,17 @@ int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
 }
 
 // For each corner the first corner of its vertex that agrees with it.
-std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers) {
-    const VertexCorners at = vertex_corners(mesh);
+std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers,
+                                           engine::Poll poll) {
+    const VertexCorners at = vertex_corners(mesh, poll);
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
     std::vector<std::uint64_t> sorted;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        poll();
         const auto corners = at.at(v);
         sorted.assign(corners.begin(), corners.end());
         std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
+            poll();
             const int c = compare(layers, a, b);
             return c ? c < 0 : a < b;
         });
@@ -52,16 +55,18 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
 
 }  // namespace
 
-VertexCorners vertex_corners(const TriangleMesh& mesh) {
+VertexCorners vertex_corners(const TriangleMesh& mesh, engine::Poll poll) {
     VertexCorners result;
     result.begin.assign(mesh.positions.size() + 1, 0);
     for (const Triangle& t : mesh.triangles) {
+        poll();
         for (Index v : t) ++result.begin[std::size_t{v} + 1];
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) result.begin[v + 1] += result.begin[v];
     result.corners.resize(result.begin.back());
     std::vector<std::uint64_t> fill(result.begin.begin(), result.begin.end() - 1);
     for (std::uint64_t c = 0; c < result.corners.size(); ++c) {
+        poll();
         result.corners[fill[mesh.triangles[c / 3][c % 3]]++] = c;
     }
     return result;
@@ -73,9 +78,9 @@ Vec3 near_corner(std::size_t corner, double inset) {
     return w;
 }
 
-JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers) {
+JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers, engine::Poll poll) {
     const TriangleMesh& mesh = small.small->mesh;
-    const std::vector<std::uint64_t> first = representatives(mesh, layers);
+    const std::vector<std::uint64_t> first = representatives(mesh, layers, poll);
     std::vector<Index> number(first.size(), no_index);
     JoinedPart result;
     Part& part = result.part;
@@ -84,6 +89,7 @@ JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers) {
     part.triangles.resize(mesh.triangles.size());
     part.uvs.resize(layers.uvs.size());
     for (std::uint64_t c = 0; c < first.size(); ++c) {
+        poll();
         Index& n = number[first[c]];
         if (n == no_index) {
             n = static_cast<Index>(result.corner.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/engine/poll.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 
@@ -33,7 +34,7 @@ struct VertexCorners {
 };
 
 /// O(faces + vertices)
-VertexCorners vertex_corners(const TriangleMesh& mesh);
+VertexCorners vertex_corners(const TriangleMesh& mesh, engine::Poll poll = {});
 
 /// Barycentrics of a point at a corner, moved by `inset` of the way to the middle of the opposite edge.
 Vec3 near_corner(std::size_t corner, double inset);
@@ -54,6 +55,7 @@ struct JoinedPart {
 
 /// Joins the corners of a small vertex that agree in every layer. Output vertices come in the order of their
 /// first use. Name and source are those of the source part. O(corners log valence)
-JoinedPart join_corners(const SmallPart& part, const CornerLayers& layers);
+/// \throws what the poll throws
+JoinedPart join_corners(const SmallPart& part, const CornerLayers& layers, engine::Poll poll = {});
 
 }  // namespace faqem::detail

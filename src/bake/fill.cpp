@@ -13,12 +13,13 @@ struct Level {
 };
 
 Level push(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba,
-           const std::vector<std::uint8_t>& known) {
+           const std::vector<std::uint8_t>& known, engine::Poll poll) {
     Level result{(width + 1) / 2, (height + 1) / 2, {}, {}};
     const std::size_t size = std::size_t{result.width} * result.height;
     result.rgba.resize(4 * size);
     result.known.resize(size);
     for (std::uint32_t y = 0; y < result.height; ++y) {
+        poll(result.width / 8);
         for (std::uint32_t x = 0; x < result.width; ++x) {
             std::array<unsigned, 4> sum{};
             unsigned count = 0;
@@ -56,8 +57,10 @@ std::uint8_t pulled(const Level& coarse, std::uint32_t x, std::uint32_t y, std::
 }
 
 void pull(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& rgba,
-          const std::vector<std::uint8_t>& known, const Level& coarse, ChannelRange channels) {
+          const std::vector<std::uint8_t>& known, const Level& coarse, ChannelRange channels,
+          engine::Poll poll) {
     for (std::uint32_t y = 0; y < height; ++y) {
+        poll(width / 8);
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
             if (known[at]) continue;
@@ -74,20 +77,21 @@ bool complete(const std::vector<std::uint8_t>& known) {
 
 }  // namespace
 
-void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels) {
+void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
+               engine::Poll poll) {
     if (complete(known) || std::none_of(known.begin(), known.end(), [](std::uint8_t k) { return k; })) return;
     std::vector<Level> levels;
-    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known));
+    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known, poll));
     while (!complete(levels.back().known)) {
         const Level& last = levels.back();
-        Level next = push(last.width, last.height, last.rgba, last.known);
+        Level next = push(last.width, last.height, last.rgba, last.known, poll);
         levels.push_back(std::move(next));
     }
     for (std::size_t i = levels.size() - 1; i-- > 0;) {
         Level& fine = levels[i];
-        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {});
+        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {}, poll);
     }
-    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels);
+    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels, poll);
 }
 
 }  // namespace faqem::detail

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -19,6 +20,8 @@ struct ChannelRange {
 /// \param pixels  changed where `known` is zero, in `channels` only
 /// \param known   width * height; nonzero where the texel is baked. All zero: nothing happens
 /// O(texels) time, 5/3 bytes per texel.
-void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels);
+/// \throws what the poll throws
+void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
+               engine::Poll poll = {});
 
 }  // namespace faqem::detail

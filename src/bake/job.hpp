@@ -15,34 +15,47 @@
 
 namespace faqem::detail {
 
-/// Thrown through the baker when the progress callback cancels; never leaves it.
-struct Cancelled {};
-
 /// One call of bake().
-struct BakeJob {
+class BakeJob {
+public:
+    BakeJob(const Asset& asset, const Options& how) : source(asset), options(how) {}
+    BakeJob(const BakeJob&) = delete;
+
     const Asset& source;
     const Options& options;
     std::vector<SmallPart> parts;
     std::vector<CornerNormals> normals;  ///< by part
     LightAsset result;
 
-    /// \throws Cancelled
-    void poll(Phase phase, double fraction) const {
-        if (options.progress && options.progress(phase, fraction) == Continue::cancel) throw Cancelled{};
+    /// Tells how far the work is. \throws engine::Cancelled
+    void go_on(Phase phase, double fraction) const {
+        phase_ = phase;
+        fraction_ = fraction;
+        poll().now();
     }
+    /// Asks while the work goes on from there.
+    Poll poll() const { return options.progress ? Poll(asker_) : Poll(); }
+    Workers workers() const { return {options.threads, poll()}; }
+
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
+
+private:
+    // What the callback is told next; no part of the work.
+    mutable Phase phase_ = Phase::map;
+    mutable double fraction_ = 0;
+    mutable engine::Asker asker_{[this] { return options.progress(phase_, fraction_); }};
 };
 
-/// parallel_blocks(), asking the progress callback in between; `done` of `total` work was done before.
+/// parallel_blocks() with a work that polls; `done` of `total` work was done before.
 template <class Work>
 void polled_blocks(const BakeJob& job, Phase phase, std::size_t size, std::size_t block, double done,
                    double total, Work&& work) {
     const std::size_t stretch = std::max(block, (size / 32 / block + 1) * block);
     for (std::size_t begin = 0; begin < size; begin += stretch) {
-        job.poll(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
+        job.go_on(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
         const std::size_t count = std::min(stretch, size - begin);
-        parallel_blocks(count, block, job.options.threads,
-                        [&](std::size_t b, std::size_t e) { work(begin + b, begin + e); });
+        parallel_blocks(count, block, job.workers(),
+                        [&](std::size_t b, std::size_t e, Poll poll) { work(begin + b, begin + e, poll); });
     }
 }
 

@@ -39,8 +39,8 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
 
 void finish_part(BakeJob& job, const SmallPart& part, const CornerLayers& layers,
                  std::vector<Index> materials) {
-    JoinedPart joined = join_corners(part, layers);
-    transfer_skin_and_morphs(part, joined);
+    JoinedPart joined = join_corners(part, layers, job.poll());
+    transfer_skin_and_morphs(part, joined, job.poll());
     joined.part.face_material = std::move(materials);
     job.result.asset.parts.push_back(std::move(joined.part));
 }
@@ -71,7 +71,7 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const SmallPart& part,
                 uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
             }
         }
-        set_tangents(part, job.normals[part.index], faces, moved, result);
+        set_tangents(part, job.normals[part.index], faces, moved, job.poll(), result);
     }
     return result;
 }
@@ -82,7 +82,7 @@ void bake_vertex(BakeJob& job) {
     const MaterialGroups groups = group_materials(job.source, Bake::vertex);
     Channels wanted;
     wanted.base = true;
-    const SourceSurface surface(job.source, wanted);
+    const SourceSurface surface(job.source, wanted, job.poll());
     for (const MaterialGroup& group : groups.groups) {
         Material material = without_textures(job, group.materials.front(), true);
         for (std::size_t m = 1; m < group.materials.size(); ++m)
@@ -92,10 +92,10 @@ void bake_vertex(BakeJob& job) {
     }
     double done = 0;
     for (const SmallPart& part : job.parts) {
-        job.poll(Phase::bake, done++ / static_cast<double>(job.parts.size()));
+        job.go_on(Phase::bake, done++ / static_cast<double>(job.parts.size()));
         const CornerNormals& normals = job.normals[part.index];
         CornerLayers layers{normals.normals, {}, {}};
-        if (part.map) layers.colors = corner_colors(part, surface, normals, job.options.threads);
+        if (part.map) layers.colors = corner_colors(part, surface, normals, job.workers());
         std::vector<Index> materials = kept_materials(part);
         for (Index& m : materials) m = groups.of(m);
         finish_part(job, part, layers, std::move(materials));
@@ -103,6 +103,7 @@ void bake_vertex(BakeJob& job) {
 }
 
 void bake_keep(BakeJob& job) {
+    const Poll poll = job.poll();
     job.result.asset.materials = job.source.materials;
     job.result.asset.images = job.source.images;
     for (const SmallPart& part : job.parts) {
@@ -117,6 +118,7 @@ void bake_keep(BakeJob& job) {
         }
         CornerLayers layers{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {
+            poll();
             const float* values = from.values.data() + c * width;
             for (std::size_t s = 0; s < sets; ++s)
                 layers.uvs[s].push_back({values[2 * s], values[2 * s + 1]});

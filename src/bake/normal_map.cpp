@@ -47,7 +47,7 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
 
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, job.options.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) each[i] = face_deviation(job, faces[i]);
     });
     Deviation all;
@@ -69,7 +69,7 @@ bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<
 }
 
 void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, std::vector<Vec4f>& tangents) {
+                  std::span<const Vec2f> uvs, Poll poll, std::vector<Vec4f>& tangents) {
     const TriangleMesh& mesh = part.small->mesh;
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
@@ -81,7 +81,7 @@ void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span
         }
     }
     tangents.resize(3 * part.faces(), Vec4f{});
-    const std::vector<Vec4f> made = mikk_tangents(corners);
+    const std::vector<Vec4f> made = mikk_tangents(corners, poll);
     for (std::size_t i = 0; i < made.size(); ++i) {
         tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
     }

@@ -23,6 +23,6 @@ double normal_deviation(const BakeJob& job, std::span<const PageFace> faces);
 /// \param uvs       by corner of the small mesh
 /// \param tangents  by corner of the small mesh; made so long if it is empty
 void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, std::vector<Vec4f>& tangents);
+                  std::span<const Vec2f> uvs, Poll poll, std::vector<Vec4f>& tangents);
 
 }  // namespace faqem::detail

@@ -78,11 +78,14 @@ double agreement(const Part& part, std::size_t face) {
     return result > 0 ? wound.norm() : result < 0 ? -wound.norm() : 0;
 }
 
-std::vector<std::uint8_t> turned_faces(const SmallPart& part) {
+std::vector<std::uint8_t> turned_faces(const SmallPart& part, engine::Poll poll) {
     std::vector<std::uint8_t> result(part.faces(), 0);
     if (part.source->normals.empty()) return result;
     double most = 0;
-    for (std::size_t f = 0; f < part.source->triangles.size(); ++f) most += agreement(*part.source, f);
+    for (std::size_t f = 0; f < part.source->triangles.size(); ++f) {
+        poll();
+        most += agreement(*part.source, f);
+    }
     if (!(most > 0)) return result;
     for (std::size_t f = 0; f < result.size(); ++f) {
         result[f] = agreement(*part.source, part.small->history.kept_faces[f]) < 0;
@@ -104,13 +107,14 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
            cluster(face, corner + 2) != cluster(other, other_corner + 1);
 }
 
-CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads) {
+CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, Workers workers) {
     const TriangleMesh& mesh = part.small->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
     const bool transfers = options.normals == Normals::transfer;
     std::vector<Vector3> raw(corners), sides(mesh.triangles.size());
-    CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners), turned_faces(part)};
-    parallel_blocks(mesh.triangles.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+    CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
+                         turned_faces(part, workers.poll)};
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             sides[f] =
                 transfers ? face_side(part, result, f) : winding_normal(mesh.positions, mesh.triangles[f]);
@@ -130,8 +134,9 @@ CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, st
     });
     // The cosine is lowered a little: equal normals differ by rounding.
     const double least_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
-    const VertexCorners at = vertex_corners(mesh);
+    const VertexCorners at = vertex_corners(mesh, workers.poll);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        workers.poll();
         smooth_vertex(mesh, at.at(v), sides, raw, least_cosine, result);
     }
     if (options.normals == Normals::flat) {

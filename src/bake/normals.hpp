@@ -7,6 +7,7 @@
 
 #include "bake/corners.hpp"
 #include "faqem/engine/vector.hpp"
+#include "parallel.hpp"
 
 namespace faqem::detail {
 
@@ -34,6 +35,6 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 /// angles. A normal that would look away from its face gives way to the face's: face_side() with
 /// Normals::transfer, else the face as it is wound. Normals::flat clusters as Normals::smooth does.
 /// O(corners), for bounded numbers of creases per vertex
-CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, std::uint32_t threads);
+CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, Workers workers);
 
 }  // namespace faqem::detail

@@ -18,6 +18,8 @@ using engine::Vector3;
 // Below this a texel's colour is that of texels around it.
 constexpr float clear = 1.0f / 512;
 
+constexpr std::size_t texels_per_poll = 4096;
+
 Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha) {
     if (!wanted) return {};
     const std::size_t texels = std::size_t{atlas.width} * atlas.height;
@@ -61,21 +63,21 @@ public:
         if (images_.base.has_alpha) opaque_.assign(known_.size(), 0);
     }
 
-    void bake(const AtlasCell& cell) {
+    void bake(const AtlasCell& cell, Poll poll) {
         Painter first(*this, cell.first);
         if (cell.second == no_index) {
-            bake_texels(cell, [&](double, double) -> Painter& { return first; });
+            bake_texels(cell, poll, [&](double, double) -> Painter& { return first; });
             return;
         }
         // The two face each other with their hypotenuses and have the same legs: the weights of their right
         // corners tell which one is nearer.
         Painter second(*this, cell.second);
-        bake_texels(cell, [&](double x, double y) -> Painter& {
+        bake_texels(cell, poll, [&](double x, double y) -> Painter& {
             return second.frame.at(x, y)[second.right] > first.frame.at(x, y)[first.right] ? second : first;
         });
     }
 
-    void bake(const ChartTile& tile) {
+    void bake(const ChartTile& tile, Poll poll) {
         const TileOwners owned =
             tile_owners(request_.atlas, request_.charts[tile.chart], request_.across, tile, samples_);
         std::vector<Painter> painters;
@@ -85,6 +87,7 @@ public:
             for (std::uint32_t x = 0; x < tile.width; ++x) {
                 const std::size_t first = (std::size_t{y} * tile.width * samples_ + x) * samples_;
                 if (owned.owners[first] == TileOwners::none) continue;
+                poll(samples_ * samples_);
                 Texel sum;
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -101,17 +104,18 @@ public:
     }
 
     PageImages finish() {
+        const Poll poll = job_.poll();
         count_samples();
         if (request_.channels.base) {
             const bool alpha = images_.base.has_alpha;
-            push_pull(images_.base, alpha ? opaque_ : known_, {0, 3});
-            if (alpha) push_pull(images_.base, known_, {3, 4});
+            push_pull(images_.base, alpha ? opaque_ : known_, {0, 3}, poll);
+            if (alpha) push_pull(images_.base, known_, {3, 4}, poll);
         }
         if (!images_.occlusion_roughness_metallic.rgba.empty()) {
-            push_pull(images_.occlusion_roughness_metallic, known_, {0, 3});
+            push_pull(images_.occlusion_roughness_metallic, known_, {0, 3}, poll);
         }
-        if (request_.channels.emissive) push_pull(images_.emissive, known_, {0, 3});
-        if (request_.channels.normal) push_pull(images_.normal, known_, {0, 3});
+        if (request_.channels.emissive) push_pull(images_.emissive, known_, {0, 3}, poll);
+        if (request_.channels.normal) push_pull(images_.normal, known_, {0, 3}, poll);
         return std::move(images_);
     }
 
@@ -273,9 +277,10 @@ private:
 
     // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
     template <class Choose>
-    void bake_texels(const AtlasCell& cell, Choose&& choose) {
+    void bake_texels(const AtlasCell& cell, Poll poll, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
             for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
+                poll(samples_ * samples_);
                 Texel sum;
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -338,8 +343,10 @@ private:
     }
 
     void count_samples() {
+        const Poll poll = job_.poll();
         auto& [history, relaxed, closest] = images_.samples;
         for (std::size_t i = 0; i < known_.size(); ++i) {
+            if (i % texels_per_poll == 0) poll(texels_per_poll / 16);
             images_.texels += known_[i];
             history += known_[i] * (samples_ * samples_ - relaxed_[i] - closest_[i]);
             relaxed += relaxed_[i];
@@ -365,8 +372,8 @@ PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const Pag
     Page page(job, surface, request);
     const auto bake_all = [&](const auto& pieces, std::size_t block) {
         polled_blocks(job, Phase::bake, pieces.size(), block, done, total,
-                      [&](std::size_t begin, std::size_t end) {
-                          for (std::size_t i = begin; i < end; ++i) page.bake(pieces[i]);
+                      [&](std::size_t begin, std::size_t end, Poll poll) {
+                          for (std::size_t i = begin; i < end; ++i) page.bake(pieces[i], poll);
                       });
         done += static_cast<double>(pieces.size());
     };

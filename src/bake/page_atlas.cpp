@@ -96,16 +96,19 @@ struct HalfEdge {
 }  // namespace
 
 std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<const PageFace> faces) {
+    const Poll poll = job.poll();
     std::vector<HalfEdge> edges;
     edges.reserve(3 * faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
+        poll();
         const Triangle& t = job.parts[faces[i].part].small->mesh.triangles[faces[i].face];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
             edges.push_back({faces[i].part, std::min(a, b), std::max(a, b), 3 * i + c, a < b});
         }
     }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    std::sort(edges.begin(), edges.end(), [poll](const HalfEdge& a, const HalfEdge& b) {
+        poll();
         if (a.part != b.part) return a.part < b.part;
         if (a.low != b.low) return a.low < b.low;
         return a.high != b.high ? a.high < b.high : a.corner < b.corner;
@@ -130,7 +133,7 @@ namespace {
 std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& surface,
                                      std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());
-    parallel_blocks(faces.size(), 256, job.options.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             density[i] = density_at(job.parts[faces[i].part], surface, faces[i].face);
         }
@@ -149,7 +152,7 @@ bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
         }
         shapes[i].across = result.across[i];
     }
-    const std::vector<std::uint8_t> corner = pair_triangles(shapes);
+    const std::vector<std::uint8_t> corner = pair_triangles(shapes, job.poll());
     const std::vector<std::uint64_t> orders = spatial_orders(job, faces);
     std::vector<AtlasTriangle> triangles(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -159,7 +162,7 @@ bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
         t.order = orders[i];
         if (corner[i] < 3) t.partner = shapes[i].across[corner[i]].triangle;
     }
-    std::optional<Atlas> atlas = pack_triangles(triangles, job.options.bake.texture_size);
+    std::optional<Atlas> atlas = pack_triangles(triangles, job.options.bake.texture_size, job.poll());
     if (!atlas) return false;
     result.atlas = *std::move(atlas);
     result.summary.kind = Bake::per_triangle;
@@ -182,11 +185,12 @@ bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const s
         shapes[i].density = density[i];
         shapes[i].across = result.across[i];
     }
-    Charts charts = make_charts(shapes, job.options.threads);
+    Charts charts = make_charts(shapes, job.workers());
     if (job.options.bake.kind == Bake::automatic && few_faces * charts.charts.size() > faces.size()) {
         return lay_out_triangles(job, faces, density, result);
     }
-    std::optional<ChartPage> page = pack_charts(charts.charts, faces.size(), job.options.bake.texture_size);
+    std::optional<ChartPage> page =
+        pack_charts(charts.charts, faces.size(), job.options.bake.texture_size, job.poll());
     if (!page) return false;
     result.atlas = std::move(page->atlas);
     result.charts = std::move(page->charts);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "asset/image.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -22,9 +24,10 @@ public:
         ref.image = static_cast<Index>(asset.images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
         const std::string name = name_ + suffix;
-        asset.images.push_back(as_jpeg(pixels, from)
-                                   ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content)
-                                   : encode_png(pixels, name));
+        asset.images.push_back(
+            as_jpeg(pixels, from)
+                ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, job_.poll())
+                : encode_png(pixels, name, job_.poll()));
         return ref;
     }
 

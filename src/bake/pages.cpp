@@ -97,8 +97,10 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
 
 // Texels per length: of the page over the source's, both root mean squares over the small surface.
 double relative_density(const BakeJob& job, const SourceSurface& surface, const GroupPage& page) {
+    const Poll poll = job.poll();
     double own = 0, wanted = 0;
     for (std::size_t i = 0; i < page.faces.size(); ++i) {
+        poll();
         const PageFace& at = page.faces[i];
         const SmallPart& part = job.parts[at.part];
         const Triangle& t = part.small->mesh.triangles[at.face];
@@ -148,7 +150,7 @@ std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::v
             for (; end < page.faces.size() && page.faces[end].part == part; ++end) {
                 faces.push_back(page.faces[end].face);
             }
-            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], result[part]);
+            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], job.poll(), result[part]);
         }
     }
     return result;
@@ -161,7 +163,7 @@ bool bake_pages(BakeJob& job) {
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;
-    const SourceSurface surface(job.source, wanted);
+    const SourceSurface surface(job.source, wanted, job.poll());
     double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;
@@ -192,8 +194,8 @@ bool bake_pages(BakeJob& job) {
     for (const SmallPart& part : job.parts) {
         CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) layers.uvs.push_back(std::move(uvs[part.index]));
-        JoinedPart joined = join_corners(part, layers);
-        transfer_skin_and_morphs(part, joined);
+        JoinedPart joined = join_corners(part, layers, job.poll());
+        transfer_skin_and_morphs(part, joined, job.poll());
         for (Index f : part.small->history.kept_faces) {
             joined.part.face_material.push_back(groups.of(face_material(*part.source, f)));
         }

@@ -9,10 +9,11 @@
 namespace faqem {
 
 std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
-                                                   const Options& options) {
+                                                   const Options& options) try {
     validate(options);
     detail::check_asset(source);
-    const detail::MeasuredParts measured(source, options);
+    const detail::AskMeanwhile meanwhile(options, 0);
+    const detail::MeasuredParts measured(source, options, meanwhile.poll());
     const std::vector<detail::Goal> goals =
         detail::goals(levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (goals.empty()) return {};
@@ -22,6 +23,11 @@ std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const st
             return detail::run_parts_to(source, targets, own);
         },
         measured);
+} catch (const engine::Cancelled&) {
+    std::vector<SmallPartsLevel> none(1);
+    none.front().result.parts.resize(source.parts.size());
+    none.front().result.report.stop = StopReason::cancelled;
+    return none;
 }
 
 std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,

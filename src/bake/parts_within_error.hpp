@@ -16,13 +16,13 @@ class MeasuredParts {
 public:
     /// \param options  of the runs; borrowed
     /// \throws InputError  an index is out of range
-    MeasuredParts(const Asset& source, const Options& options);
+    MeasuredParts(const Asset& source, const Options& options, Poll poll = {});
 
     const SceneSize& size() const { return size_; }
     /// Of all parts.
     std::uint64_t faces() const { return faces_; }
     /// In the units of the scene, the largest of all parts.
-    Distance operator()(const SmallParts& small, double allowed, Look look) const;
+    Distance operator()(const SmallParts& small, double allowed, Look look, Poll poll) const;
 
 private:
     const Options& options_;

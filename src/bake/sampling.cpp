@@ -54,9 +54,10 @@ double usable(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
 }  // namespace
 
-MipImage::MipImage(Pixels pixels, Encoding encoding) : pixels_(std::move(pixels)), encoding_(encoding) {
+MipImage::MipImage(Pixels pixels, Encoding encoding, engine::Poll poll)
+    : pixels_(std::move(pixels)), encoding_(encoding) {
     for (std::size_t level = 0; width(level) > 1 || height(level) > 1; ++level)
-        levels_.push_back(half(level));
+        levels_.push_back(half(level, poll));
 }
 
 Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const {
@@ -74,10 +75,11 @@ Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const
     return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
 }
 
-MipImage::Level MipImage::half(std::size_t from) const {
+MipImage::Level MipImage::half(std::size_t from, engine::Poll poll) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
     result.rgba.reserve(std::size_t{result.width} * result.height * 4);
     for (std::uint32_t y = 0; y < result.height; ++y) {
+        poll(result.width / 8);
         const Taps rows = taps(y, height(from), result.height);
         for (std::uint32_t x = 0; x < result.width; ++x) {
             const Taps columns = taps(x, width(from), result.width);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/engine/poll.hpp"
 
 namespace faqem::detail {
 
@@ -25,7 +26,8 @@ using Linear = std::array<float, 4>;
 class MipImage {
 public:
     /// \param pixels  at least one texel
-    MipImage(Pixels pixels, Encoding encoding);
+    /// \throws what the poll throws
+    MipImage(Pixels pixels, Encoding encoding, engine::Poll poll = {});
 
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
@@ -43,7 +45,7 @@ private:
     Linear texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& use) const;
     Linear read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
     Linear at_level(std::size_t level, double u, double v, const TextureRef& use) const;
-    Level half(std::size_t from) const;
+    Level half(std::size_t from, engine::Poll poll) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
     std::uint32_t height(std::size_t level) const {
         return level ? levels_[level - 1].height : pixels_.height;

@@ -176,8 +176,9 @@ private:
             Options own = detail::part_options(options_, size_, size_.scales[p]);
             if (options_.progress) {
                 own.progress = [this, size](Phase phase, double fraction) {
-                    const double done = (done_ + fraction * size) / (passes_ * faces_);
-                    return options_.progress(phase, std::min(1.0, done));
+                    const double of_part = phase == Phase::simplify ? fraction * size : 0;
+                    const double done = (done_ + of_part) / (passes_ * faces_);
+                    return options_.progress(Phase::simplify, std::min(1.0, done));
                 };
             }
             const auto& groups = keeps_groups() ? std::nullopt : groups_;

@@ -36,13 +36,14 @@ TangentCorner tangent_corner(const Part& part, const TextureRef& use, std::size_
 }
 
 void add_mikk_tangents(const Part& part, const TextureRef& use, const std::vector<Index>& faces,
-                       std::vector<Vec4f>& result) {
+                       engine::Poll poll, std::vector<Vec4f>& result) {
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
     for (const Index f : faces) {
+        poll();
         for (std::size_t c = 0; c < 3; ++c) corners.push_back(tangent_corner(part, use, f, c));
     }
-    const std::vector<Vec4f> tangents = mikk_tangents(corners);
+    const std::vector<Vec4f> tangents = mikk_tangents(corners, poll);
     for (std::size_t i = 0; i < tangents.size(); ++i) {
         result[std::size_t{3} * faces[i / 3] + i % 3] = tangents[i];
     }
@@ -92,10 +93,11 @@ Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner) {
     return n.isZero(0) ? winding_normal(part.positions, t) : n;
 }
 
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part) {
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine::Poll poll) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> without;  // by material
     for (Index f = 0; f < part.triangles.size(); ++f) {
+        poll();
         const Index material = face_material(part, f);
         if (!material_or_default(asset, material).normal_texture) continue;
         result.resize(3 * part.triangles.size(), Vec4f{});
@@ -110,7 +112,7 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part) {
         }
     }
     for (const auto& [material, faces] : without) {
-        add_mikk_tangents(part, material_or_default(asset, material).normal_texture, faces, result);
+        add_mikk_tangents(part, material_or_default(asset, material).normal_texture, faces, poll, result);
     }
     return result;
 }

@@ -44,6 +44,6 @@ engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t co
 /// Tangents of the corners of all faces whose material has a normal map, in Part's own coordinates: those of
 /// the file where it has them for all corners of a face, else MikkTSpace's, from the texture coordinates with
 /// the texture's transform. Empty where no face has such a material. O(n log n)
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part);
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "asset/image.hpp"
 #include "bake/job.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/error.hpp"
@@ -36,9 +37,9 @@ double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std
 }
 
 /// The error says which material the image is for: images need not have names.
-Pixels decode_for(const Asset& asset, Index image, Index material) {
+Pixels decode_for(const Asset& asset, Index image, Index material, engine::Poll poll) {
     try {
-        return decode(asset.images[image]);
+        return decode(asset.images[image], poll);
     } catch (const UnsupportedError& error) {
         throw UnsupportedError("", material_title(asset, material), error.what());
     } catch (const InputError& error) {
@@ -48,7 +49,8 @@ Pixels decode_for(const Asset& asset, Index image, Index material) {
 
 }  // namespace
 
-SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset_(asset), wanted_(wanted) {
+SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, engine::Poll poll)
+    : asset_(asset), wanted_(wanted) {
     std::vector<bool> used(asset.materials.size() + 1, false);
     for (const Part& part : asset.parts) {
         for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -62,48 +64,51 @@ SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted) : asset
         const Material& material = *surface.material;
         const Encoding colour =
             material.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
-        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index);
+        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index, poll);
         if (used[m] && wanted.metallic_roughness) {
-            surface.metallic_roughness = slot(material.metallic_roughness_texture, Encoding::data, index);
+            surface.metallic_roughness =
+                slot(material.metallic_roughness_texture, Encoding::data, index, poll);
         }
         if (used[m] && wanted.occlusion)
-            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index);
+            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index, poll);
         if (used[m] && wanted.emissive) {
-            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index);
+            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index, poll);
         }
         if (used[m] && wanted.normal && !material.unlit) {
-            surface.normal = slot(material.normal_texture, Encoding::data, index);
+            surface.normal = slot(material.normal_texture, Encoding::data, index, poll);
         }
         surfaces_.push_back(surface);
     }
     scales_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
-        measure(asset.parts[p], scales_[p]);
-        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p]);
+        measure(asset.parts[p], poll, scales_[p]);
+        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p], poll);
     }
 }
 
-SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material) {
+SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material,
+                                        engine::Poll poll) {
     if (!use) return {};
     auto& image = images_[{use.image, encoding}];
     if (!image) {
-        Pixels pixels = decode_for(asset_, use.image, material);
+        Pixels pixels = decode_for(asset_, use.image, material, poll);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "its image has no pixels");
         }
-        image = std::make_unique<const MipImage>(std::move(pixels), encoding);
+        image = std::make_unique<const MipImage>(std::move(pixels), encoding, poll);
     }
     const double texels = double(image->width()) * image->height();
     return {image.get(), &use, std::sqrt(texels * std::abs(double(use.scale[0]) * use.scale[1])),
             uv_transform(use)};
 }
 
-void SourceSurface::measure(const Part& part, PartScale& scale) const {
+void SourceSurface::measure(const Part& part, engine::Poll poll, PartScale& scale) const {
     const std::size_t faces = part.triangles.size();
     std::vector<float> length(faces);  // sqrt of the area
     double area = 0;
     for (std::size_t f = 0; f < faces; ++f) {
+        poll();
         const double a = face_area(part, f);
         area += a;
         length[f] = static_cast<float>(std::sqrt(a));
@@ -120,6 +125,7 @@ void SourceSurface::measure(const Part& part, PartScale& scale) const {
         std::vector<float>& ratio = scale.uv_per_length[set];
         ratio.resize(faces, 0.0f);
         for (std::size_t f = 0; f < faces; ++f) {
+            poll();
             const double r = std::sqrt(uv_area(part.uvs[set], part.triangles[f])) / length[f];
             if (std::isfinite(r)) ratio[f] = static_cast<float>(r);
         }

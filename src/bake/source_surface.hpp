@@ -40,7 +40,8 @@ public:
     /// \param asset   must outlive this
     /// \param wanted  channels that will be asked for
     /// \throws InputError  an image is damaged. \throws UnsupportedError  of an unknown format
-    SourceSurface(const Asset& asset, const Channels& wanted);
+    /// \throws what the poll throws
+    SourceSurface(const Asset& asset, const Channels& wanted, engine::Poll poll = {});
 
     /// \param part      into Asset::parts
     /// \param point     on one of its faces
@@ -79,8 +80,8 @@ private:
         double untextured = 1;
     };
 
-    Slot slot(const TextureRef& use, Encoding encoding, Index material);
-    void measure(const Part& part, PartScale& scale) const;
+    Slot slot(const TextureRef& use, Encoding encoding, Index material, engine::Poll poll);
+    void measure(const Part& part, engine::Poll poll, PartScale& scale) const;
     Linear fetch(const Slot& slot, Index part, const SurfacePoint& point, double spacing) const;
     const Surface& surface(Index material) const {
         return surfaces_[material == no_index ? surfaces_.size() - 1 : material];

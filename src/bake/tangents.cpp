@@ -35,17 +35,19 @@ Vec4f any_tangent(const Vector3f& normal) {
 }
 
 // Equal corners get the number of the first one. -0 and 0 are equal.
-std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners) {
+std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners, engine::Poll poll) {
     std::vector<std::uint32_t> order(corners.size()), result(corners.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t c) {
         return std::tie(corners[c].position, corners[c].normal, corners[c].uv);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        poll();
         if (key(a) < key(b)) return true;
         return !(key(b) < key(a)) && a < b;
     });
     for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
+        poll();
         if (key(order[first]) != key(order[i])) first = i;
         result[order[i]] = order[first];
     }
@@ -54,9 +56,10 @@ std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners) {
 
 class Tangents {
 public:
-    explicit Tangents(std::span<const TangentCorner> corners)
-        : corners_(corners),
-          vertex_(weld(corners)),
+    Tangents(std::span<const TangentCorner> corners, engine::Poll poll)
+        : poll_(poll),
+          corners_(corners),
+          vertex_(weld(corners, poll)),
           faces_(corners.size() / 3),
           across_(corners.size(), none),
           group_(corners.size(), none) {
@@ -92,6 +95,7 @@ private:
     static std::size_t previous(std::size_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
     void measure(std::size_t f) {
+        poll_();
         const std::size_t c = 3 * f;
         Face& face = faces_[f];
         const Vec3f &p0 = corners_[c].position, &p1 = corners_[c + 1].position,
@@ -122,7 +126,8 @@ private:
             const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
             edges.push_back({low, high, c});
         }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+        std::sort(edges.begin(), edges.end(), [this](const Edge& a, const Edge& b) {
+            poll_();
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         std::vector<std::uint32_t> waiting;
@@ -153,6 +158,7 @@ private:
         Vector3f sum = Vector3f::Zero();
         std::vector<std::uint32_t> stack = {seed / 3};
         while (!stack.empty()) {
+            poll_();
             const std::uint32_t f = stack.back();
             stack.pop_back();
             std::size_t c = 3 * std::size_t{f};
@@ -198,6 +204,7 @@ private:
         }
     }
 
+    engine::Poll poll_;
     std::span<const TangentCorner> corners_;
     std::vector<std::uint32_t> vertex_;  // by corner
     std::vector<Face> faces_;
@@ -208,6 +215,8 @@ private:
 
 }  // namespace
 
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners) { return Tangents(corners)(); }
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners, engine::Poll poll) {
+    return Tangents(corners, poll)();
+}
 
 }  // namespace faqem::detail

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -27,7 +28,7 @@ struct TangentCorner {
 /// Unlike the reference, two triangles whose tangents are exactly opposite share one nevertheless: it keeps
 /// the work bounded around vertices with very many triangles.
 /// \param corners  three per triangle, finite
-/// \return one per corner. O(n log n)
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners);
+/// \return one per corner. \throws what the poll throws. O(n log n)
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -43,9 +43,10 @@ double waste(std::span<const PairTriangle> triangles, Index t, std::uint8_t corn
 
 class Matching {
 public:
-    explicit Matching(std::span<const PairTriangle> triangles)
-        : triangles_(triangles), corner_(triangles.size(), alone), waste_(triangles.size()) {
+    Matching(std::span<const PairTriangle> triangles, engine::Poll poll)
+        : triangles_(triangles), corner_(triangles.size(), alone), waste_(triangles.size()), poll_(poll) {
         for (std::size_t t = 0; t < triangles.size(); ++t) {
+            poll_();
             for (std::uint8_t c = 0; c < 3; ++c) waste_[t][c] = waste(triangles, static_cast<Index>(t), c);
         }
     }
@@ -65,7 +66,8 @@ public:
                 }
             }
         }
-        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        std::sort(candidates.begin(), candidates.end(), [this](const Candidate& a, const Candidate& b) {
+            poll_();
             if (a.waste != b.waste) return a.waste < b.waste;
             return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
         });
@@ -97,6 +99,7 @@ private:
 
     // Finds a partner for t, which is free but for its place on the path, in at most `pairs` turned pairs.
     bool extend(Index t, int pairs) {
+        poll_();
         path_.push_back(t);
         bool found = false;
         for (std::uint8_t c : by_waste(t)) {
@@ -131,12 +134,13 @@ private:
     std::vector<std::uint8_t> corner_;
     std::vector<std::array<double, 3>> waste_;
     std::vector<Index> path_;
+    engine::Poll poll_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles) {
-    Matching matching(triangles);
+std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles, engine::Poll poll) {
+    Matching matching(triangles, poll);
     matching.greedy();
     matching.augment();
     return std::move(matching).corners();

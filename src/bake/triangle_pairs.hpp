@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -31,6 +32,7 @@ inline constexpr double most_waste = 1.3;
 /// against triangles, ties by index); then paths of up to seven edges are turned over where that leaves fewer
 /// alone. A pair whose rectangle has more than `most_waste` times the texels of the two by themselves is
 /// never made. O(n log n)
-std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles);
+/// \throws what the poll throws
+std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -90,7 +90,7 @@ struct ColorSum {
 
 }  // namespace
 
-void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined) {
+void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined, engine::Poll poll) {
     const Part& from = *small.source;
     Part& to = joined.part;
     const bool skin = !from.joints.empty() && !from.weights.empty();
@@ -99,6 +99,7 @@ void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined) {
     const VertexCorners at = vertex_corners(mesh);
     to.morph_targets.resize(from.morph_targets.size());
     for (std::uint64_t corner : joined.corner) {
+        poll();
         const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
         const SurfacePoint point = small.map->map(static_cast<Index>(shared / 3), near_corner(shared % 3, 0));
         if (skin) blend_skin(from, point, to);
@@ -118,10 +119,10 @@ void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined) {
 }
 
 std::vector<Vec4f> corner_colors(const SmallPart& part, const SourceSurface& surface,
-                                 const CornerNormals& normals, std::uint32_t threads) {
+                                 const CornerNormals& normals, Workers workers) {
     const TriangleMesh& mesh = part.small->mesh;
     std::vector<Linear> raw(3 * mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
             const Index face = static_cast<Index>(c / 3);
             // A vertex speaks for the surface about it, a quarter of an edge each way.
@@ -135,6 +136,7 @@ std::vector<Vec4f> corner_colors(const SmallPart& part, const SourceSurface& sur
     const VertexCorners at = vertex_corners(mesh);
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        workers.poll();
         std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
         const auto key = [&](std::uint64_t c) { return std::pair(normals.clusters[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {

@@ -43,10 +43,12 @@ public:
     }
 
     /// Binds every vertex to a face near it, as far as its lineage has faces. O(vertices), typically
-    void begin(const Complex& complex) {
+    /// \throws what the poll throws
+    void begin(const Complex& complex, Poll poll = {}) {
         first_.assign(complex.face_slots(), no_index);
         next_.assign(lineage_.original.size(), no_index);
         for (Index i = 0; i < next_.size(); ++i) {
+            poll();
             const Index today = into(lineage_.today[i]);
             if (complex.degree(today) > 0) bind(i, near_face(complex, position(i), today));
         }

@@ -23,14 +23,16 @@ class BorderBindings {
 public:
     /// Binds every point to an open edge near it.
     /// \param lineage  of the vertices to look after; original vertices in ascending order
+    /// \throws what the poll throws
     /// O(open edges + lineage), typically
     BorderBindings(const Original& original, const Lineage& lineage, const Complex& complex,
-                   const PairTable& pairs) {
-        const std::vector<Index> today = collect(original, lineage);
+                   const PairTable& pairs, Poll poll = {}) {
+        const std::vector<Index> today = collect(original, lineage, poll);
         if (points_.empty()) return;
         first_.assign(pairs.size(), no_index);
         next_.assign(points_.size(), no_index);
         for (Index i = 0; i < points_.size(); ++i) {
+            poll();
             const Index pair = near_edge(complex, pairs, points_[i].position, today[i]);
             if (pair != no_index) bind(i, pair);
         }
@@ -103,7 +105,7 @@ private:
     };
 
     // Makes the points and their segments. \return the vertex of the complex that each point has gone into
-    std::vector<Index> collect(const Original& original, const Lineage& lineage) {
+    std::vector<Index> collect(const Original& original, const Lineage& lineage, Poll poll) {
         std::vector<Index> today;
         std::vector<std::array<Index, 2>> both_ways;
         for (const auto& [a, b] : original.open_edges()) {
@@ -113,6 +115,7 @@ private:
         std::sort(both_ways.begin(), both_ways.end());
         std::size_t i = 0;
         for (const auto& [v, other] : both_ways) {
+            poll();
             while (i < lineage.original.size() && lineage.original[i] < v) ++i;
             if (i == lineage.original.size()) break;
             if (lineage.original[i] != v) continue;

@@ -23,15 +23,18 @@ namespace faqem::engine {
 class BorderLoops {
 public:
     /// \param first_context  vertices from here on, and the edges between them, are not looked at
+    /// \throws what the poll throws
     /// O(vertices + n log n), where n vertices are on borders
-    BorderLoops(const Complex& complex, const PairTable& pairs, Index first_context = no_index) {
+    BorderLoops(const Complex& complex, const PairTable& pairs, Index first_context = no_index,
+                Poll poll = {}) {
         for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            poll();
             if (complex.degree(v) > 0) box_.extend(complex.position(v));
             if (pairs.boundary_degree(v) > 0 && v < first_context)
                 points_.push_back({complex.position(v), v});
         }
-        find_borders(complex.vertex_slots(), pairs, first_context);
-        arrange(0, points_.size(), 0);
+        find_borders(complex.vertex_slots(), pairs, first_context, poll);
+        arrange(0, points_.size(), 0, poll);
     }
 
     /// What the collapse of (u, v) would do to borders, as a squared distance: where one ends, that to the
@@ -98,13 +101,14 @@ private:
         double reach = 0;             ///< distance of ended borders to which this one was the next
     };
 
-    void find_borders(std::size_t vertices, const PairTable& pairs, Index first_context) {
+    void find_borders(std::size_t vertices, const PairTable& pairs, Index first_context, Poll poll) {
         const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
         const auto is_open = [&](Index pair) {
             return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context;
         };
         DisjointSets joined(vertices);
         for (Index pair = 0; pair < pairs.size(); ++pair) {
+            poll();
             if (is_open(pair)) joined.join(pairs.first(pair), pairs.second(pair));
         }
         border_.assign(vertices, no_index);
@@ -165,15 +169,16 @@ private:
     }
 
     // A k-d tree: the middle of a range splits it.
-    void arrange(std::size_t begin, std::size_t end, int axis) {
+    void arrange(std::size_t begin, std::size_t end, int axis, Poll poll) {
         if (end - begin < 2) return;
+        poll(end - begin);
         const std::size_t middle = begin + (end - begin) / 2;
         const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
         std::nth_element(at(begin), at(middle), at(end), [axis](const Point& a, const Point& b) {
             return std::pair(a.position[axis], a.vertex) < std::pair(b.position[axis], b.vertex);
         });
-        arrange(begin, middle, (axis + 1) % 3);
-        arrange(middle + 1, end, (axis + 1) % 3);
+        arrange(begin, middle, (axis + 1) % 3, poll);
+        arrange(middle + 1, end, (axis + 1) % 3, poll);
     }
 
     template <class Filter>

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
 
@@ -26,12 +27,14 @@ class Complex {
 public:
     /// \param positions  one per vertex
     /// \param triangles  indices into positions; a face with no_index corners is dead from the start
-    Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles) {
+    /// \throws what the poll throws
+    Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles, Poll poll = {}) {
         vertices_.reserve(positions.size());
         for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), no_index, 0});
         faces_.resize(triangles.size());
         for (std::size_t f = triangles.size(); f-- > 0;) {
             faces_[f].corners = triangles[f];
+            poll();
             if (!alive(static_cast<Index>(f))) continue;
             ++face_count_;
             for (std::size_t k = 3; k-- > 0;) push_corner(triangles[f][k], static_cast<Index>(4 * f + k));

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
@@ -17,9 +19,10 @@ struct Component {
 };
 
 /// Components of the living faces, ordered by their smallest face. O(faces)
-inline std::vector<Component> components(const Complex& complex) {
+/// \throws what the poll throws
+inline std::vector<Component> components(const Complex& complex, Poll poll = {}) {
     std::vector<Component> found;
-    std::vector<std::uint8_t> seen(complex.face_slots(), 0);
+    std::vector<std::uint8_t> seen(complex.face_slots(), 0), is_done(complex.vertex_slots(), 0);
     std::vector<Index> stack;
     for (Index seed = 0; seed < complex.face_slots(); ++seed) {
         if (!complex.alive(seed) || seen[seed]) continue;
@@ -29,15 +32,17 @@ inline std::vector<Component> components(const Complex& complex) {
         while (!stack.empty()) {
             const Index f = stack.back();
             stack.pop_back();
+            poll();
             component.faces.push_back(f);
             for (const Index v : complex.triangle(f)) {
+                if (std::exchange(is_done[v], std::uint8_t{1})) continue;
                 component.box.extend(complex.position(v));
                 complex.for_each_face(v, [&](Index g, unsigned) {
                     if (!seen[g]) seen[g] = 1, stack.push_back(g);
                 });
             }
         }
-        std::sort(component.faces.begin(), component.faces.end());
+        std::sort(component.faces.begin(), component.faces.end(), polled_less(poll));
         found.push_back(std::move(component));
     }
     return found;

@@ -54,7 +54,8 @@ struct LoopOptions {
     double distance_weight = 0;
     /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
     double tiny_component = 0;
-    /// Called every few thousand steps with the share of faces removed; may be empty.
+    /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
+    /// or cancels, the complex stays whole.
     std::function<Continue(double)> progress;
 };
 
@@ -97,14 +98,17 @@ public:
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
         distance_weight_ = options.distance_weight;
-        if (distance_weight_ > 0) borders_.emplace(complex_, pairs_, options.first_context);
         first_count_ = complex_.face_count();
-        queue_.reserve(pairs_.size());
-        metric_.initialise(complex_, pairs_);
-        seed();
-        seeded_at_ = complex_.face_count();
-        collapse_to_target(options);
-        return result_;
+        ask_as(options);
+        if (options.progress) poll_ = Poll(asker_);
+        return unless_cancelled([&] {
+            if (distance_weight_ > 0) borders_.emplace(complex_, pairs_, options.first_context, poll_);
+            queue_.reserve(pairs_.size());
+            initialise(metric_, complex_, pairs_, poll_);
+            seed();
+            seeded_at_ = complex_.face_count();
+            collapse_to_target(options);
+        });
     }
 
     /// After run(), on to a lower target. Rules stay as far relaxed as they are; what is left of the ladder
@@ -116,12 +120,27 @@ public:
         if constexpr (AimingMetric<Metric>) metric_.aim(options.target_faces, options.distance_weight);
         first_count_ = complex_.face_count();
         rung_ = 0;
+        ask_as(options);
         result_.stop = StopReason::reached_target;
-        collapse_to_target(options);
-        return result_;
+        return unless_cancelled([&] { collapse_to_target(options); });
     }
 
 private:
+    void ask_as(const LoopOptions& options) {
+        progress_ = options.progress;
+        target_count_ = options.target_faces;
+    }
+
+    template <class Work>
+    LoopResult unless_cancelled(Work&& work) {
+        try {
+            work();
+        } catch (const Cancelled&) {
+            result_.stop = StopReason::cancelled;
+        }
+        return result_;
+    }
+
     void collapse_to_target(const LoopOptions& options) {
         while (!drain(options)) {
             if (options.ladder == Ladder::stay || !find_more(options)) {
@@ -151,26 +170,21 @@ private:
         }
     }
 
-    // Collapses until the target is reached or the progress callback cancels (true), or the queue is empty
-    // (false).
+    // Collapses until the target is reached (true), or the queue is empty (false).
     bool drain(const LoopOptions& options) {
         while (complex_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
-            if (++steps_ % steps_between_polls == 0 && cancelled(options)) {
-                result_.stop = StopReason::cancelled;
-                return true;
-            }
+            poll_();
             const Index pair = queue_.pop();
             if (!try_collapse(pair)) veto(pair);
         }
         return true;
     }
 
-    bool cancelled(const LoopOptions& options) const {
-        if (!options.progress) return false;
+    Continue ask() const {
         const double done = static_cast<double>(first_count_ - complex_.face_count());
-        const double all = static_cast<double>(first_count_ - std::min(options.target_faces, first_count_));
-        return options.progress(all > 0 ? done / all : 1.0) == Continue::cancel;
+        const double all = static_cast<double>(first_count_ - std::min(target_count_, first_count_));
+        return progress_(all > 0 ? std::min(done / all, 1.0) : 1.0);
     }
 
     void refuse(Refusal reason) { ++result_.refusals[static_cast<std::size_t>(reason)]; }
@@ -195,6 +209,7 @@ private:
     }
 
     void evaluate(Index pair) {
+        poll_();
         lifted_[pair] = 0;
         if (const auto found = candidate(pair)) {
             queue_.set(pair, found->cost);
@@ -365,7 +380,7 @@ private:
     bool delete_double_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
         bool any = false;
-        for (const Index f : double_faces(complex_)) {
+        for (const Index f : double_faces(complex_, poll_)) {
             if (complex_.face_count() <= options.target_faces) break;
             const Triangle corners = complex_.triangle(f);
             recorder_.deleting(f);
@@ -373,7 +388,8 @@ private:
             pairs_.face_removed(corners);
             any = true;
         }
-        if (any && borders_) borders_.emplace(complex_, pairs_);  // edges may have become open
+        if (any && borders_)
+            borders_.emplace(complex_, pairs_, no_index, poll_);  // edges may have become open
         return any;
     }
 
@@ -388,7 +404,7 @@ private:
     // Deletes whole components without locked vertices, smallest box first, down to the target; never the
     // largest.
     bool delete_components(const LoopOptions& options, double largest_diagonal) {
-        std::vector<Component> all = components(complex_);
+        std::vector<Component> all = components(complex_, poll_);
         const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
         std::stable_sort(all.begin(), all.end(),
                          [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
@@ -424,7 +440,6 @@ private:
         ++result_.components_deleted;
     }
 
-    static constexpr std::uint64_t steps_between_polls = 1024;
     static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
     static constexpr double fold_factor = 2;
 
@@ -446,7 +461,10 @@ private:
     std::size_t rung_ = 0;
     std::size_t first_count_ = 0;
     std::size_t seeded_at_ = 0;  // faces there were
-    std::uint64_t steps_ = 0;
+    std::size_t target_count_ = 0;
+    std::function<Continue(double)> progress_;
+    Asker asker_{[this] { return ask(); }};
+    Poll poll_;
     std::vector<Index> killed_;
     std::vector<PairTable::Change> changes_;
 };

@@ -25,11 +25,13 @@ public:
     GroupCurves() = default;
 
     /// \param groups  empty, or one per face slot; borrowed, must outlive this
-    GroupCurves(const Complex& complex, std::span<const Index> groups) : groups_(groups) {
+    /// \throws what the poll throws
+    GroupCurves(const Complex& complex, std::span<const Index> groups, Poll poll = {}) : groups_(groups) {
         if (groups.empty()) return;
         is_on_curve_.assign(complex.vertex_slots(), 0);
         mark_.assign(complex.vertex_slots(), 0);
         for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            poll();
             Index first = no_index;
             is_on_curve_[v] = !complex.all_faces(v, [&](Index f, unsigned) {
                 if (first == no_index) first = f;

@@ -23,7 +23,9 @@ public:
     ImportanceMetric(Inner inner, std::vector<double> weights)
         : inner_(std::move(inner)), weights_(std::move(weights)) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs) { inner_.initialise(complex, pairs); }
+    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
+        engine::initialise(inner_, complex, pairs, poll);
+    }
 
     std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,
                                       Freedom freedom) const {

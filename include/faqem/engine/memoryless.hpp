@@ -36,14 +36,18 @@ public:
     explicit MemorylessMetric(const MemorylessWeights& weights = {}, const GroupCurves* curves = nullptr)
         : weights_(weights), curves_(curves) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs) {
+    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
         rings_.assign(complex.vertex_slots(), {});
         edges_.assign(complex.vertex_slots(), {});
         has_edges_.assign(complex.vertex_slots(), 0);
         for (Index f = 0; f < complex.face_slots(); ++f) {
+            poll();
             if (complex.alive(f)) add_face(complex, f, no_index, no_index, 1);
         }
-        for (Index v = 0; v < rings_.size(); ++v) find_edges(complex, pairs, v);
+        for (Index v = 0; v < rings_.size(); ++v) {
+            poll();
+            find_edges(complex, pairs, v);
+        }
     }
 
     /// The sum of both rings less half of what they share: a shared face counts one and a half times.

@@ -42,6 +42,22 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Complex
     { const_metric.staleness(change) } -> std::same_as<Staleness>;
 };
 
+/// A metric that polls in its long loops, from the beginning on.
+template <class M>
+concept PollingMetric = CollapseMetric<M> &&
+    requires(M metric, const Complex& complex, const PairTable& pairs, Poll poll) {
+    {metric.initialise(complex, pairs, poll)};
+};
+
+template <CollapseMetric M>
+void initialise(M& metric, const Complex& complex, const PairTable& pairs, Poll poll) {
+    if constexpr (PollingMetric<M>) {
+        metric.initialise(complex, pairs, poll);
+    } else {
+        metric.initialise(complex, pairs);
+    }
+}
+
 /// A metric whose costs come in two steps: evaluate() tells at least, refine() what it really is.
 template <class M>
 concept RefiningMetric = CollapseMetric<M> &&
@@ -95,16 +111,20 @@ public:
                           const GroupCurves* curves = nullptr)
         : weights_(weights), seam_vertex_(seam_vertex), curves_(curves) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs) {
+    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
         quadrics_.assign(complex.vertex_slots(), {});
         for (Index f = 0; f < complex.face_slots(); ++f) {
+            poll();
             if (!complex.alive(f)) continue;
             const Triangle& t = complex.triangle(f);
             const Quadric q = base_term(complex.area_vector(f), complex.position(t[0]), weights_.base,
                                         weights_.plane_area, weights_.least_area);
             for (const Index v : t) quadrics_[v] += q;
         }
-        for (Index v = 0; v < complex.vertex_slots(); ++v) add_vertex_terms(complex, pairs, v);
+        for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            poll();
+            add_vertex_terms(complex, pairs, v);
+        }
     }
 
     std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,

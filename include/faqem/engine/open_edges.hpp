@@ -35,12 +35,14 @@ inline std::uint32_t faces_of_edge(const PairTable& pairs, Index v, Index other)
 /// The edges with one face, each by its smaller end first, in order.
 /// \param triangles  of different corners
 /// \param vertices   more than any corner
+/// \throws what the poll throws
 /// O(triangles) for bounded valence; 12 bytes per triangle
 inline std::vector<std::array<Index, 2>> find_open_edges(std::span<const Triangle> triangles,
-                                                         std::size_t vertices) {
+                                                         std::size_t vertices, Poll poll = {}) {
     std::vector<std::size_t> place(vertices + 1, 0);
     const auto for_each_edge = [&](auto&& visit) {
         for (const Triangle& t : triangles) {
+            poll();
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 visit(std::min(a, b), std::max(a, b));
@@ -54,6 +56,7 @@ inline std::vector<std::array<Index, 2>> find_open_edges(std::span<const Triangl
     std::vector<std::array<Index, 2>> open;
     std::size_t begin = 0;
     for (Index a = 0; a < vertices; ++a) {  // each place is where the next vertex begins now
+        poll();
         const std::size_t end = place[a];
         std::sort(larger.begin() + static_cast<std::ptrdiff_t>(begin),
                   larger.begin() + static_cast<std::ptrdiff_t>(end));

@@ -40,11 +40,12 @@ struct Lineage {
 class Original {
 public:
     /// \param positions, triangles  borrowed; triangles of different corners
+    /// \throws what the poll throws
     /// O(triangles); 20 bytes per triangle
-    Original(std::span<const Vector3> positions, std::span<const Triangle> triangles)
+    Original(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll = {})
         : positions_(positions),
           triangles_(triangles),
-          open_edges_(find_open_edges(triangles, positions.size())),
+          open_edges_(find_open_edges(triangles, positions.size(), poll)),
           rings_(positions.size() + 1, 0) {
         for (const Triangle& t : triangles_) {
             for (const Index v : t) ++rings_[v + 1];
@@ -52,6 +53,7 @@ public:
         std::partial_sum(rings_.begin(), rings_.end(), rings_.begin());
         ring_faces_.resize(rings_.back());
         for (Index f = 0; f < triangles_.size(); ++f) {
+            poll();
             for (const Index v : triangles_[f]) ring_faces_[rings_[v]++] = f;
         }
         // Each is where the next begins now.

@@ -26,10 +26,14 @@ public:
     /// Numbers the edges of `complex` by their smaller vertex, then by the order of that vertex's corners;
     /// the virtual pairs follow. O(faces)
     /// \param virtual_pairs  distinct pairs that are no edges
-    PairTable(const Complex& complex, std::span<const std::pair<Index, Index>> virtual_pairs)
+    /// \throws what the poll throws
+    PairTable(const Complex& complex, std::span<const std::pair<Index, Index>> virtual_pairs, Poll poll = {})
         : vertices_(complex.vertex_slots()) {
         pairs_.reserve(complex.face_count() / 2 * 3 + virtual_pairs.size());
-        for (Index v = 0; v < complex.vertex_slots(); ++v) add_edges_above(complex, v);
+        for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            poll();
+            add_edges_above(complex, v);
+        }
         for (const auto& [a, b] : virtual_pairs) pairs_[add(a, b)].is_virtual = true;
     }
 

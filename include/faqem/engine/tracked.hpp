@@ -48,9 +48,10 @@ public:
           target_faces_(target_faces),
           weight_(weight) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs) {
-        planes_.initialise(complex, pairs);
-        border_.emplace(*original_, lineage_, complex, pairs);
+    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
+        poll_ = poll;
+        planes_.initialise(complex, pairs, poll);
+        border_.emplace(*original_, lineage_, complex, pairs, poll);
         bindings_.emplace(*original_, std::exchange(lineage_, {}), complex);
         begin_if_time(complex);
     }
@@ -97,7 +98,8 @@ public:
             faces_.push_back(f);
         });
         if (faces_.empty()) return;
-        for (const Index x : bound_) bindings_->bind(x, faces_[nearest_of(after_, bindings_->position(x))]);
+        for_each_bound(
+            [&](Index x) { bindings_->bind(x, faces_[nearest_of(after_, bindings_->position(x))]); });
     }
 
     Staleness staleness(const PairTable::Change& change) const { return planes_.staleness(change); }
@@ -112,7 +114,7 @@ private:
     void begin_if_time(const Complex& complex) {
         if (complex.face_count() / begins_at > target_faces_) return;
         is_tracking_ = true;
-        bindings_->begin(complex);
+        bindings_->begin(complex, poll_);
     }
 
     // Collects the faces there would be, and what is bound to those there are.
@@ -128,11 +130,22 @@ private:
         });
     }
 
+    // Visits what is bound around the pair, and polls now and then.
+    template <class Visit>
+    void for_each_bound(Visit&& visit) const {
+        constexpr std::size_t stretch = 128;
+        for (std::size_t begin = 0; begin < bound_.size(); begin += stretch) {
+            const std::size_t end = std::min(bound_.size(), begin + stretch);
+            poll_(2 * (end - begin));  // each with several faces
+            for (std::size_t i = begin; i < end; ++i) visit(bound_[i]);
+        }
+    }
+
     // Largest squared distance from a bound vertex to the faces there would be.
     double forward() const {
         double worst = 0;
         std::size_t first = 0;  // neighbours have their nearest face in common: try the last one's first
-        for (const Index i : bound_) {
+        for_each_bound([&](Index i) {
             const Vector3& x = bindings_->position(i);
             double nearest = std::numeric_limits<double>::infinity();
             for (std::size_t j = 0; j < after_.size() && nearest > worst; ++j) {
@@ -142,7 +155,7 @@ private:
                 if (d <= worst) first = k;
             }
             if (nearest > worst) worst = nearest;
-        }
+        });
         return worst;
     }
 
@@ -157,6 +170,7 @@ private:
         return at == no_index ? 0 : bindings_->squared_distance_around(at, p, nearest);
     }
 
+    Poll poll_;
     MemorylessMetric planes_;
     std::optional<Bindings> bindings_;
     std::optional<BorderBindings> border_;

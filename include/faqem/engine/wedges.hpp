@@ -22,10 +22,12 @@ public:
     Wedges() = default;
 
     /// \param attributes  one entry per corner of the complex's face slots; width >= 1
-    Wedges(const Complex& complex, const CornerAttributes& attributes)
+    /// \throws what the poll throws
+    Wedges(const Complex& complex, const CornerAttributes& attributes, Poll poll = {})
         : width_(attributes.width), of_corner_(3 * complex.face_slots(), no_index) {
         std::vector<Index> at_vertex;
         for (Index v = 0; v < complex.vertex_slots(); ++v) {
+            poll();
             at_vertex.clear();
             complex.for_each_face(v, [&](Index f, unsigned corner) {
                 const std::size_t c = 3 * std::size_t{f} + corner;

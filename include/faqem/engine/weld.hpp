@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "faqem/engine/poll.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::engine {
@@ -48,10 +49,12 @@ inline Vec3 plus_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.
 }  // namespace weld_detail
 
 /// For each vertex the smallest index at the same position, -0 being 0. O(n) expected.
-inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions) {
+/// \throws what the poll throws
+inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions, Poll poll = {}) {
     std::vector<Index> representative(positions.size());
     weld_detail::Table table(positions.size());
     for (Index v = 0; v < positions.size(); ++v) {
+        poll();
         Index* slot = table.find(weld_detail::plus_zero(positions[v]),
                                  [&](Index w) { return positions[w] == positions[v]; });
         if (*slot == no_index) *slot = v;
@@ -63,8 +66,9 @@ inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions) {
 /// As weld_exact, and vertices within `distance` of an earlier representative join the first such one.
 /// O(n) expected while few vertices share a cell of size `distance`.
 /// \param distance  model units, >= 0; 0 is weld_exact
-inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance) {
-    std::vector<Index> representative = weld_exact(positions);
+/// \throws what the poll throws
+inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance, Poll poll = {}) {
+    std::vector<Index> representative = weld_exact(positions, poll);
     if (!(distance > 0)) return representative;
     const auto cell_of = [&](const Vec3& p) -> Vec3 {
         return {std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)};
@@ -82,6 +86,7 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
                           [&](Index w) { return cell_of(positions[w]) == cell; });
     };
     for (Index v = 0; v < positions.size(); ++v) {
+        poll();
         if (representative[v] != v) {
             representative[v] = representative[representative[v]];
             continue;

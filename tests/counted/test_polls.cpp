@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/meshes.hpp"
+#include "core/original.hpp"
+#include "counted/steps.hpp"
+#include "faqem/engine/components.hpp"
+#include "faqem/engine/double_faces.hpp"
+#include "faqem/engine/engine.hpp"
+#include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/weld.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+// A few thousandths of a second: a few thousand evaluations of a pair, of a few hundred basic blocks each
+// where little is inlined.
+constexpr std::uint64_t most_steps = 2'000'000;
+
+// How long nobody was asked.
+class Watch {
+public:
+    Poll poll() { return Poll(asker_); }
+    std::function<Continue(double)> progress() {
+        return [this](double) { return note(), Continue::yes; };
+    }
+    void note() {
+        longest_ = std::max(longest_, test::steps() - last_);
+        last_ = test::steps();
+        ++calls_;
+    }
+    // From the beginning of the work to its end; less than that was not asked for.
+    std::uint64_t longest() {
+        note();
+        CHECK(calls_ > 2);
+        return longest_;
+    }
+
+private:
+    std::uint64_t last_ = test::steps(), longest_ = 0;
+    int calls_ = 0;
+    Asker asker_{[this] { return note(), Continue::yes; }};
+};
+
+template <class Work>
+std::uint64_t longest_silence(Work&& work) {
+    Watch watch;
+    work(watch.poll());
+    return watch.longest();
+}
+
+template <class Metric, class Queue>
+std::uint64_t silence_of_engine(const TriangleMesh& mesh, Metric metric, std::size_t target) {
+    Complex complex = test::complex_of(mesh);
+    PairTable pairs(complex, {});
+    Wedges wedges;
+    std::vector<std::uint8_t> free(complex.vertex_slots(), 0);
+    NoRecorder nothing;
+    LoopOptions loop;
+    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
+    loop.target_faces = target;
+    loop.distance_weight = complex.area() / static_cast<double>(target);
+    Watch watch;
+    loop.progress = watch.progress();
+    Engine<Metric, Queue, NoRecorder>(complex, pairs, wedges, free, metric, nothing).run(loop);
+    return watch.longest();
+}
+
+}  // namespace
+
+TEST_CASE("polls: no part of the preparations is silent for long") {
+    const TriangleMesh mesh = test::icosphere(6);
+    const std::vector<Vector3> positions = test::vectors(mesh);
+    CHECK(longest_silence([&](Poll poll) { weld_exact(mesh.positions, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { weld_within(mesh.positions, 1e-6, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { find_open_edges(mesh.triangles, positions.size(), poll); }) <
+          most_steps);
+    CHECK(longest_silence([&](Poll poll) { Original(positions, mesh.triangles, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { Complex(positions, mesh.triangles, poll); }) < most_steps);
+    const Complex complex(positions, mesh.triangles);
+    CHECK(longest_silence([&](Poll poll) { PairTable(complex, {}, poll); }) < most_steps);
+    const PairTable pairs(complex, {});
+    CHECK(longest_silence([&](Poll poll) { components(complex, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { double_faces(complex, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { BorderLoops(complex, pairs, no_index, poll); }) < most_steps);
+    CHECK(longest_silence([&](Poll poll) { MemorylessMetric().initialise(complex, pairs, poll); }) <
+          most_steps);
+    CHECK(longest_silence([&](Poll poll) { MemoryMetric({}).initialise(complex, pairs, poll); }) <
+          most_steps);
+}
+
+TEST_CASE("polls: no part of the collapse loop is silent for long") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(5), 0.005, 1);
+    CHECK(silence_of_engine<MemorylessMetric, BucketQueue>(mesh, MemorylessMetric(), 200) < most_steps);
+    CHECK(silence_of_engine<MemoryMetric, HeapQueue>(mesh, MemoryMetric({}), 200) < most_steps);
+    const test::OriginalOf original(mesh);
+    for (const std::size_t target : {std::size_t{2000}, std::size_t{40}}) {
+        CHECK(silence_of_engine<TrackedMetric, BucketQueue>(
+                  mesh, TrackedMetric({}, original.surface, original.lineage, target, 0.1), target) <
+              most_steps);
+    }
+}
+
+TEST_CASE("polls: nor is a hub, of which a collapse may touch thousands of pairs") {
+    TriangleMesh mesh = test::fan(3000);
+    mesh.positions[0][2] = 1;
+    CHECK(silence_of_engine<MemoryMetric, HeapQueue>(mesh, MemoryMetric({}), 2000) < most_steps);
+}
+
+TEST_CASE("polls: who cancels inside of a collapse finds the complex whole") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.005, 1);
+    for (int stop = 1; stop < 40; stop += 6) {
+        Complex complex = test::complex_of(mesh);
+        PairTable pairs(complex, {});
+        Wedges wedges;
+        std::vector<std::uint8_t> free(complex.vertex_slots(), 0);
+        NoRecorder nothing;
+        MemorylessMetric metric;
+        LoopOptions loop;
+        loop.target_faces = 100;
+        int calls = 0;
+        loop.progress = [&](double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
+        const LoopResult result =
+            Engine<MemorylessMetric, BucketQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing)
+                .run(loop);
+        if (result.stop != StopReason::cancelled) break;
+        CHECK(calls == stop);
+        std::vector<Triangle> left;
+        for (Index f = 0; f < complex.face_slots(); ++f) {
+            if (complex.alive(f)) left.push_back(complex.triangle(f));
+        }
+        CHECK(left.size() == complex.face_count());
+        CHECK(test::closed_manifold(left));
+    }
+}
