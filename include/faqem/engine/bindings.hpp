@@ -48,7 +48,7 @@ public:
         first_.assign(complex.face_slots(), no_index);
         next_.assign(lineage_.original.size(), no_index);
         for (Index i = 0; i < next_.size(); ++i) {
-            poll();
+            poll(4);  // looks at two dozen faces
             const Index today = into(lineage_.today[i]);
             if (complex.degree(today) > 0) bind(i, near_face(complex, position(i), today));
         }
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    // Goes from the faces around `today` to nearer and nearer ones.
+    // Goes from the faces around `today` to nearer and nearer ones, but not around hubs.
     static Index near_face(const Complex& complex, const Vector3& p, Index today) {
         Index best = no_index;
         double nearest = std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ private:
         for (bool nearer = look_around(today); nearer && nearest > 0;) {
             nearer = false;
             const Triangle corners = complex.triangle(best);
-            for (const Index v : corners) nearer |= look_around(v);
+            for (const Index v : corners) nearer |= !complex.is_hub(v) && look_around(v);
         }
         return best;
     }

@@ -30,7 +30,7 @@ public:
     /// \throws what the poll throws
     Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles, Poll poll = {}) {
         vertices_.reserve(positions.size());
-        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), no_index, 0});
+        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), no_index, 0, no_index});
         faces_.resize(triangles.size());
         for (std::size_t f = triangles.size(); f-- > 0;) {
             faces_[f].corners = triangles[f];
@@ -52,6 +52,14 @@ public:
     bool alive(Index f) const { return faces_[f].corners[0] != no_index; }
     /// Number of living faces at v.
     std::uint32_t degree(Index v) const { return vertices_[v].degree; }
+    /// Has it so many faces that they cannot all be looked at for each collapse beside it?
+    bool is_hub(Index v) const { return degree(v) > 256; }
+
+    /// Both, the one with fewer faces first: what is asked of their edge is found sooner there, above all if
+    /// the other one is a hub.
+    std::pair<Index, Index> by_degree(Index a, Index b) const {
+        return degree(b) < degree(a) ? std::pair(b, a) : std::pair(a, b);
+    }
 
     /// Calls visit(face, corner) for every living face at v; corner is 0, 1 or 2.
     template <class Visit>
@@ -104,7 +112,7 @@ public:
     double area(Index f) const { return faces_[f].area; }
 
     /// Are all normals at v at most 120 degrees apart? May be false where they are. O(1) where they are
-    /// within about 30 degrees, else O(valence)
+    /// within about 30 degrees, else O(valence); at hubs that has to be found out rarely
     bool is_calm(Index v) const {
         // The sum of two at more than 120 degrees is no longer than 1, and that of all than one less than
         // there are.
@@ -112,16 +120,16 @@ public:
         const double square = vertex.normals.squaredNorm();
         const double most = static_cast<double>(vertex.degree) - 1 + 1e-6;
         if (vertex.degree > 0 && square > most * most) return true;
+        if (is_hub(v)) return is_calm_hub(v);
         // Nor are any so far apart where each is within 60 degrees of one direction.
-        return all_faces(v, [&](Index f, unsigned) {
-            const double along = normal(f).dot(vertex.normals);
-            return along > 0 && along * along > 0.25 * square;
-        });
+        return all_faces(v, [&](Index f, unsigned) { return is_about(vertex.normals, normal(f)); });
     }
 
-    /// Number of faces with the corners a, b and c. O(valence of a)
+    /// Number of faces with the corners a, b and c. O(the smallest of their valences)
     std::uint32_t faces_with(Index a, Index b, Index c) const {
         std::uint32_t count = 0;
+        if (degree(b) < degree(a)) std::swap(a, b);
+        if (degree(c) < degree(a)) std::swap(a, c);
         for_each_face(a, [&](Index f, unsigned) { count += has_corner(f, b) && has_corner(f, c); });
         return count;
     }
@@ -150,7 +158,8 @@ public:
         Index kept = no_index;
         splice(to.first, kept, survivor);
         splice(from.first, kept, survivor);
-        to = {p, Vector3::Zero(), kept, to.degree + from.degree};
+        if (to.hub != no_index) hubs_[to.hub] = {};
+        to = {p, Vector3::Zero(), kept, to.degree + from.degree, to.hub};
         from.first = no_index;
         from.degree = 0;
         for_each_face(survivor, [&](Index f, unsigned) { set_normal(f); });
@@ -166,12 +175,45 @@ public:
     }
 
 private:
+    // What is known of the normals at a hub.
+    struct Hub {
+        bool is_calm = false;  ///< all of them are within 60 degrees of `about`
+        Vector3 about = Vector3::Zero();
+        Index restless = no_index;  ///< a face whose one was not
+    };
+    static bool is_about(const Vector3& direction, const Vector3& normal) {
+        const double along = normal.dot(direction);
+        return along > 0 && along * along > 0.25 * direction.squaredNorm();
+    }
+
+    // New normals are compared with the direction found here, so that as long as they keep to it the others
+    // need not be looked at again. A face that was to blame once is asked first.
+    bool is_calm_hub(Index v) const {
+        const Vertex& vertex = vertices_[v];
+        if (vertex.hub == no_index) {
+            vertex.hub = static_cast<Index>(hubs_.size());
+            hubs_.emplace_back();
+        }
+        Hub& hub = hubs_[vertex.hub];
+        if (hub.is_calm) return true;
+        const Index f = hub.restless;
+        if (f != no_index && has_corner(f, v) && !is_about(vertex.normals, normal(f))) return false;
+        hub = {true, vertex.normals, no_index};
+        all_faces(v, [&](Index g, unsigned) {
+            hub.is_calm = is_about(vertex.normals, normal(g));
+            if (!hub.is_calm) hub.restless = g;
+            return hub.is_calm;
+        });
+        return hub.is_calm;
+    }
+
     // What is needed together lies together: a vertex is a cache line.
     struct alignas(64) Vertex {
         Vector3 position;
         Vector3 normals;  ///< sum of those of its faces
         Index first;      ///< corner 4 * face + (0, 1 or 2), head of a list
         std::uint32_t degree;
+        mutable Index hub = no_index;  ///< its place in hubs_, where it has one
     };
     struct Face {
         Triangle corners;
@@ -187,6 +229,11 @@ private:
         face.area = length > 0 ? 0.5 * length : 0;
         face.normal = length > 0 ? Vector3(face.normal / length) : Vector3::Zero();
         add_normal(f, 1);
+        for (const Index v : face.corners) {
+            if (vertices_[v].hub == no_index) continue;
+            Hub& hub = hubs_[vertices_[v].hub];
+            if (hub.is_calm) hub.is_calm = is_about(hub.about, face.normal);
+        }
     }
 
     void add_normal(Index f, double sign) {
@@ -217,6 +264,7 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Face> faces_;
+    mutable std::vector<Hub> hubs_;  // found out where it is asked for
     std::size_t face_count_ = 0;
 };
 

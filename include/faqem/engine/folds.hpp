@@ -32,7 +32,8 @@ public:
         const double calm_turn = least < -0.5 ? -0.5 * least + std::sqrt(0.75 * (1 - least * least)) : 2;
         std::uint32_t before = 0, after = 0;
         for (const TurnedFace& side : turned) {
-            if (side.turn > calm_turn && (complex.is_calm(side.a) || complex.is_calm(side.b))) continue;
+            const auto [few, many] = complex.by_degree(side.a, side.b);
+            if (side.turn > calm_turn && (complex.is_calm(few) || complex.is_calm(many))) continue;
             if (const Index g = across(complex, side); g != no_index) {
                 const Vector3 other = (complex.goes_from(g, side.a, side.b) ? -1 : 1) * complex.normal(g);
                 before += complex.normal(side.face).dot(other) < least;
@@ -49,8 +50,9 @@ private:
     static Index across(const Complex& complex, const TurnedFace& side) {
         Index other = no_index;
         std::uint32_t others = 0;
-        complex.for_each_face(side.a, [&](Index g, unsigned) {
-            if (g != side.face && complex.has_corner(g, side.b)) other = g, ++others;
+        const auto [few, many] = complex.by_degree(side.a, side.b);
+        complex.for_each_face(few, [&](Index g, unsigned) {
+            if (g != side.face && complex.has_corner(g, many)) other = g, ++others;
         });
         return others == 1 ? other : no_index;
     }

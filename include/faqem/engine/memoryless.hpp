@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,7 +87,8 @@ public:
         complex.for_each_face(survivor,
                               [&](Index f, unsigned) { add_face(complex, f, no_index, no_index, 1); });
         find_edges(complex, pairs, survivor);
-        for (const PairTable::Change& change : around) find_edges(complex, pairs, change.neighbour.vertex);
+        for (const PairTable::Change& change : around)
+            find_edges_beside(complex, pairs, change.neighbour.vertex, survivor);
     }
 
     Staleness staleness(const PairTable::Change&) const { return Staleness::lazily; }
@@ -130,10 +133,12 @@ private:
     // Sums up the planes along the open, crowded and folding edges of v, and those between groups.
     void find_edges(const Complex& complex, const PairTable& pairs, Index v) {
         has_edges_[v] = 0;
-        const bool is_on_curve = curves_ && curves_->has(v);
-        if (pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !is_on_curve &&
-            (!(weights_.fold_edge > 0) || complex.is_calm(v))) {
-            return;
+        if (!hub_edges_.empty()) hub_edges_.erase(v);
+        if (has_plain_edges_only(complex, pairs, v)) return;
+        if (complex.is_hub(v)) {
+            std::vector<Index>& ends = hub_edges_[v];
+            pairs.for_each_pair(v, [&](Neighbour n) { ends.push_back(n.vertex); });
+            return sum_hub_edges(complex, v, ends);
         }
         Planes q;
         pairs.for_each_pair(v, [&](Neighbour n) {
@@ -144,6 +149,54 @@ private:
                 });
             }
         });
+        edges_[v] = q;
+    }
+
+    bool has_plain_edges_only(const Complex& complex, const PairTable& pairs, Index v) const {
+        const bool is_on_curve = curves_ && curves_->has(v);
+        return pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !is_on_curve &&
+               (!(weights_.fold_edge > 0) || complex.is_calm(v));
+    }
+
+    // find_edges(), where nothing has changed but the faces that v shares with u.
+    void find_edges_beside(const Complex& complex, const PairTable& pairs, Index v, Index u) {
+        const auto known = hub_edges_.empty() ? hub_edges_.end() : hub_edges_.find(v);
+        if (known == hub_edges_.end() || has_plain_edges_only(complex, pairs, v))
+            return find_edges(complex, pairs, v);
+        std::vector<Index>& ends = known->second;
+        const auto [few, many] = complex.by_degree(u, v);
+        complex.for_each_face(few, [&, other = many](Index f, unsigned) {
+            if (!complex.has_corner(f, other)) return;
+            for (const Index w : complex.triangle(f)) {
+                if (w != v) ends.push_back(w);
+            }
+        });
+        sum_hub_edges(complex, v, ends);
+    }
+
+    // \param ends  of edges that may count; those stay that do, in ascending order
+    void sum_hub_edges(const Complex& complex, Index v, std::vector<Index>& ends) {
+        std::sort(ends.begin(), ends.end());
+        ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+        Planes q;
+        std::erase_if(ends, [&](Index w) {
+            const auto [few, many] = complex.by_degree(v, w);
+            Planes own;
+            std::uint32_t faces = 0;
+            Index first = no_index, last = no_index;
+            complex.for_each_face(few, [&, other = many](Index f, unsigned) {
+                if (!complex.has_corner(f, other)) return;
+                ++faces;
+                first = last;
+                last = f;
+                add_edge_plane(complex, f, v, w, 1, own);
+            });
+            const double weight = edge_weight(complex, few, many, faces, first, last);
+            if (!(weight > 0)) return true;
+            q.add(own, weight);
+            return false;
+        });
+        has_edges_[v] = !ends.empty();
         edges_[v] = q;
     }
 
@@ -182,8 +235,9 @@ private:
     double edge_weight(const Complex& complex, Index u, Index v, std::uint32_t faces) const {
         Index first = no_index, last = no_index;
         if (faces == 2) {
-            complex.for_each_face(u, [&](Index f, unsigned) {
-                if (!complex.has_corner(f, v)) return;
+            const auto [few, many] = complex.by_degree(u, v);
+            complex.for_each_face(few, [&, other = many](Index f, unsigned) {
+                if (!complex.has_corner(f, other)) return;
                 first = last;
                 last = f;
             });
@@ -236,6 +290,7 @@ private:
     std::vector<Planes> rings_;
     std::vector<Planes> edges_;
     std::vector<std::uint8_t> has_edges_;
+    std::map<Index, std::vector<Index>> hub_edges_;  // of hubs with such edges: their other ends, ascending
 };
 
 static_assert(CollapseMetric<MemorylessMetric>);

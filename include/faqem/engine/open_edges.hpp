@@ -22,10 +22,11 @@ struct OpenEdge {
 
 namespace open_edges {
 
-inline std::uint32_t faces_of_edge(const PairTable& pairs, Index v, Index other) {
+inline std::uint32_t faces_of_edge(const Complex& complex, const PairTable& pairs, Index v, Index other) {
     std::uint32_t count = 0;
-    pairs.for_each_pair(v, [&](Neighbour n) {
-        if (n.vertex == other) count = pairs.face_count(n.pair);
+    const auto [few, many] = complex.by_degree(v, other);
+    pairs.for_each_pair(few, [&, end = many](Neighbour n) {
+        if (n.vertex == end) count = pairs.face_count(n.pair);
     });
     return count;
 }
@@ -80,13 +81,13 @@ void for_each_open_edge_after(const Complex& complex, const PairTable& pairs, In
     pairs.for_each_pair(u, [&](Neighbour n) {
         const std::uint32_t with_u = pairs.face_count(n.pair);
         if (n.vertex == v || with_u == 0) return;
-        const std::uint32_t with_v = faces_of_edge(pairs, v, n.vertex);
+        const std::uint32_t with_v = faces_of_edge(complex, pairs, v, n.vertex);
         const std::uint32_t gone = with_v > 0 ? 2 * complex.faces_with(u, v, n.vertex) : 0;
         if (with_u + with_v - gone == 1) visit(OpenEdge{n.vertex, with_u, with_v});
     });
     pairs.for_each_pair(v, [&](Neighbour n) {
         if (n.vertex == u || pairs.face_count(n.pair) != 1) return;
-        if (faces_of_edge(pairs, u, n.vertex) == 0) visit(OpenEdge{n.vertex, 0, 1});
+        if (faces_of_edge(complex, pairs, u, n.vertex) == 0) visit(OpenEdge{n.vertex, 0, 1});
     });
 }
 
