@@ -34,19 +34,21 @@ std::size_t questions(Work&& work) {
     return count;
 }
 
-Options with(Preset preset, Target target, std::uint32_t threads = 3) {
+Options with(Preset preset, Target target) {
     Options options;
     options.preset = preset;
     options.target = target;
-    options.threads = threads;
+    options.threads = 3;
     return options;
 }
 
 using Door = std::function<Report(const Options&)>;
 
 // Cancels at every question, or throws: whatever is being done then, nothing is asked after it.
+// On one thread: who waits for others asks every few milliseconds, as often as that takes.
 // \param times  spread over the whole work
 void stop_anywhere(Options options, std::size_t times, const Door& door) {
+    options.threads = 1;
     std::size_t all = 0;
     options.progress = [&](Phase, double) { return ++all, Continue::yes; };
     CHECK(door(options).stop != StopReason::cancelled);
