@@ -50,9 +50,9 @@ private:
     static Index across(const Complex& complex, const TurnedFace& side) {
         Index other = no_index;
         std::uint32_t others = 0;
-        const auto [few, many] = complex.by_degree(side.a, side.b);
-        complex.for_each_face(few, [&](Index g, unsigned) {
-            if (g != side.face && complex.has_corner(g, many)) other = g, ++others;
+        const auto ends = complex.by_degree(side.a, side.b);  // whole: clang 14 captures no part of a binding
+        complex.for_each_face(ends.first, [&](Index g, unsigned) {
+            if (g != side.face && complex.has_corner(g, ends.second)) other = g, ++others;
         });
         return others == 1 ? other : no_index;
     }
