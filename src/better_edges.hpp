@@ -24,12 +24,17 @@ using EdgeSwap = std::array<Index, 2>;
 
 /// Finds edges whose swap brings both surfaces closer: less of the integral of d^2.5 over points on both, no
 /// farther point, no larger loss in the normals, no slivers, no folds, no edge twice. An edge has two faces
-/// of the same winding. No two of them touch each other, so that all may be swapped. \param light     is
-/// swapped as it is now \param original  the surface it should be close to \param even      points spread
-/// evenly over the original, measured where light is now \param corners   the original's vertices, measured
-/// likewise: only the farthest counts \param area      of the original \param workers   0: all; the result
-/// does not depend on it \return in order of what they gain Source: Hoppe et al. 1993, Mesh Optimization (the
-/// operation). O(n log n)
+/// of the same winding. No two of them touch each other, so that all may be swapped.
+///
+/// \param light     is swapped as it is now
+/// \param original  the surface it should be close to
+/// \param even      points spread evenly over the original, measured where light is now
+/// \param corners   the original's vertices, measured likewise: only the farthest counts
+/// \param area      of the original
+/// \param workers   the result does not depend on their number
+/// \return in order of what they gain
+/// \throws what the poll of the workers throws
+/// O(n log n). Source: Hoppe et al. 1993, Mesh Optimization (the operation)
 std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
                                    const GapsBack& corners, double area, Workers workers);
 

@@ -149,14 +149,4 @@ void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers
     queue.rethrow();
 }
 
-/// Calls visit(i) for each i below size, here, and polls.
-template <class Visit>
-void polled(std::size_t size, Poll poll, Visit&& visit) {
-    constexpr std::size_t stretch = 1024;
-    for (std::size_t begin = 0; begin < size; begin += stretch) {
-        poll(std::min(stretch, size - begin));
-        for (std::size_t i = begin; i < std::min(size, begin + stretch); ++i) visit(i);
-    }
-}
-
 }  // namespace faqem::detail
