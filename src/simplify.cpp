@@ -208,7 +208,8 @@ private:
         const engine::Original& original = *ground_.original();
         const std::size_t far = engine::TrackedMetric::begins_at * loop_.target_faces;
         const detail::BlockTracking borders{original, ground_.into(), detail::Watched::borders};
-        if (!reduce_in_blocks(far, original.open_edges().empty() ? nullptr : &borders, recorder)) return false;
+        if (!reduce_in_blocks(far, original.open_edges().empty() ? nullptr : &borders, recorder))
+            return false;
         const detail::BlockTracking all{original, ground_.into()};
         return reduce_in_blocks(loop_.target_faces, &all, recorder);
     }

@@ -260,8 +260,8 @@ TEST_CASE("blocks: where only borders are watched, each holds its own as an engi
     };
     const BlockTracking borders{now.surface, now.lineage.today, Watched::borders};
     const BlockSteps held = found(&borders);
-    check_that_each_goes_like(alone(tube, loop, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)),
-                              held, size);
+    check_that_each_goes_like(
+        alone(tube, loop, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)), held, size);
     const BlockSteps free = found(nullptr);
     REQUIRE(free.steps.size() == held.steps.size());
     CHECK_FALSE(std::equal(free.steps.begin(), free.steps.end(), held.steps.begin(),

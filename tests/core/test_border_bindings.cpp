@@ -70,7 +70,8 @@ TEST_CASE("border bindings: an open edge from one border to another is as far aw
         strip.triangles.push_back({i, i + 6, i + 5});
     }
     Bench bench(strip);
-    // Corner 7 is sqrt(1/5) away from the edge to 8; the middles of those to 6 and 8 are 1/2 away from both sides.
+    // Corner 7 is sqrt(1/5) away from the edge to 8; the middles of those to 6 and 8 are 1/2 away from both
+    // sides.
     CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
 }
 
@@ -92,7 +93,7 @@ TEST_CASE("border bindings: what is bound goes with the border from collapse to 
     }
 }
 
-TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell how far the border is") {
+TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell") {
     // Of the square only corner 1 is looked after: nothing is bound to the edges at corner 3.
     const test::OriginalOf original(square);
     Complex complex(original.positions, original.triangles);

@@ -266,7 +266,8 @@ TEST_CASE("progress of a chain rises to the end, and cancelling ends the chain")
     for (const Preset preset : {Preset::balanced, Preset::qem}) {
         const std::vector<Level> wanted = {ratio(0.5), of_diagonal(0.02), faces(20)};
         Options options = with(preset);
-        options.threads = 1;  // who waits for other threads asks every few milliseconds, as often as that takes
+        options.threads =
+            1;  // who waits for other threads asks every few milliseconds, as often as that takes
         double last = 0;
         std::size_t calls = 0;
         options.progress = [&](Phase, double done) {

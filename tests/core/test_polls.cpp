@@ -86,7 +86,8 @@ TEST_CASE("every phase asks once for each few thousand operations") {
     options.history = Recording::on;
     const SimplifyResult small = simplify(mesh.view(), options);
     const std::vector<Index> one_sheet(faces, 0);
-    CHECK(questions([&](Poll poll) { detail::replay_patches(small.history, one_sheet, poll); }) >= 5 * enough);
+    CHECK(questions([&](Poll poll) { detail::replay_patches(small.history, one_sheet, poll); }) >=
+          5 * enough);
 
     const detail::Surface from = detail::surface_of(mesh.view()), to = detail::surface_of(light.view());
     const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);

@@ -4,56 +4,14 @@
 #include <thread>
 #include <vector>
 
+#include "core/mapped_points.hpp"
 #include "faqem/surface_map.hpp"
 #include "hand_history.hpp"
 
 using namespace faqem;
-using faqem::test::HandHistory;
-using faqem::test::small_mesh;
+using namespace faqem::test;
 
 namespace {
-
-Vec3 mix(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) {
-    Vec3 p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i];
-    return p;
-}
-
-Vec3 small_point(const TriangleMesh& mesh, Index face, const Vec3& w) {
-    const Triangle& t = mesh.triangles[face];
-    return mix(w, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-}
-
-Vec3 original_point(const CollapseHistory& history, const SurfacePoint& p) {
-    const Triangle& t = history.triangles[p.face];
-    return mix(p.barycentric, history.positions[t[0]], history.positions[t[1]], history.positions[t[2]]);
-}
-
-double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
-
-// Barycentrics spread over a triangle, corners included.
-std::vector<Vec3> spread(int n) {
-    std::vector<Vec3> result;
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; i + j <= n; ++j) {
-            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
-        }
-    }
-    return result;
-}
-
-// Faces of an n x n grid over vertices numbered by vertex(i, j); even faces below their diagonal.
-template <class Vertex>
-std::vector<Triangle> grid_faces(Index n, Vertex&& vertex) {
-    std::vector<Triangle> faces;
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-            faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-            faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-        }
-    }
-    return faces;
-}
 
 // 6--7--8      Collapses (4, 5) into 9 at (1.5, 1), then (9, 7) into 10 at (1.25, 1.5).
 // | /| /|
@@ -326,123 +284,6 @@ TEST_CASE("closest finds what brute force finds, on whichever side that is") {
         }
     }
     CHECK(other_side > 0);
-}
-
-TEST_CASE("samples stay in their material group") {
-    std::vector<Vec3> positions;
-    for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    const auto faces = grid_faces(3, [](Index i, Index j) { return 4 * j + i; });
-    std::vector<Index> groups;
-    for (Index f = 0; f < faces.size(); ++f) groups.push_back(f % 6 < 2 ? 7 : no_index);  // left column
-    HandHistory hand(positions, faces, groups);
-    hand.collapse(5, 6, {1.9, 1, 0});  // pulls the border into the other group
-    const CollapseHistory history = hand.finish();
-    const SurfaceMap map(history, Mapping::projection);
-    for (Index f = 0; f < history.kept_faces.size(); ++f) {
-        for (const Vec3& w : spread(4)) {
-            CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.kept_faces[f]]);
-        }
-    }
-}
-
-// Seen from above; h = (P, B, Q) is folded over f, so that it alone looks up.
-//
-//        E            g = (E, B, A), f = (A, B, P) look down. (P, Q) becomes D, then (D, E) becomes C at E's
-//       / \           place: f = (A, B, C) now looks up. Its samples lie in g, which looks down and was never
-//      / g \          touched before: the walk ends there, on the wrong side.
-//     A-----B
-//      \ f / \.       The answer must be h.
-//       \ /  Q
-//        P
-TEST_CASE("a walk that ends on the wrong side falls back to the closest face that looks the right way") {
-    const Index a = 0, b = 1, p = 2, q = 3, e = 4;
-    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}, {0.4, -0.2, 0}, {0.5, 1, 0}},
-                     {{a, b, p}, {e, b, a}, {p, b, q}});
-    const Index d = hand.collapse(p, q, {0.5, -0.6, 0});
-    hand.collapse(d, e, {0.5, 1, 0});
-    const CollapseHistory history = hand.finish();
-    REQUIRE(history.kept_faces == std::vector<Index>{0, 1});
-    const SurfaceMap map(history, Mapping::projection);
-    const SurfacePoint hit = map.map(0, {0.4, 0.3, 0.3});
-    CHECK(hit.face == 2);
-    CHECK(hit.step == MapStep::closest);
-    CHECK(map.map(1, {0.4, 0.3, 0.3}).face == 1);
-}
-
-TEST_CASE("a face that was turned over has no right side and says so") {
-    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {0, 3, 1}});
-    hand.collapse(2, 3, {0.5, -1, 0});
-    const CollapseHistory history = hand.finish();
-    const SurfacePoint hit = SurfaceMap(history, Mapping::projection).map(0, {0.4, 0.3, 0.3});
-    CHECK(hit.step != MapStep::history);
-    CHECK(hit.face < 2);
-}
-
-// Two plates at one place, wound alike, that share their vertices since they were welded.
-TEST_CASE("samples stay on their plate where two share all vertices") {
-    constexpr Index n = 4, layer = (n + 1) * (n + 1);
-    std::vector<Vec3> positions;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    const std::vector<Triangle> plate = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
-    const Index count = static_cast<Index>(plate.size());
-    std::vector<Triangle> welded = plate, unwelded = plate;
-    welded.insert(welded.end(), plate.begin(), plate.end());
-    for (const Triangle& t : plate) unwelded.push_back({t[0] + layer, t[1] + layer, t[2] + layer});
-    HandHistory hand(positions, welded);
-    Index last = 6;
-    for (const Index v : {7u, 8u, 13u, 12u, 11u, 16u, 17u, 18u}) last = hand.collapse(last, v, {2, 2, 0});
-    const CollapseHistory history = hand.finish();
-    const TriangleMesh small = small_mesh(history);
-    REQUIRE(small.triangles.size() < welded.size());
-    const SurfaceMap map(history, Mapping::projection, unwelded);
-    for (Index f = 0; f < small.triangles.size(); ++f) {
-        const bool first = history.kept_faces[f] < count;
-        for (const Vec3& w : spread(6)) {
-            const SurfacePoint q = map.map(f, w);
-            CHECK((q.face < count) == first);
-            CHECK(q.step == MapStep::history);
-            CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
-        }
-    }
-}
-
-// A row of vertices between two others is swallowed by its first one: the two faces that are left were in a
-// patch for each of them, more than a walk may look at.
-TEST_CASE("walks that get too long end at the closest point of their sheet") {
-    constexpr Index n = 1500;
-    std::vector<Vec3> positions = {{0, 1, 0}, {0, -1, 0}};
-    for (Index i = 0; i <= n; ++i) positions.push_back({double(i) / n, 0, 0});
-    std::vector<Triangle> faces;
-    for (Index i = 2; i < n + 2; ++i) {
-        faces.push_back({i, i + 1, 0});
-        faces.push_back({i + 1, i, 1});
-    }
-    double bump = 0;
-    SECTION("in a plane") {}
-    SECTION("on a bent sheet") { bump = 0.01; }
-    for (Vec3& p : positions) p[2] = bump * std::sin(20 * p[0]);
-    HandHistory hand(positions, faces);
-    Index last = 2;
-    for (Index i = 3; i < n + 2; ++i) last = hand.collapse(last, i, positions[2]);
-    const CollapseHistory history = hand.finish();
-    const TriangleMesh small = small_mesh(history);
-    REQUIRE(small.triangles.size() == 2);
-    const SurfaceMap map(history, Mapping::projection);
-    std::size_t given_up = 0;
-    for (Index f = 0; f < small.triangles.size(); ++f) {
-        for (const Vec3& w : spread(12)) {
-            const SurfacePoint q = map.map(f, w);
-            given_up += q.step == MapStep::closest;
-            const Vec3 p = small_point(small, f, w);
-            if (p[1] != 0) CHECK(q.face % 2 == history.kept_faces[f] % 2);
-            CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
-        }
-    }
-    if (bump > 0) CHECK(given_up > 0);
 }
 
 TEST_CASE("several threads get the same answers") {

@@ -104,7 +104,7 @@ TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the la
     CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
 }
 
-TEST_CASE("tracked: far above the target the planes and the border tell, then the lineage tells what is bound where") {
+TEST_CASE("tracked: far above the target planes and border tell, then the lineage what is bound where") {
     // A cylinder of 16 sides and 16 rings; four times the target is reached by joining a rim with the next.
     const TriangleMesh tube = test::cylinder(16, 16, 4);
     Bench bench(tube, 120);

@@ -41,9 +41,8 @@ public:
     /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
     /// distance of what is bound around the pair from the open edges there would be, and of p and the middles
     /// of these edges from the original border there: an edge from one border to another is far from both.
-    /// Where nothing is bound to the edges at hand, what is to the next ones says where the border was. 0 where
-    /// there is no border, or it comes to its end.
-    /// O(bound points times valence)
+    /// Where nothing is bound to the edges at hand, what is to the next ones says where the border was. 0
+    /// where there is no border, or it comes to its end. O(bound points times valence)
     double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v,
                             const Vector3& p) {
         if (!is_near(pairs, u, v)) return 0;
