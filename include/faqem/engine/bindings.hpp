@@ -2,6 +2,7 @@
 /// \file
 /// Which part of the original each face of today stands for.
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -78,18 +79,25 @@ public:
 
 private:
     // Goes from the faces around `today` to nearer and nearer ones, but not around hubs.
-    static Index near_face(const Complex& complex, const Vector3& p, Index today) {
+    Index near_face(const Complex& complex, const Vector3& p, Index today) {
         Index best = no_index;
         double nearest = std::numeric_limits<double>::infinity();
+        looked_around_.clear();
+        const auto is_known = [&](Index v) {
+            return std::find(looked_around_.begin(), looked_around_.end(), v) != looked_around_.end();
+        };
         const auto look_around = [&](Index v) {
+            if (is_known(v)) return false;
             const Index before = best;
-            complex.for_each_face(v, [&](Index f, unsigned) {
+            complex.for_each_face(v, [&](Index f, unsigned corner) {
                 const Triangle& t = complex.triangle(f);
+                if (is_known(t[(corner + 1) % 3]) || is_known(t[(corner + 2) % 3])) return;
                 const TriangleDistance distance(complex.position(t[0]), complex.position(t[1]),
                                                 complex.position(t[2]));
                 const double d = distance(p);
                 if (best == no_index || d < nearest) nearest = d, best = f;
             });
+            looked_around_.push_back(v);
             return best != before;
         };
         for (bool nearer = look_around(today); nearer && nearest > 0;) {
@@ -102,8 +110,9 @@ private:
 
     const Original* original_;
     Lineage lineage_;
-    std::vector<Index> into_;          // of each vertex of the complex: the next one on the way to today's
-    std::vector<Index> first_, next_;  // lists of vertices bound to each face
+    std::vector<Index> into_;           // of each vertex of the complex: the next one on the way to today's
+    std::vector<Index> first_, next_;   // lists of vertices bound to each face
+    std::vector<Index> looked_around_;  // scratch
 };
 
 }  // namespace faqem::engine

@@ -29,14 +29,22 @@ public:
         const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * per_det_;
         const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * per_det_;
         if (per_det_ > 0 && v >= 0 && w >= 0 && v + w <= 1) return (from_a - v * ab_ - w * ac_).squaredNorm();
-        return std::min({(from_a - unit(along_ab * per_ab2_) * ab_).squaredNorm(),
-                         (from_a - unit(along_ac * per_ac2_) * ac_).squaredNorm(),
-                         (from_b - unit(bc_.dot(from_b) * per_bc2_) * bc_).squaredNorm()});
+        // The closest point is on a side that p is beyond; where rounding may have decided, on others too.
+        const bool any = !(per_det_ > 0);
+        double nearest = std::numeric_limits<double>::infinity();
+        if (any || !(w >= doubt)) nearest = (from_a - unit(along_ab * per_ab2_) * ab_).squaredNorm();
+        if (any || !(v >= doubt))
+            nearest = std::min(nearest, (from_a - unit(along_ac * per_ac2_) * ac_).squaredNorm());
+        if (any || !(v + w <= 1 - doubt))
+            nearest = std::min(nearest, (from_b - unit(bc_.dot(from_b) * per_bc2_) * bc_).squaredNorm());
+        return nearest;
     }
 
 private:
     /// Below it the inside of a triangle says no more than its sides do.
     static constexpr double least_sine_squared = 1e-14;
+    /// More than what v and w may be off there.
+    static constexpr double doubt = 0.05;
 
     static double inverse(double x) { return x > 0 ? 1 / x : 0; }
     static double unit(double t) { return std::clamp(t, 0.0, 1.0); }
