@@ -4,11 +4,12 @@
 struct ShortestEdge {
     void initialise(const faqem::engine::Complex&, const faqem::engine::PairTable&) {}
     std::optional<faqem::engine::Candidate> evaluate(const faqem::engine::Complex& complex,
-                                                     const faqem::engine::PairTable&, faqem::Index u,
-                                                     faqem::Index v, faqem::engine::Freedom freedom) const {
+                                                     const faqem::engine::PairTable& pairs,
+                                                     faqem::Index pair,
+                                                     faqem::engine::Freedom freedom) const {
         if (freedom != faqem::engine::Freedom::anywhere) return std::nullopt;
-        const auto& a = complex.position(u);
-        const auto& b = complex.position(v);
+        const auto& a = complex.position(pairs.first(pair));
+        const auto& b = complex.position(pairs.second(pair));
         return faqem::engine::Candidate{0.5 * (a + b), (a - b).norm()};
     }
     void collapsing(const faqem::engine::Complex&, const faqem::engine::PairTable&, faqem::Index,

@@ -31,8 +31,9 @@ struct Script {
     std::map<Ends, Vector3> offers;
 
     void initialise(const Complex&, const PairTable&) {}
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable&, Index u, Index v,
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
                                       Freedom freedom) const {
+        const Index u = pairs.first(pair), v = pairs.second(pair);
         const auto at = offers.find(ends(u, v));
         if (at == offers.end() || freedom == Freedom::nowhere) return std::nullopt;
         const auto order = static_cast<double>(std::distance(offers.begin(), at));

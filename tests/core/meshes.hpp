@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/pairs.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::test {
@@ -267,6 +268,15 @@ inline engine::Complex complex_of(const TriangleMesh& mesh) {
     std::vector<engine::Vector3> positions;
     for (const Vec3& p : mesh.positions) positions.push_back(engine::to_eigen(p));
     return {positions, mesh.triangles};
+}
+
+/// The living pair of u and v, in any order; no_index where there is none.
+inline Index pair_of(const engine::PairTable& pairs, Index u, Index v) {
+    Index found = no_index;
+    pairs.for_each_pair(u, [&](engine::Neighbour n) {
+        if (n.vertex == v) found = n.pair;
+    });
+    return found;
 }
 
 /// Number of faces of each edge, smaller vertex first.

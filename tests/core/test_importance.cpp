@@ -65,8 +65,8 @@ void for_each_pair(const Complex& complex, const PairTable& pairs, Metric& plain
     weighted.initialise(complex, pairs);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto a = plain.evaluate(complex, pairs, u, v, Freedom::anywhere);
-        const auto b = weighted.evaluate(complex, pairs, u, v, Freedom::anywhere);
+        const auto a = plain.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto b = weighted.evaluate(complex, pairs, pair, Freedom::anywhere);
         REQUIRE((a && b));
         visit(u, v, *a, *b);
     }
@@ -88,7 +88,7 @@ TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing")
                       CHECK(a.point == b.point);
                       CHECK(weighted.weight(u, v) == std::max(weights[u], weights[v]));
                       CHECK(b.cost == Approx(a.cost * weighted.weight(u, v)));
-                      CHECK(!weighted.evaluate(complex, pairs, u, v, Freedom::nowhere));
+                      CHECK(!weighted.evaluate(complex, pairs, test::pair_of(pairs, u, v), Freedom::nowhere));
                   });
 }
 
@@ -130,8 +130,8 @@ TEST_CASE("a cost that is no longer finite is no candidate") {
     const PairTable pairs(complex, {});
     ImportanceMetric metric(MemorylessMetric(), {1e200, 1, 1, 1});
     metric.initialise(complex, pairs);
-    CHECK(!metric.evaluate(complex, pairs, 0, 1, Freedom::at_first));
-    CHECK(metric.evaluate(complex, pairs, 2, 3, Freedom::at_first));
+    CHECK(!metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_first));
+    CHECK(metric.evaluate(complex, pairs, test::pair_of(pairs, 2, 3), Freedom::at_first));
 }
 
 TEST_CASE("where the weight is ten, more faces are kept and the error is smaller") {

@@ -15,7 +15,7 @@ Candidate evaluated(const Complex& complex, Index u, Index v, const MemorylessWe
     const PairTable pairs(complex, {});
     MemorylessMetric metric(weights);
     metric.initialise(complex, pairs);
-    const auto found = metric.evaluate(complex, pairs, u, v, Freedom::anywhere);
+    const auto found = metric.evaluate(complex, pairs, test::pair_of(pairs, u, v), Freedom::anywhere);
     REQUIRE(found);
     return *found;
 }
@@ -40,10 +40,12 @@ TEST_CASE("memoryless: an open edge costs its squared length times the squared d
     const PairTable pairs(complex, {});
     MemorylessMetric metric;
     metric.initialise(complex, pairs);
-    const Candidate at_first = *metric.evaluate(complex, pairs, 0, 1, Freedom::at_first);
+    const Candidate at_first =
+        *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_first);
     CHECK(at_first.cost == Approx(0).margin(1e-15));
     // From the plane x = 0 of edge (0, 3), length 1: squared distance 1.
-    const Candidate at_second = *metric.evaluate(complex, pairs, 0, 1, Freedom::at_second);
+    const Candidate at_second =
+        *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_second);
     CHECK(at_second.cost == Approx(1));
 }
 
@@ -57,7 +59,7 @@ TEST_CASE("memoryless: a shared face counts one and a half times") {
     const PairTable pairs(complex, {});
     MemorylessMetric metric({0, 0, 0});
     metric.initialise(complex, pairs);
-    const Candidate found = *metric.evaluate(complex, pairs, 0, 2, Freedom::at_second);
+    const Candidate found = *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second);
     // (0, 2) shares the face in z = 0, on which vertex 2 lies; the other face has area 1/2 and is 1 away from
     // it.
     CHECK(found.cost == Approx(0.5));
@@ -78,7 +80,7 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
         const PairTable pairs(blade, {});
         MemorylessMetric metric({0, 0, fold});
         metric.initialise(blade, pairs);
-        return metric.evaluate(blade, pairs, 0, 2, Freedom::at_second)->cost;
+        return metric.evaluate(blade, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
     };
     // Vertex 2 is 1 away from the rim, of length 1, along which each face has a plane.
     CHECK(cost(0.01, 0.2) - cost(0.01, 0) == Approx(0.4).epsilon(1e-3));
@@ -92,7 +94,7 @@ TEST_CASE("memoryless: where windings disagree, a flat edge is no rim") {
     const auto cost = [&](double fold) {
         MemorylessMetric metric({0, 0, fold});
         metric.initialise(complex, pairs);
-        return metric.evaluate(complex, pairs, 0, 2, Freedom::at_second)->cost;
+        return metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
     };
     CHECK(cost(0.2) == cost(0));
 }
@@ -107,7 +109,7 @@ TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where
         const auto cost = [&](double weight) {
             MemorylessMetric metric({0, weight, 0});
             metric.initialise(complex, pairs);
-            return metric.evaluate(complex, pairs, 0, 2, Freedom::at_second)->cost;
+            return metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
         };
         return cost(5) - cost(0);
     };
@@ -141,7 +143,7 @@ TEST_CASE("memoryless: after collapses the costs are those of the surface as it 
         Index pair = static_cast<Index>(round * 7);
         while (!pairs.alive(pair)) ++pair;
         const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto found = metric.evaluate(complex, pairs, u, v, Freedom::anywhere);
+        const auto found = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
         REQUIRE(found);
         metric.collapsing(complex, pairs, u, v, found->point);
         complex.collapse(u, v, found->point);
@@ -152,10 +154,8 @@ TEST_CASE("memoryless: after collapses the costs are those of the surface as it 
     anew.initialise(complex, pairs);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         if (!pairs.alive(pair)) continue;
-        const auto a =
-            metric.evaluate(complex, pairs, pairs.first(pair), pairs.second(pair), Freedom::anywhere);
-        const auto b =
-            anew.evaluate(complex, pairs, pairs.first(pair), pairs.second(pair), Freedom::anywhere);
+        const auto a = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto b = anew.evaluate(complex, pairs, pair, Freedom::anywhere);
         REQUIRE(a);
         REQUIRE(b);
         CHECK(a->cost == Approx(b->cost).epsilon(1e-9).margin(1e-15));

@@ -29,7 +29,7 @@ struct Bench {
         metric.initialise(complex, pairs);
     }
     std::optional<Candidate> evaluate(Index u, Index v, Freedom freedom = Freedom::anywhere) const {
-        return metric.evaluate(complex, pairs, u, v, freedom);
+        return metric.evaluate(complex, pairs, test::pair_of(pairs, u, v), freedom);
     }
     PairTable::Change collapse(Index u, Index v, const Vector3& p) {
         metric.collapsing(complex, pairs, u, v, p);

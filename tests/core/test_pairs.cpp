@@ -51,6 +51,18 @@ Model after_collapse(const Model& before, const Complex& complex, Index u, Index
     return model;
 }
 
+// Are they as many living faces as it has, each of them with both of its ends?
+bool knows_its_faces(const PairTable& pairs, const Complex& complex, Index pair) {
+    const std::uint32_t count = pairs.face_count(pair);
+    if (count > 2) return true;
+    const auto [first, last] = pairs.faces(pair);
+    const auto has = [&](Index f) {
+        return f != no_index && complex.alive(f) && complex.has_corner(f, pairs.first(pair)) &&
+               complex.has_corner(f, pairs.second(pair));
+    };
+    return (count < 1 || has(first)) && (count < 2 || (has(last) && first != last));
+}
+
 bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) {
     Model found;
     std::vector<std::uint32_t> open(complex.vertex_slots(), 0), crowded(complex.vertex_slots(), 0);
@@ -58,6 +70,7 @@ bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) 
         if (!pairs.alive(p)) continue;
         const Ends e = ends(pairs.first(p), pairs.second(p));
         if (!found.insert({e, {pairs.face_count(p), false}}).second) return false;
+        if (!knows_its_faces(pairs, complex, p)) return false;
         if (pairs.face_count(p) == 1) ++open[e.first], ++open[e.second];
         if (pairs.face_count(p) > 2) ++crowded[e.first], ++crowded[e.second];
     }
@@ -128,6 +141,19 @@ TEST_CASE("faces of an edge are counted beyond two") {
     CHECK(pairs.face_count(0) == 3);
     CHECK(pairs.boundary_degree(0) == 3);
     CHECK(pairs.boundary_degree(2) == 2);
+}
+
+TEST_CASE("when a face is removed its edges still know the others") {
+    // Three pages on the spine of a book: without one of them it has two.
+    Complex complex = test::complex_of(test::book());
+    PairTable pairs(complex, {});
+    const Triangle page = complex.triangle(1);
+    complex.remove_face(1);
+    pairs.face_removed(complex, page);
+    const Index spine = test::pair_of(pairs, 0, 1);
+    REQUIRE(pairs.face_count(spine) == 2);
+    CHECK(pairs.faces(spine) == std::array<Index, 2>{0, 2});
+    CHECK(pairs.nonmanifold_degree(0) == 0);
 }
 
 TEST_CASE("a virtual pair that becomes an edge is one, and dies with its faces") {

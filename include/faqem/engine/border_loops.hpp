@@ -102,6 +102,8 @@ private:
     };
 
     void find_borders(std::size_t vertices, const PairTable& pairs, Index first_context, Poll poll) {
+        border_.assign(vertices, no_index);
+        if (points_.empty()) return;
         const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
         const auto is_open = [&](Index pair) {
             return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context;
@@ -111,7 +113,6 @@ private:
             poll();
             if (is_open(pair)) joined.join(pairs.first(pair), pairs.second(pair));
         }
-        border_.assign(vertices, no_index);
         for (const auto& [position, v] : points_) {  // the smallest vertex of a set comes first
             if (joined.root(v) == v) border_[v] = add_border();
             border_[v] = border_[joined.root(v)];

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/lists.hpp"
 #include "faqem/engine/poll.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/mesh.hpp"
@@ -17,8 +18,8 @@ namespace faqem::engine {
 /// 6 * max_faces < 2^32: a soup has up to three edges per face, and a pair two ends.
 inline constexpr std::size_t max_faces = 715'827'880;
 
-/// Vertices, triangles with their normals, and for each vertex a linked list of its corners. Faces keep their
-/// index for life.
+/// Vertices, triangles with their normals, and for each vertex a list of its corners. Faces keep their index
+/// for life.
 ///
 /// Lists are cleaned lazily: a corner of a dead face stays in the list of a vertex until that vertex survives
 /// a collapse, so that removing a face next to a vertex of valence n costs O(1), not O(n). At most max_faces
@@ -30,15 +31,25 @@ public:
     /// \throws what the poll throws
     Complex(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles, Poll poll = {}) {
         vertices_.reserve(positions.size());
-        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), no_index, 0, no_index});
+        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), {}, 0, no_index});
         faces_.resize(triangles.size());
-        for (std::size_t f = triangles.size(); f-- > 0;) {
-            faces_[f].corners = triangles[f];
+        for (Index f = 0; f < faces_.size(); ++f) {
             poll();
-            if (!alive(static_cast<Index>(f))) continue;
+            faces_[f].corners = triangles[f];
+            if (!alive(f)) continue;
             ++face_count_;
-            for (std::size_t k = 3; k-- > 0;) push_corner(triangles[f][k], static_cast<Index>(4 * f + k));
-            set_normal(static_cast<Index>(f));
+            for (const Index v : triangles[f]) ++vertices_[v].degree;
+        }
+        corners_.reserve(3 * face_count_, vertices_.size());
+        for (Vertex& vertex : vertices_) {
+            poll();
+            if (vertex.degree > 0) vertex.corners = corners_.make_room(vertex.degree);
+        }
+        for (Index f = 0; f < faces_.size(); ++f) {
+            poll();
+            if (!alive(f)) continue;
+            for (Index k = 0; k < 3; ++k) corners_.push_back(vertices_[triangles[f][k]].corners, 4 * f + k);
+            set_normal(f);
         }
     }
 
@@ -64,7 +75,7 @@ public:
     /// Calls visit(face, corner) for every living face at v; corner is 0, 1 or 2.
     template <class Visit>
     void for_each_face(Index v, Visit&& visit) const {
-        for (Index c = vertices_[v].first; c != no_index; c = next(c)) {
+        for (const Index c : corners_[vertices_[v].corners]) {
             const Index f = c / 4;
             if (alive(f)) visit(f, c % 4);
         }
@@ -73,7 +84,7 @@ public:
     /// Calls visit(face, corner) until it returns false; tells whether it never did.
     template <class Visit>
     bool all_faces(Index v, Visit&& visit) const {
-        for (Index c = vertices_[v].first; c != no_index; c = next(c)) {
+        for (const Index c : corners_[vertices_[v].corners]) {
             const Index f = c / 4;
             if (alive(f) && !visit(f, c % 4)) return false;
         }
@@ -114,15 +125,13 @@ public:
     /// Are all normals at v at most 120 degrees apart? May be false where they are. O(1) where they are
     /// within about 30 degrees, else O(valence); at hubs that has to be found out rarely
     bool is_calm(Index v) const {
+        const Vertex& vertex = vertices_[v];
         // The sum of two at more than 120 degrees is no longer than 1, and that of all than one less than
         // there are.
-        const Vertex& vertex = vertices_[v];
         const double square = vertex.normals.squaredNorm();
         const double most = static_cast<double>(vertex.degree) - 1 + 1e-6;
         if (vertex.degree > 0 && square > most * most) return true;
-        if (is_hub(v)) return is_calm_hub(v);
-        // Nor are any so far apart where each is within 60 degrees of one direction.
-        return all_faces(v, [&](Index f, unsigned) { return is_about(vertex.normals, normal(f)); });
+        return is_hub(v) ? is_calm_hub(v) : is_within_one_cone(v);
     }
 
     /// Number of faces with the corners a, b and c. O(the smallest of their valences)
@@ -149,19 +158,25 @@ public:
         assert(survivor != gone);
         const std::size_t before = face_count_;
         Vertex &to = vertices_[survivor], &from = vertices_[gone];
-        for (Index c = from.first; c != no_index; c = next(c)) {
-            const Index f = c / 4;
-            if (alive(f) && has_corner(f, survivor)) remove_face(f);
-        }
-        for_each_face(survivor, [&](Index f, unsigned) { add_normal(f, -1); });
-        for_each_face(gone, [&](Index f, unsigned) { add_normal(f, -1); });
-        Index kept = no_index;
-        splice(to.first, kept, survivor);
-        splice(from.first, kept, survivor);
+        for_each_face(gone, [&](Index f, unsigned) {
+            if (has_corner(f, survivor)) remove_face(f);
+        });
+        kept_.clear();
+        const auto keep = [&](Index f, unsigned corner) {
+            Face& face = faces_[f];
+            face.corners[corner] = survivor;
+            vertices_[face.corners[(corner + 1) % 3]].normals -= face.normal;
+            vertices_[face.corners[(corner + 2) % 3]].normals -= face.normal;
+            kept_.push_back(4 * f + corner);
+        };
+        for_each_face(survivor, keep);
+        for_each_face(gone, keep);
+        corners_.assign(to.corners, kept_);
         if (to.hub != no_index) hubs_[to.hub] = {};
-        to = {p, Vector3::Zero(), kept, to.degree + from.degree, to.hub};
-        from.first = no_index;
-        from.degree = 0;
+        to.position = p;
+        to.normals = Vector3::Zero();
+        to.degree += from.degree;
+        from.corners.size = from.degree = 0;
         for_each_face(survivor, [&](Index f, unsigned) { set_normal(f); });
         return before - face_count_;
     }
@@ -181,6 +196,12 @@ private:
         Vector3 about = Vector3::Zero();
         Index restless = no_index;  ///< a face whose one was not
     };
+    // Normals that are all within 60 degrees of one direction are no more than 120 degrees apart.
+    bool is_within_one_cone(Index v) const {
+        const Vector3& about = vertices_[v].normals;
+        return all_faces(v, [&](Index f, unsigned) { return is_about(about, normal(f)); });
+    }
+
     static bool is_about(const Vector3& direction, const Vector3& normal) {
         const double along = normal.dot(direction);
         return along > 0 && along * along > 0.25 * direction.squaredNorm();
@@ -211,13 +232,12 @@ private:
     struct alignas(64) Vertex {
         Vector3 position;
         Vector3 normals;  ///< sum of those of its faces
-        Index first;      ///< corner 4 * face + (0, 1 or 2), head of a list
+        List corners;     ///< 4 * face + (0, 1 or 2); some faces have died since
         std::uint32_t degree;
         mutable Index hub = no_index;  ///< its place in hubs_, where it has one
     };
     struct Face {
         Triangle corners;
-        Triangle next;  ///< corner after each, in the list of its vertex
         Vector3 normal;
         double area;
     };
@@ -240,32 +260,12 @@ private:
         for (const Index v : faces_[f].corners) vertices_[v].normals += sign * faces_[f].normal;
     }
 
-    Index next(Index corner) const { return faces_[corner / 4].next[corner % 4]; }
-
-    void push_corner(Index v, Index c) {
-        faces_[c / 4].next[c % 4] = vertices_[v].first;
-        vertices_[v].first = c;
-        ++vertices_[v].degree;
-    }
-
-    // Moves the living corners of list `from` to the front of list `to`, now belonging to `owner`.
-    void splice(Index from, Index& to, Index owner) {
-        while (from != no_index) {
-            Face& face = faces_[from / 4];
-            const Index following = face.next[from % 4];
-            if (alive(from / 4)) {
-                face.corners[from % 4] = owner;
-                face.next[from % 4] = to;
-                to = from;
-            }
-            from = following;
-        }
-    }
-
     std::vector<Vertex> vertices_;
     std::vector<Face> faces_;
     mutable std::vector<Hub> hubs_;  // found out where it is asked for
     std::size_t face_count_ = 0;
+    Lists corners_;
+    std::vector<Index> kept_;  // scratch: corners of the survivor
 };
 
 }  // namespace faqem::engine

@@ -191,6 +191,7 @@ private:
 
     Freedom freedom(Index u, Index v) {
         const bool u_stays = locked_[u], v_stays = locked_[v];
+        if (!u_stays && !v_stays && !curves_ && wedges_.empty()) return Freedom::anywhere;
         if (u_stays && v_stays) return refuse(Refusal::locked), Freedom::nowhere;
         const Freedom lock = u_stays ? Freedom::at_first : v_stays ? Freedom::at_second : Freedom::anywhere;
         const Freedom seam = both(lock, wedges_.freedom(complex_, u, v));
@@ -203,9 +204,10 @@ private:
 
     std::optional<Candidate> candidate(Index pair) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
-        const double length = (complex_.position(u) - complex_.position(v)).norm();
-        if (!(length >= rules_.least_length)) return refuse(Refusal::zero_length), std::nullopt;
-        return metric_.evaluate(complex_, pairs_, u, v, freedom(u, v));
+        const double square = (complex_.position(u) - complex_.position(v)).squaredNorm();
+        if (!(square >= rules_.least_length * rules_.least_length))
+            return refuse(Refusal::zero_length), std::nullopt;
+        return metric_.evaluate(complex_, pairs_, pair, freedom(u, v));
     }
 
     void evaluate(Index pair) {
@@ -385,7 +387,7 @@ private:
             const Triangle corners = complex_.triangle(f);
             recorder_.deleting(f);
             complex_.remove_face(f);
-            pairs_.face_removed(corners);
+            pairs_.face_removed(complex_, corners);
             any = true;
         }
         if (any && borders_)

@@ -27,11 +27,11 @@ public:
         engine::initialise(inner_, complex, pairs, poll);
     }
 
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
                                       Freedom freedom) const {
-        std::optional<Candidate> found = inner_.evaluate(complex, pairs, u, v, freedom);
+        std::optional<Candidate> found = inner_.evaluate(complex, pairs, pair, freedom);
         if (!found) return found;
-        found->cost *= weight(u, v);
+        found->cost *= weight(pairs.first(pair), pairs.second(pair));
         if (!std::isfinite(found->cost)) return std::nullopt;
         return found;
     }

@@ -76,8 +76,10 @@ private:
 
     // \param to_a, to_b  sides of a triangle
     static bool is_degenerate(double doubled_area, const Vector3& to_a, const Vector3& to_b) {
-        const double longest =
-            std::max({to_a.squaredNorm(), to_b.squaredNorm(), (to_b - to_a).squaredNorm()});
+        const double a = to_a.squaredNorm(), b = to_b.squaredNorm();
+        // The third side squared is at most twice their sum: few triangles are worth a closer look.
+        if (doubled_area > 2 * degenerate_aspect * (a + b)) return false;
+        const double longest = std::max({a, b, (to_b - to_a).squaredNorm()});
         return !(doubled_area > degenerate_aspect * longest);
     }
 

@@ -41,7 +41,6 @@ public:
     void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
         rings_.assign(complex.vertex_slots(), {});
         edges_.assign(complex.vertex_slots(), {});
-        has_edges_.assign(complex.vertex_slots(), 0);
         for (Index f = 0; f < complex.face_slots(); ++f) {
             poll();
             if (complex.alive(f)) add_face(complex, f, no_index, no_index, 1);
@@ -53,14 +52,16 @@ public:
     }
 
     /// The sum of both rings less half of what they share: a shared face counts one and a half times.
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable&, Index u, Index v,
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
                                       Freedom freedom) const {
         if (freedom == Freedom::nowhere) return std::nullopt;
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        const std::uint32_t faces = pairs.face_count(pair);
         // In coordinates around u, where v is at d.
         const Vector3& origin = complex.position(u);
         const Vector3 d = complex.position(v) - origin;
         Planes shared;
-        const std::uint32_t faces = sum_shared(complex, u, v, shared);
+        sum_shared(complex, pairs, pair, shared);
         const Planes at_v = ring(v);
         Planes sum = ring(u);
         sum.add(at_v, 1);
@@ -87,8 +88,11 @@ public:
         complex.for_each_face(survivor,
                               [&](Index f, unsigned) { add_face(complex, f, no_index, no_index, 1); });
         find_edges(complex, pairs, survivor);
-        for (const PairTable::Change& change : around)
-            find_edges_beside(complex, pairs, change.neighbour.vertex, survivor);
+        for (const PairTable::Change& change : around) {
+            const Index v = change.neighbour.vertex;
+            if (rings_[v].has_edges || !has_plain_edges_only(complex, pairs, v))
+                find_edges_beside(complex, pairs, v, survivor);
+        }
     }
 
     Staleness staleness(const PairTable::Change&) const { return Staleness::lazily; }
@@ -115,24 +119,31 @@ private:
         }
     };
 
+    /// Of a vertex, around itself, now. A cache line.
+    struct alignas(64) Ring {
+        Planes faces;
+        bool has_edges = false;  ///< with planes of their own
+    };
+
     // Adds the face to its corners' rings, or takes it away (sign -1), except at u and v.
     void add_face(const Complex& complex, Index f, Index u, Index v, double sign) {
         Planes planes;
         planes.add(complex.normal(f), sign * complex.area(f));
         for (const Index corner : complex.triangle(f)) {
-            if (corner != u && corner != v) rings_[corner].add(planes, 1);
+            if (corner != u && corner != v) rings_[corner].faces.add(planes, 1);
         }
     }
 
     Planes ring(Index v) const {
-        Planes q = rings_[v];
-        if (has_edges_[v]) q.add(edges_[v], 1);
+        const Ring& ring = rings_[v];
+        Planes q = ring.faces;
+        if (ring.has_edges) q.add(edges_[v], 1);
         return q;
     }
 
     // Sums up the planes along the open, crowded and folding edges of v, and those between groups.
     void find_edges(const Complex& complex, const PairTable& pairs, Index v) {
-        has_edges_[v] = 0;
+        rings_[v].has_edges = false;
         if (!hub_edges_.empty()) hub_edges_.erase(v);
         if (has_plain_edges_only(complex, pairs, v)) return;
         if (complex.is_hub(v)) {
@@ -142,20 +153,19 @@ private:
         }
         Planes q;
         pairs.for_each_pair(v, [&](Neighbour n) {
-            if (const double w = edge_weight(complex, v, n.vertex, pairs.face_count(n.pair)); w > 0) {
-                has_edges_[v] = 1;
-                complex.for_each_face(v, [&](Index f, unsigned) {
-                    if (complex.has_corner(f, n.vertex)) add_edge_plane(complex, f, v, n.vertex, w, q);
-                });
+            if (const double w = edge_weight(complex, pairs, n.pair, v, n.vertex); w > 0) {
+                rings_[v].has_edges = true;
+                for_each_face(complex, pairs, n.pair,
+                              [&](Index f) { add_edge_plane(complex, f, v, n.vertex, w, q); });
             }
         });
         edges_[v] = q;
     }
 
     bool has_plain_edges_only(const Complex& complex, const PairTable& pairs, Index v) const {
-        const bool is_on_curve = curves_ && curves_->has(v);
-        return pairs.boundary_degree(v) == 0 && pairs.nonmanifold_degree(v) == 0 && !is_on_curve &&
-               (!(weights_.fold_edge > 0) || complex.is_calm(v));
+        if (pairs.boundary_degree(v) + pairs.nonmanifold_degree(v) > 0) return false;
+        if (curves_ && curves_->has(v)) return false;
+        return !(weights_.fold_edge > 0) || complex.is_calm(v);
     }
 
     // find_edges(), where nothing has changed but the faces that v shares with u.
@@ -196,27 +206,32 @@ private:
             q.add(own, weight);
             return false;
         });
-        has_edges_[v] = !ends.empty();
+        rings_[v].has_edges = !ends.empty();
         edges_[v] = q;
     }
 
-    std::uint32_t sum_shared(const Complex& complex, Index u, Index v, Planes& q) const {
-        if (complex.degree(v) < complex.degree(u)) std::swap(u, v);
-        std::uint32_t shared = 0;
-        Index first = no_index, last = no_index;
-        complex.for_each_face(u, [&](Index f, unsigned) {
-            if (!complex.has_corner(f, v)) return;
-            ++shared;
-            first = last;
-            last = f;
-            q.add(complex.normal(f), complex.area(f));
+    // The planes of the faces of an edge, and those along it.
+    void sum_shared(const Complex& complex, const PairTable& pairs, Index pair, Planes& q) const {
+        const auto [u, v] = complex.by_degree(pairs.first(pair), pairs.second(pair));
+        for_each_face(complex, pairs, pair, [&](Index f) { q.add(complex.normal(f), complex.area(f)); });
+        const double w = edge_weight(complex, pairs, pair, u, v);
+        if (!(w > 0)) return;
+        for_each_face(complex, pairs, pair,
+                      [&, a = u, b = v](Index f) { add_edge_plane(complex, f, a, b, w, q); });
+    }
+
+    // Calls visit(face) for those of an edge. O(1) where it has at most two, else O(the smaller valence)
+    template <class Visit>
+    static void for_each_face(const Complex& complex, const PairTable& pairs, Index pair, Visit&& visit) {
+        const std::uint32_t count = pairs.face_count(pair);
+        if (count <= 2) {
+            for (std::uint32_t k = 0; k < count; ++k) visit(pairs.faces(pair)[k]);
+            return;
+        }
+        const auto [few, many] = complex.by_degree(pairs.first(pair), pairs.second(pair));
+        complex.for_each_face(few, [&, other = many](Index f, unsigned) {
+            if (complex.has_corner(f, other)) visit(f);
         });
-        const double w = edge_weight(complex, u, v, shared, first, last);
-        if (!(w > 0)) return shared;
-        complex.for_each_face(u, [&](Index f, unsigned) {
-            if (complex.has_corner(f, v)) add_edge_plane(complex, f, u, v, w, q);
-        });
-        return shared;
     }
 
     // \pre u's faces are all that is left of their part
@@ -232,17 +247,9 @@ private:
         return part_weight * longest * longest;
     }
 
-    double edge_weight(const Complex& complex, Index u, Index v, std::uint32_t faces) const {
-        Index first = no_index, last = no_index;
-        if (faces == 2) {
-            const auto [few, many] = complex.by_degree(u, v);
-            complex.for_each_face(few, [&, other = many](Index f, unsigned) {
-                if (!complex.has_corner(f, other)) return;
-                first = last;
-                last = f;
-            });
-        }
-        return edge_weight(complex, u, v, faces, first, last);
+    double edge_weight(const Complex& complex, const PairTable& pairs, Index pair, Index u, Index v) const {
+        const auto [first, last] = pairs.faces(pair);
+        return edge_weight(complex, u, v, pairs.face_count(pair), first, last);
     }
 
     // \param first, last  the faces, where there are two
@@ -252,10 +259,11 @@ private:
         if (faces > 2) return weights_.nonmanifold_edge * std::min(1.0, imbalance(complex, u, v));
         if (faces != 2) return 0;
         if (curves_ && curves_->differ(first, last)) return weights_.group_edge;
+        const double cosine = complex.normal(first).dot(complex.normal(last));
+        if (!(std::abs(cosine) > 0.5)) return 0;
         // Windings may disagree: then opposite normals mean that the surface goes straight on.
         const bool agree = complex.goes_from(first, u, v) != complex.goes_from(last, u, v);
-        const double cosine = (agree ? 1 : -1) * complex.normal(first).dot(complex.normal(last));
-        return cosine < -0.5 ? weights_.fold_edge : 0;
+        return agree == (cosine < 0) ? weights_.fold_edge : 0;
     }
 
     // Squared length of the sum of unit vectors from the edge (u, v) into its faces: 0 where each face has
@@ -286,10 +294,8 @@ private:
 
     MemorylessWeights weights_;
     const GroupCurves* curves_;
-    // Of each vertex, around itself, now: planes of its faces, planes along its edges.
-    std::vector<Planes> rings_;
-    std::vector<Planes> edges_;
-    std::vector<std::uint8_t> has_edges_;
+    std::vector<Ring> rings_;
+    std::vector<Planes> edges_;                      // of each vertex: planes along its edges
     std::map<Index, std::vector<Index>> hub_edges_;  // of hubs with such edges: their other ends, ascending
 };
 

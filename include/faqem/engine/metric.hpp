@@ -28,12 +28,12 @@ enum class Staleness {
 /// A metric owns its state per vertex and is told of every collapse.
 template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const Complex& complex,
-                                  const PairTable& pairs, Index u, Index v, Freedom freedom, const Vector3& p,
-                                  const PairTable::Change& change,
+                                  const PairTable& pairs, Index pair, Index u, Index v, Freedom freedom,
+                                  const Vector3& p, const PairTable::Change& change,
                                   std::span<const PairTable::Change> around) {
     {metric.initialise(complex, pairs)};
-    // Candidate for the pair (u, v); nothing if it must not be collapsed. Finite, cost >= 0.
-    { const_metric.evaluate(complex, pairs, u, v, freedom) } -> std::same_as<std::optional<Candidate>>;
+    // Candidate for the pair; nothing if it must not be collapsed. Finite, cost >= 0.
+    { const_metric.evaluate(complex, pairs, pair, freedom) } -> std::same_as<std::optional<Candidate>>;
     // u and v are about to become u at p; the complex is still as before.
     {metric.collapsing(complex, pairs, u, v, p)};
     // The collapse is done; `around` are the survivor's neighbours.
@@ -127,9 +127,10 @@ public:
         }
     }
 
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
                                       Freedom freedom) const {
         if (freedom == Freedom::nowhere) return std::nullopt;
+        const Index u = pairs.first(pair), v = pairs.second(pair);
         Quadric q = quadrics_[u] + quadrics_[v];
         const bool has_area =
             weights_.area > 0 && (pairs.boundary_degree(u) > 0 || pairs.boundary_degree(v) > 0);

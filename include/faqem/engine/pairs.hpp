@@ -35,6 +35,7 @@ public:
             add_edges_above(complex, v);
         }
         for (const auto& [a, b] : virtual_pairs) pairs_[add(a, b)].is_virtual = true;
+        list_pairs(poll);
     }
 
     std::size_t size() const { return pairs_.size(); }
@@ -43,6 +44,8 @@ public:
     Index second(Index pair) const { return pairs_[pair].ends[1]; }
     /// Number of faces with this edge; 0 for a virtual pair.
     std::uint32_t face_count(Index pair) const { return pairs_[pair].face_count; }
+    /// The faces with this edge. \pre it has one or two; where it has one, that comes first
+    const std::array<Index, 2>& faces(Index pair) const { return pairs_[pair].faces; }
     /// Number of edges at v with exactly one face.
     std::uint32_t boundary_degree(Index v) const { return vertices_[v].boundary_degree; }
     /// Number of edges at v with more than two faces.
@@ -51,7 +54,7 @@ public:
     /// Calls visit(Neighbour) for each living pair of v.
     template <class Visit>
     void for_each_pair(Index v, Visit&& visit) const {
-        for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
+        for (const Index s : slots_[vertices_[v].slots]) {
             if (end(s) == v) visit(Neighbour{end(s ^ 1), s / 2});
         }
     }
@@ -70,8 +73,9 @@ public:
         changes.clear();
         gather(survivor, survivor, gone, killed, changes);
         gather(gone, survivor, survivor, killed, changes);
-        vertices_[survivor].first = vertices_[gone].first = no_index;
-        count_faces(complex, survivor, changes);
+        vertices_[gone].slots.size = 0;
+        kept_.clear();
+        find_faces_around(complex, survivor, changes);
         std::size_t kept = 0;
         for (const Change& change : changes) {
             const Index pair = change.neighbour.pair;
@@ -80,8 +84,7 @@ public:
                 face_count(pair) > 0 || (pairs_[pair].is_virtual && complex.degree(survivor) > 0 &&
                                          complex.degree(change.neighbour.vertex) > 0);
             if (lives) {
-                const Index slot = 2 * pair + (second(pair) == survivor ? 1 : 0);
-                push(survivor, slot);
+                kept_.push_back(2 * pair + (second(pair) == survivor ? 1 : 0));
                 changes[kept++] = change;
             } else {
                 kill(pair, killed);
@@ -90,55 +93,66 @@ public:
             if (complex.degree(change.neighbour.vertex) == 0) kill_all(change.neighbour.vertex, killed);
         }
         changes.resize(kept);
+        slots_.assign(vertices_[survivor].slots, kept_);
     }
 
     /// A face of the complex is gone; each of its edges has others.
-    void face_removed(const Triangle& corners) {
+    void face_removed(const Complex& complex, const Triangle& corners) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = corners[k], n = corners[(k + 1) % 3];
-            for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
-                if (end(s) == v && end(s ^ 1) == n) set_face_count(s / 2, face_count(s / 2) - 1);
-            }
+            for_each_pair(v, [&](Neighbour to) {
+                if (to.vertex == n) find_faces(complex, to.pair);
+            });
         }
     }
 
     /// Kills all pairs of a vertex that has no face any more.
     void kill_all(Index v, std::vector<Index>& killed) {
-        for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
-            if (end(s) == v) kill(s / 2, killed);
-        }
-        vertices_[v].first = no_index;
+        for_each_pair(v, [&](Neighbour n) { kill(n.pair, killed); });
+        vertices_[v].slots.size = 0;
     }
 
 private:
     struct Vertex {
-        Index first = no_index;  ///< slot 2 * pair + end, head of a list
+        List slots;  ///< 2 * pair + end; some have died or moved since
         std::uint32_t boundary_degree = 0, nonmanifold_degree = 0;
         Index mark = no_index;  ///< scratch: pair to the vertex, while gathering
     };
     struct Pair {
-        std::array<Index, 2> ends;  ///< no_index: dead
-        std::array<Index, 2> next;  ///< slot after each end's, in the list of its vertex
+        std::array<Index, 2> ends;                          ///< no_index: dead
+        std::array<Index, 2> faces = {no_index, no_index};  ///< the first two
         std::uint32_t face_count = 0;
         bool is_virtual = false;
+
+        void add_face(Index f) {
+            if (face_count < 2) faces[face_count] = f;
+            ++face_count;
+        }
     };
 
     Index& end(Index slot) { return pairs_[slot / 2].ends[slot % 2]; }
     Index end(Index slot) const { return pairs_[slot / 2].ends[slot % 2]; }
-    Index next(Index slot) const { return pairs_[slot / 2].next[slot % 2]; }
-
-    void push(Index v, Index slot) {
-        pairs_[slot / 2].next[slot % 2] = vertices_[v].first;
-        vertices_[v].first = slot;
-    }
 
     Index add(Index a, Index b) {
         assert(2 * pairs_.size() + 2 < no_index);
         const auto pair = static_cast<Index>(pairs_.size());
-        pairs_.push_back({{a, b}, {no_index, no_index}});
-        push(a, 2 * pair);
-        push(b, 2 * pair + 1);
+        pairs_.push_back({{a, b}});
+        for (const Index v : {a, b}) ++vertices_[v].slots.size;
         return pair;
+    }
+
+    // \pre the sizes of the lists are what they will be
+    void list_pairs(Poll poll) {
+        slots_.reserve(2 * pairs_.size(), vertices_.size());
+        for (Vertex& vertex : vertices_) {
+            poll();
+            if (vertex.slots.size > 0) vertex.slots = slots_.make_room(vertex.slots.size);
+        }
+        for (Index pair = 0; pair < pairs_.size(); ++pair) {
+            poll();
+            slots_.push_back(vertices_[first(pair)].slots, 2 * pair);
+            slots_.push_back(vertices_[second(pair)].slots, 2 * pair + 1);
+        }
     }
 
     void add_edges_above(const Complex& complex, Index v) {
@@ -150,20 +164,19 @@ private:
                 if (n < v) continue;
                 Index& pair = vertices_[n].mark;
                 if (pair == no_index) pair = add(v, n);
-                ++pairs_[pair].face_count;
+                pairs_[pair].add_face(f);
             }
         });
         for (Index pair = begin; pair < size(); ++pair) {
             vertices_[second(pair)].mark = no_index;
-            const std::uint32_t count = std::exchange(pairs_[pair].face_count, 0);
-            set_face_count(pair, count);
+            count_again(pair, 0);
         }
     }
 
     // Takes the pairs of `v` to `survivor`: the collapsed pair (v, partner) and doubles die.
     void gather(Index v, Index survivor, Index partner, std::vector<Index>& killed,
                 std::vector<Change>& changes) {
-        for (Index s = vertices_[v].first; s != no_index; s = next(s)) {
+        for (const Index s : slots_[vertices_[v].slots]) {
             if (end(s) != v) continue;
             const Index pair = s / 2;
             const Index n = end(s ^ 1);
@@ -171,7 +184,8 @@ private:
             if (n == partner) {
                 kill(pair, killed);
             } else if (kept != no_index) {
-                if (face_count(pair) == 1) set_face_count(kept, 1);  // tells count_faces() that it was open
+                if (face_count(pair) == 1)
+                    set_face_count(kept, 1);  // tells find_faces_around() that it was open
                 pairs_[kept].is_virtual = pairs_[kept].is_virtual && pairs_[pair].is_virtual;
                 kill(pair, killed);
             } else {
@@ -190,6 +204,7 @@ private:
 
     void set_face_count(Index pair, std::uint32_t count) {
         const std::uint32_t before = std::exchange(pairs_[pair].face_count, count);
+        if (before == count) return;
         if ((before == 1) != (count == 1)) change_degree(&Vertex::boundary_degree, pair, count == 1);
         if ((before > 2) != (count > 2)) change_degree(&Vertex::nonmanifold_degree, pair, count > 2);
     }
@@ -198,21 +213,36 @@ private:
         for (const Index v : pairs_[pair].ends) up ? ++(vertices_[v].*degree) : --(vertices_[v].*degree);
     }
 
-    void count_faces(const Complex& complex, Index survivor, std::vector<Change>& changes) {
+    // \pre each neighbour is marked with its pair
+    void find_faces_around(const Complex& complex, Index survivor, std::vector<Change>& changes) {
         counts_.clear();
         for (Change& change : changes) {
-            change.boundary_changed = face_count(change.neighbour.pair) == 1;
-            counts_.push_back(0);
-            vertices_[change.neighbour.vertex].mark = static_cast<Index>(counts_.size() - 1);
+            Pair& pair = pairs_[change.neighbour.pair];
+            change.boundary_changed = pair.face_count == 1;
+            counts_.push_back(std::exchange(pair.face_count, 0));
         }
         complex.for_each_face(survivor, [&](Index f, unsigned corner) {
             const Triangle& t = complex.triangle(f);
-            for (unsigned k = 1; k < 3; ++k) ++counts_[vertices_[t[(corner + k) % 3]].mark];
+            for (unsigned k = 1; k < 3; ++k) pairs_[vertices_[t[(corner + k) % 3]].mark].add_face(f);
         });
         for (std::size_t i = 0; i < changes.size(); ++i) {
-            set_face_count(changes[i].neighbour.pair, counts_[i]);
-            changes[i].boundary_changed |= counts_[i] == 1;
+            count_again(changes[i].neighbour.pair, counts_[i]);
+            changes[i].boundary_changed |= face_count(changes[i].neighbour.pair) == 1;
         }
+    }
+
+    void find_faces(const Complex& complex, Index pair) {
+        const std::uint32_t before = std::exchange(pairs_[pair].face_count, 0);
+        const auto [few, many] = complex.by_degree(first(pair), second(pair));
+        complex.for_each_face(few, [&, other = many](Index f, unsigned) {
+            if (complex.has_corner(f, other)) pairs_[pair].add_face(f);
+        });
+        count_again(pair, before);
+    }
+
+    // \param before  number of its faces that the degrees of its ends know of
+    void count_again(Index pair, std::uint32_t before) {
+        set_face_count(pair, std::exchange(pairs_[pair].face_count, before));
     }
 
     void kill(Index pair, std::vector<Index>& killed) {
@@ -224,7 +254,9 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Pair> pairs_;
-    std::vector<std::uint32_t> counts_;  // scratch: faces of each change
+    Lists slots_;
+    std::vector<Index> kept_;            // scratch: slots of the survivor
+    std::vector<std::uint32_t> counts_;  // scratch: faces that each change had
 };
 
 }  // namespace faqem::engine

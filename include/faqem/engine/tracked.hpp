@@ -57,9 +57,9 @@ public:
     }
 
     /// What the memoryless metric says: less than the cost will be.
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index u, Index v,
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
                                       Freedom freedom) const {
-        return planes_.evaluate(complex, pairs, u, v, freedom);
+        return planes_.evaluate(complex, pairs, pair, freedom);
     }
 
     /// The whole cost. O(bound vertices times valence) at worst, one distance per bound vertex typically.
