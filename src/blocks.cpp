@@ -23,9 +23,8 @@ using engine::Vector3;
 // Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
 // more.
 constexpr double local_share = 0.8;
-// What is left inside of the blocks should be no coarser than the result: the faces that did not take part
-// are denser, and will go first.
-constexpr double spare_share = 1.15;
+// Costs come out of order among the lowest; of more, the error would grow.
+constexpr double sure_share = 0.3;
 
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
@@ -249,18 +248,16 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     engine::PairTable pairs(complex, {}, poll);
     engine::Wedges wedges;
     StepRecorder recorder(block, patches, done);
-    engine::LoopOptions options = loop;
-    options.ladder = engine::Ladder::stay;
+    engine::LoopOptions options = block_options(loop, complex.face_count(), block.between, share);
     options.first_context = block.own();
-    const std::size_t inside = complex.face_count() - block.between;
-    options.target_faces = block.between + static_cast<std::size_t>(share * static_cast<double>(inside));
     const std::size_t to_remove = complex.face_count() - std::min(options.target_faces, complex.face_count());
     std::size_t known = 0;
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
     };
     engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
-                                                                     metric, recorder);
+                                                                     metric, recorder, nullptr,
+                                                                     engine::BucketQueue(queue_block_bits));
     done.result = engine.run(options);
     recorder.end_step(complex);
     progress(to_remove, known, poll);
@@ -339,6 +336,17 @@ std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
     return (vertices + blocks - 1) / blocks;
 }
 
+engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
+                                  double share) {
+    engine::LoopOptions options = loop;
+    options.ladder = engine::Ladder::stay;
+    const auto inside = static_cast<double>(faces - between);
+    options.target_faces = between + static_cast<std::size_t>(local_share * share * inside);
+    const double going = 1 - static_cast<double>(options.target_faces) / static_cast<double>(faces);
+    options.sure_share = sure_share * going * going;
+    return options;
+}
+
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, Workers workers) {
     BlockSteps result;
@@ -357,8 +365,7 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
         if (progress.is_cancelled()) return;
         Block block(input, blocks, b);
         const auto simplify = [&](auto metric) {
-            return simplify_block(block, std::move(metric), loop, local_share * share, patches, progress,
-                                  poll);
+            return simplify_block(block, std::move(metric), loop, share, patches, progress, poll);
         };
         if (!tracking) {
             done[b] = simplify(engine::MemorylessMetric());

@@ -44,6 +44,19 @@ inline constexpr std::size_t most_vertices_per_block = 1 << 15;
 /// \param few  up to which they are not cut
 std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vertices_per_block);
 
+/// What is left inside of the blocks, over the share of all faces that is wanted. It should be no coarser
+/// than the result: the faces that did not take part are denser, and will go first.
+inline constexpr double spare_share = 1.15;
+
+/// What the queue of a block keeps together fits into the cache of a core, more or less.
+inline constexpr unsigned queue_block_bits = 12;
+
+/// What the engine of a block is told.
+/// \param faces, between  of the block: all, and those that have a corner elsewhere
+/// \param share           of the others that will stay
+engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
+                                  double share);
+
 /// What is watched for its distance to the original.
 enum class Watched { borders, borders_and_surface };
 

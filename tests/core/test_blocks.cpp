@@ -45,15 +45,19 @@ struct Steps {
 
 TriangleMesh triple(const TriangleMesh& mesh) { return test::both(test::both(mesh, mesh), mesh); }
 
-// What an engine without blocks does to the mesh.
-std::vector<BlockStep> alone(const TriangleMesh& mesh, LoopOptions loop, TrackedMetric metric) {
+// What an engine without blocks does to the mesh, where so many faces of three such are wanted.
+std::vector<BlockStep> alone(const TriangleMesh& mesh, const LoopOptions& loop, std::size_t wanted,
+                             TrackedMetric metric) {
     Complex complex = test::complex_of(mesh);
     PairTable pairs(complex, {});
     Wedges wedges;
     std::vector<std::uint8_t> free(mesh.positions.size(), 0);
-    loop.target_faces = 50;
+    const std::size_t faces = complex.face_count();
+    const double share = spare_share * static_cast<double>(wanted) / static_cast<double>(3 * faces);
     Steps steps;
-    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, steps).run(loop);
+    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, steps, nullptr,
+                                              BucketQueue(queue_block_bits))
+        .run(block_options(loop, faces, 0, share));
     return steps.steps;
 }
 
@@ -241,7 +245,7 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     const BlockTracking tracking{originals.surface, into_all};
     const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
     const std::vector<BlockStep> one =
-        alone(coarse, loop, TrackedMetric({}, original.surface, Lineage(into), 320, 0.05));
+        alone(coarse, loop, 300, TrackedMetric({}, original.surface, Lineage(into), 320, 0.05));
     check_that_each_goes_like(one, found, size);
 }
 
@@ -261,7 +265,7 @@ TEST_CASE("blocks: where only borders are watched, each holds its own as an engi
     const BlockTracking borders{now.surface, now.lineage.today, Watched::borders};
     const BlockSteps held = found(&borders);
     check_that_each_goes_like(
-        alone(tube, loop, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)), held, size);
+        alone(tube, loop, 500, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)), held, size);
     const BlockSteps free = found(nullptr);
     REQUIRE(free.steps.size() == held.steps.size());
     CHECK_FALSE(std::equal(free.steps.begin(), free.steps.end(), held.steps.begin(),

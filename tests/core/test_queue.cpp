@@ -103,6 +103,22 @@ TEST_CASE("buckets stay in a block while it has pairs on the level") {
     CHECK(order == std::vector<Index>{5, 6, 9, 8, 10, 0, 7, 1, 2, 3});
 }
 
+TEST_CASE("buckets go block by block through the lowest levels where these were made one") {
+    const std::vector<double> costs = {4, 1, 64, 2, 8, 16, 1, 128};
+    const auto order = [&](std::size_t merged) {
+        BucketQueue queue(2);  // blocks of four pairs
+        queue.reserve(costs.size());
+        for (Index pair = 0; pair < costs.size(); ++pair) queue.set(pair, costs[pair]);
+        queue.merge_lowest(merged);
+        std::vector<Index> popped;
+        while (!queue.empty()) popped.push_back(queue.pop());
+        return popped;
+    };
+    CHECK(order(0) == std::vector<Index>{6, 1, 3, 0, 4, 5, 2, 7});
+    // 1, 1, 2, 4 are below the level of 8, which takes them in.
+    CHECK(order(4) == std::vector<Index>{6, 4, 1, 3, 0, 5, 2, 7});
+}
+
 TEST_CASE("in one block buckets never give out a cost that is a sixty-fourth above another") {
     test::Random random(6);
     BucketQueue queue;

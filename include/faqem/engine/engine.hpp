@@ -52,6 +52,9 @@ struct LoopOptions {
     /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
     /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
     double distance_weight = 0;
+    /// This share of all pairs, the cheapest, may go in the order that suits the memory, since all of them
+    /// will go whatever happens; of a queue that can do so. In [0, 1]
+    double sure_share = 0;
     /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
     double tiny_component = 0;
     /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
@@ -82,7 +85,7 @@ public:
     /// \param curves    between groups, to be kept; null: none
     /// All are borrowed and must outlive the engine.
     Engine(Complex& complex, PairTable& pairs, Wedges& wedges, std::vector<std::uint8_t>& locked,
-           Metric& metric, Recorder& recorder, GroupCurves* curves = nullptr)
+           Metric& metric, Recorder& recorder, GroupCurves* curves = nullptr, Queue queue = Queue())
         : complex_(complex),
           pairs_(pairs),
           wedges_(wedges),
@@ -91,6 +94,7 @@ public:
           recorder_(recorder),
           curves_(curves),
           legality_(complex),
+          queue_(std::move(queue)),
           has_vetoed_(complex.vertex_slots(), 0),
           lifted_(pairs.size(), 0) {}
 
@@ -106,6 +110,9 @@ public:
             queue_.reserve(pairs_.size());
             initialise(metric_, complex_, pairs_, poll_);
             seed();
+            if constexpr (requires { queue_.merge_lowest(0); }) {
+                if (options.sure_share > 0) queue_.merge_lowest(sure_pairs(options));
+            }
             seeded_at_ = complex_.face_count();
             collapse_to_target(options);
         });
@@ -150,6 +157,10 @@ private:
             seed();
             seeded_at_ = complex_.face_count();
         }
+    }
+
+    std::size_t sure_pairs(const LoopOptions& options) const {
+        return static_cast<std::size_t>(options.sure_share * static_cast<double>(pairs_.size()));
     }
 
     // Tells whether all pairs are worth another look, after a rung of the ladder perhaps.

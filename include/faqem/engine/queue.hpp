@@ -127,17 +127,40 @@ private:
 /// calls take O(1), amortised.
 class BucketQueue {
 public:
-    /// \param block_bits  a block has 2^block_bits pairs
-    explicit BucketQueue(unsigned block_bits = 14) : block_bits_(block_bits), buckets_(bucket_count) {}
+    /// \param block_bits  a block has 2^block_bits pairs; 0: one block, or several where that would be large
+    explicit BucketQueue(unsigned block_bits = 0) : wanted_bits_(block_bits), buckets_(bucket_count) {}
 
     void reserve(std::size_t pairs) {
+        block_bits_ = wanted_bits_ > 0                       ? wanted_bits_
+                      : pairs <= std::size_t{1} << most_bits ? most_bits
+                                                             : usual_bits;
         blocks_ = (pairs >> block_bits_) + 1;
         place_.assign(pairs, nowhere);
         waiting_.assign(level_count * blocks_, {});
         live_.fill(0);
         for (Bucket& bucket : buckets_) bucket = {};
-        size_ = open_size_ = open_block_ = open_level_ = 0;
+        size_ = open_size_ = open_block_ = open_level_ = ground_ = 0;
         lowest_ = bucket_count;
+    }
+
+    /// Makes one level of the lowest ones, which have at most so many pairs together. Who knows that all of
+    /// these will go may let them go block by block. O(pairs)
+    void merge_lowest(std::size_t pairs) {
+        std::size_t level = ground_;
+        for (std::size_t below = 0; level + 1 < level_count; ++level) {
+            below += live_[level];
+            if (below > pairs) break;
+        }
+        for (std::size_t merged = ground_; merged < level; ++merged) {
+            live_[level] += std::exchange(live_[merged], 0);
+            for (std::size_t b = 0; b < blocks_; ++b) {
+                const std::vector<Index> more = std::exchange(waiting_[merged * blocks_ + b], {});
+                std::vector<Index>& to = waiting_[level * blocks_ + b];
+                to.insert(to.end(), more.begin(), more.end());
+            }
+        }
+        ground_ = level;
+        open_level_ = std::max(open_level_, level);
     }
 
     bool empty() const { return size_ == 0; }
@@ -192,13 +215,16 @@ private:
     /// A place is a bucket where the pair waits for its block, the same with this bit where it is in it now.
     static constexpr std::uint16_t open = 1 << 14, nowhere = 1 << 15;
     static constexpr std::size_t level_count = bucket_count / 32;
+    static constexpr unsigned most_bits = 18, usual_bits = 14;
     static constexpr double dearest = std::numeric_limits<float>::max();
 
     static std::uint16_t bucket_for(double cost) {
         return static_cast<std::uint16_t>(
             std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, dearest))) >> 17);
     }
-    static std::size_t level_of(std::uint16_t place) { return place % bucket_count / 32; }
+    std::size_t level_of(std::uint16_t place) const {
+        return std::max<std::size_t>(place % bucket_count / 32, ground_);
+    }
 
     void put(Index pair, std::uint16_t bucket) {
         ++open_size_;
@@ -251,7 +277,7 @@ private:
         find_lowest();
     }
 
-    unsigned block_bits_;
+    unsigned wanted_bits_, block_bits_ = most_bits;
     std::vector<Bucket> buckets_;
     std::uint16_t lowest_ = bucket_count;             // all buckets below are empty
     std::vector<std::vector<Index>> waiting_;         // pairs by level and block; some have left since
@@ -259,6 +285,7 @@ private:
     std::vector<std::uint16_t> place_;
     std::size_t blocks_ = 1, size_ = 0;
     std::size_t open_size_ = 0, open_block_ = 0, open_level_ = 0;  // what is in the buckets
+    std::size_t ground_ = 0;                                       // no level is below
 };
 
 }  // namespace faqem::engine
