@@ -173,14 +173,16 @@ TEST_CASE("who waits for threads that help is asked meanwhile") {
 }
 
 TEST_CASE("what the calling thread throws counts, whatever the others have thrown") {
-    std::atomic<bool> has_thrown{false};
+    std::atomic<bool> has_begun{false}, has_thrown{false};
     const std::thread::id here = std::this_thread::get_id();
     CHECK_THROWS_WITH(detail::parallel_blocks(2, 1, 2,
                                               [&](std::size_t, std::size_t) {
                                                   if (std::this_thread::get_id() != here) {
+                                                      while (!has_begun) std::this_thread::yield();
                                                       has_thrown = true;
                                                       throw std::runtime_error("helper");
                                                   }
+                                                  has_begun = true;
                                                   while (!has_thrown) std::this_thread::yield();
                                                   throw std::runtime_error("caller");
                                               }),
