@@ -34,3 +34,15 @@ function(faqem_compile_options target)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
 endfunction()
+
+# faqem_hide(TARGET MAP): of a shared library, what FAQEM_EXPORT marks and MAP names is all that is seen from outside.
+function(faqem_hide target map)
+    get_target_property(type ${target} TYPE)
+    if(NOT type STREQUAL "SHARED_LIBRARY")
+        return()
+    endif()
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+                                               LINK_DEPENDS ${map})
+    # What libraries instantiate of the standard library would be seen in spite of that.
+    target_link_options(${target} PRIVATE -Wl,--version-script=${map})
+endfunction()

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "faqem/engine/poll.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "triangle.hpp"
 
@@ -19,7 +20,7 @@ namespace faqem::detail {
 /// Tree of axis-aligned boxes over triangles, four children to a node. The boxes are in single precision and
 /// only ever too large; distances are in double, so that answers are exact but for double's rounding. Queries
 /// may come from several threads at once. Depends on nothing but the mesh: same input, same tree.
-class Bvh {
+class FAQEM_EXPORT Bvh {
 public:
     /// \param positions  finite
     /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without

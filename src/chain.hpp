@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/levels.hpp"
 #include "within_error.hpp"
 
@@ -26,8 +27,8 @@ struct Goal {
 /// \param faces     of the original
 /// \param diagonal  of the original
 /// \throws OptionError  see simplify_levels()
-std::vector<Goal> goals(const std::vector<Level>& levels, const Options& options, double faces,
-                        double diagonal);
+FAQEM_EXPORT std::vector<Goal> goals(const std::vector<Level>& levels, const Options& options, double faces,
+                                     double diagonal);
 
 /// A result, and the target that it was run to.
 template <class Result>

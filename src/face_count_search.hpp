@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "faqem/export.hpp"
 #include "target.hpp"
 
 namespace faqem::detail {
@@ -15,7 +16,7 @@ namespace faqem::detail {
 /// not monotone, and a run may end above its target or far below. First a bracket in the logarithms of count
 /// and error is narrowed to 2%, with at most `bracket_runs` runs; then a few counts below its good end are
 /// tried. Depends on nothing but what it is told.
-class FaceCountSearch {
+class FAQEM_EXPORT FaceCountSearch {
 public:
     static constexpr std::uint64_t bracket_runs = 8;
     /// Counts that are tried in the end, as shares of the smallest good one.

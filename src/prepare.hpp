@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "presets.hpp"
 #include "prune.hpp"
@@ -41,6 +42,6 @@ std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const 
                                           std::size_t vertices);
 
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
-bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
+FAQEM_EXPORT bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace faqem::detail

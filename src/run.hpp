@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
 namespace faqem::detail {
@@ -18,7 +19,7 @@ namespace faqem::detail {
 /// \pre options are valid
 /// \return one result per target; where it was cancelled, the last one says so, and those after it are
 /// missing \throws as simplify(). O(n log n) for all of them together
-std::vector<SimplifyResult> run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
-                                   const Options& options);
+FAQEM_EXPORT std::vector<SimplifyResult> run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
+                                                const Options& options);
 
 }  // namespace faqem::detail

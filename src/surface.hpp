@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bvh.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -35,12 +36,12 @@ struct Surface {
 /// may be left. \throws InputError  an index is out of range
 /// \throws what the poll throws
 /// O(n log n)
-Surface surface_of(const MeshView& mesh, engine::Poll poll = {});
+FAQEM_EXPORT Surface surface_of(const MeshView& mesh, engine::Poll poll = {});
 
 /// The same, where something must be left.
 /// \param name  of the mesh, for errors
 /// \throws InputError  no face has area, or an index is out of range
-Surface make_surface(const MeshView& mesh, const char* name);
+FAQEM_EXPORT Surface make_surface(const MeshView& mesh, const char* name);
 
 /// Largest cosine between a normal and those of the faces as near to p as the nearest one: at an edge or a
 /// corner there are several, and which of them comes first is chance.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "faqem/export.hpp"
 #include "surface.hpp"
 
 namespace faqem::detail {
@@ -20,6 +21,6 @@ struct SurfaceSample {
 /// \param s     with a face
 /// \param i     < n
 /// \param seed  another seed, other places
-SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
+FAQEM_EXPORT SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
 
 }  // namespace faqem::detail

@@ -9,6 +9,7 @@
 
 #include "bvh.hpp"
 #include "face_count_search.hpp"
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 #include "parallel.hpp"
 #include "stopwatch.hpp"
@@ -31,7 +32,7 @@ enum class Look {
 };
 
 /// An original to measure several results against.
-class Original {
+class FAQEM_EXPORT Original {
 public:
     /// \param mesh     read here only
     /// \param options  of the runs: what they prune is left out
@@ -51,8 +52,8 @@ private:
 };
 
 /// The distance of a result of simplify(). A mesh that was only welded exactly is the same surface: 0.
-Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
-                  const Options& options, Poll poll = {});
+FAQEM_EXPORT Distance distance(const Original& original, const SimplifyResult& result, double allowed,
+                               Look look, const Options& options, Poll poll = {});
 
 /// What lengths can be shares of: the diagonal of the whole mesh, pruned or not.
 double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original,
@@ -85,7 +86,7 @@ Result cancelled() {
 SimplifyResult simplify_within(const MeshView& mesh, const Options& options);
 
 /// What a report says of a search in words.
-void finish_search(Report& report, std::uint64_t unsettled);
+FAQEM_EXPORT void finish_search(Report& report, std::uint64_t unsettled);
 
 /// Runs and measures: once where a target is given, else as FaceCountSearch says. A door brings the runs.
 /// \param options  of the caller, with max_error

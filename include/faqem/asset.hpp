@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem {
@@ -113,11 +114,11 @@ struct Instance {
 };
 
 /// Where the parts are, in the order of the scene's nodes. Without a scene graph: every part once, at home.
-std::vector<Instance> instances(const Asset& asset);
+FAQEM_EXPORT std::vector<Instance> instances(const Asset& asset);
 
 /// Loads .glb, .gltf, .obj, .ply, .stl or .off, chosen by content where it tells and by name where not.
 /// Files it refers to must lie in its folder or below. \throws ReadError, InputError, UnsupportedError
-Asset load(const std::filesystem::path& file);
+FAQEM_EXPORT Asset load(const std::filesystem::path& file);
 
 /// What save() may do to a file that exists.
 enum class Overwrite { no, yes };
@@ -127,21 +128,22 @@ enum class Overwrite { no, yes };
 /// \throws WriteError  on any failure, or when the file exists and overwrite is no
 /// \throws UnsupportedError  unknown name ending
 /// \return what the format could not hold, one sentence each (STL has no colours ...)
-std::vector<std::string> save(const Asset& asset, const std::filesystem::path& file,
-                              Overwrite overwrite = Overwrite::no);
+FAQEM_EXPORT std::vector<std::string> save(const Asset& asset, const std::filesystem::path& file,
+                                           Overwrite overwrite = Overwrite::no);
 
 /// Decodes PNG or JPEG. At most 16384 x 16384 and 1 GiB; checked before anything is allocated.
 /// \throws InputError     damaged
 /// \throws UnsupportedError  another format (KTX2, WebP ...)
-Pixels decode(const Image& image);
+FAQEM_EXPORT Pixels decode(const Image& image);
 
 /// Encodes as PNG; without the alpha channel where has_alpha is false.
-Image encode_png(const Pixels& pixels, const std::string& name);
+FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name);
 
 /// What an image is for: data and normals must not have their colours thinned out.
 enum class Content { colour, data };
 
 /// Encodes as JPEG; alpha is left out. \param quality  in [1, 100]
-Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content);
+FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
+                               Content content);
 
 }  // namespace faqem

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 
@@ -32,7 +33,7 @@ struct PageOrigins {
 
 /// Writes the maps of all pages in the format of docs/correspondence-format.md, little-endian on any machine.
 /// The caller checks the stream. O(texels)
-void write(const std::vector<PageOrigins>& pages, std::ostream& out);
+FAQEM_EXPORT void write(const std::vector<PageOrigins>& pages, std::ostream& out);
 
 /// An asset and what was done to make it.
 struct LightAsset {
@@ -54,7 +55,7 @@ struct LightAsset {
 ///
 /// \throws as simplify(const MeshView&, ...), and InputError naming the part or material where the asset's
 ///         arrays and indices do not fit each other or a number is not finite
-SmallParts simplify_parts(const Asset& source, const Options& options);
+FAQEM_EXPORT SmallParts simplify_parts(const Asset& source, const Options& options);
 
 /// Stage two: gives the small parts normals, UVs, materials and images.
 /// \param source   the asset that `small` was made from
@@ -62,10 +63,10 @@ SmallParts simplify_parts(const Asset& source, const Options& options);
 /// \return report.stop is `cancelled`, and the asset has no parts, if the progress callback cancelled
 /// \throws InputError        an image is damaged
 /// \throws UnsupportedError  an image that is needed is neither PNG nor JPEG
-LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
+FAQEM_EXPORT LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
 
 /// Both stages in one call.
 /// \throws OptionError, InputError, UnsupportedError
-LightAsset simplify(const Asset& source, const Options& options = {});
+FAQEM_EXPORT LightAsset simplify(const Asset& source, const Options& options = {});
 
 }  // namespace faqem

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faqem/bake.hpp"
+#include "faqem/export.hpp"
 #include "faqem/levels.hpp"
 
 namespace faqem {
@@ -29,14 +30,15 @@ struct LightLevel {
 /// \return one per level, each with the history that bake() needs; one alone, whose stop says so, where
 ///         progress cancelled
 /// \throws as simplify_parts() and simplify_levels()
-std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
-                                                   const Options& options = {});
+FAQEM_EXPORT std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source,
+                                                                const std::vector<Level>& levels,
+                                                                const Options& options = {});
 
 /// Both stages for all levels; each has images of its own.
 /// \return one per level; where progress cancelled, the last one's stop says so, and those after it are
 ///         missing
 /// \throws as simplify_parts_levels() and bake()
-std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
-                                        const Options& options = {});
+FAQEM_EXPORT std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
+                                                     const Options& options = {});
 
 }  // namespace faqem

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem {
@@ -25,7 +26,7 @@ struct MeshInfo {
 
 /// Counts and measures one mesh; positions that are equal (-0 equals 0) are one vertex. O(n log n)
 /// \throws InputError  an index is out of range
-MeshInfo info(const MeshView& mesh);
+FAQEM_EXPORT MeshInfo info(const MeshView& mesh);
 
 /// How much compare() looks at.
 struct CompareOptions {
@@ -63,7 +64,7 @@ struct Comparison {
 /// \throws InputError   a mesh has no face with area, or an index is out of range
 /// \throws OptionError  the tolerance is negative or not a number
 /// Complexity: O((samples + vertices + pieces) log faces) typically; about 300 bytes per face.
-Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options = {});
+FAQEM_EXPORT Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options = {});
 
 /// When the search of hausdorff() may end.
 struct HausdorffOptions {
@@ -89,7 +90,8 @@ struct DistanceBound {
 /// \throws InputError   a mesh has no face with area, or an index is out of range
 /// \throws OptionError  the tolerance is negative or not a number
 /// Complexity: O((vertices + faces + pieces) log faces) typically; about 300 bytes per face, 150 per piece.
-DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options = {});
+FAQEM_EXPORT DistanceBound hausdorff(const MeshView& a, const MeshView& b,
+                                     const HausdorffOptions& options = {});
 
 /// Answer of within().
 enum class Within { yes, no, undecided };
@@ -98,6 +100,6 @@ enum class Within { yes, no, undecided };
 /// where the work allowed by HausdorffOptions does not tell, or the distance is that up to 1e-9 of the
 /// diagonal. Ends as soon as the answer is known.
 /// \throws InputError   a mesh has no face with area, or an index is out of range
-Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads = 0);
+FAQEM_EXPORT Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads = 0);
 
 }  // namespace faqem

@@ -6,6 +6,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem {
 
@@ -27,7 +28,7 @@ struct ColorComparison {
 };
 
 /// Whether a model has anything that says a colour: materials or vertex colours.
-bool has_colors(const Asset& asset);
+FAQEM_EXPORT bool has_colors(const Asset& asset);
 
 /// Compares base colours (texture times factor times vertex colour, without light), as sRGB in 0 to 1: area-
 /// uniform samples of each model, the same places as compare() takes, against the closest point of the other
@@ -39,6 +40,7 @@ bool has_colors(const Asset& asset);
 /// \throws InputError        a model has no face with area, or an image is damaged
 /// \throws UnsupportedError  an image is neither PNG nor JPEG
 /// Complexity: O(samples log faces) typically; about 400 bytes per face, 7 per texel.
-ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOptions& options = {});
+FAQEM_EXPORT ColorComparison compare_colors(const Asset& a, const Asset& b,
+                                            const CompareOptions& options = {});
 
 }  // namespace faqem

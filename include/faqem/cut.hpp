@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/simplify.hpp"
 
@@ -35,37 +36,37 @@ struct ChainHistory {
 /// \param levels  from fine to coarse, as simplify_levels() gives them; at least one
 /// \throws InputError  they are not of one run
 /// O(size of all)
-ChainHistory join(std::span<const CollapseHistory> levels);
+FAQEM_EXPORT ChainHistory join(std::span<const CollapseHistory> levels);
 
 /// The history of one level, as its run gave it.
 /// \pre level < history.level_count()
 /// O(size)
-CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level);
+FAQEM_EXPORT CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level);
 
 /// The history up to where no more than `faces` are left: of a level that the run stopped at there, and of
 /// one with just as many faces, as its run gave it, else with every vertex where the last collapse put it.
 /// Where even the last level has more faces, that level. For presets whose order of collapses does not depend
 /// on the target (qem, paper, stmw) a run to `faces` gives the same, as long as it took no step of the
 /// ladder. \pre histories are valid O(size)
-CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces);
+FAQEM_EXPORT CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces);
 
 /// cut_to() for the parts of an asset together. As many faces as a level has give that level; others are
 /// shared out in proportion between the levels around them.
 /// \param parts  with as many levels each; those of parts without faces are empty
 /// \throws InputError  the parts have not the same number of levels
-std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces);
+FAQEM_EXPORT std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces);
 
 /// The small mesh of a history, as the run gave it. Attributes on corners are not in a history.
 /// Of the report the counts of faces, vertices and collapses.
 /// \pre validate(history) passes
 /// O(size)
-SimplifyResult restore(CollapseHistory history);
+FAQEM_EXPORT SimplifyResult restore(CollapseHistory history);
 
 /// Writes in a little-endian binary format (docs/history-format.md). \throws WriteError
-void write(const ChainHistory& history, std::ostream& out);
+FAQEM_EXPORT void write(const ChainHistory& history, std::ostream& out);
 
 /// Reads what write() wrote, of a chain or of one history, and validates every level.
 /// \throws InputError naming the section that is wrong
-ChainHistory read_chain_history(std::istream& in);
+FAQEM_EXPORT ChainHistory read_chain_history(std::istream& in);
 
 }  // namespace faqem

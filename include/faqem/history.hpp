@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem {
@@ -68,16 +69,16 @@ struct CollapseHistory {
 
 /// Checks that every index is in range and every collapse joins two living versions. O(size)
 /// \throws InputError naming the first collapse or face that is wrong
-void validate(const CollapseHistory& history);
+FAQEM_EXPORT void validate(const CollapseHistory& history);
 
 /// Rebuilds the small mesh from the history alone. \pre validate(history) passes. O(size)
-TriangleMesh replay(const CollapseHistory& history);
+FAQEM_EXPORT TriangleMesh replay(const CollapseHistory& history);
 
 /// Writes in a little-endian binary format (docs/history-format.md). \throws WriteError
-void write(const CollapseHistory& history, std::ostream& out);
+FAQEM_EXPORT void write(const CollapseHistory& history, std::ostream& out);
 
 /// Reads what write() wrote and validates it; memory grows only with the bytes really there.
 /// \throws InputError naming the section that is wrong
-CollapseHistory read_history(std::istream& in);
+FAQEM_EXPORT CollapseHistory read_history(std::istream& in);
 
 }  // namespace faqem

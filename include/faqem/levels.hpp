@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
 namespace faqem {
@@ -41,7 +42,8 @@ struct SimplifiedLevel {
 /// \throws InputError   as simplify()
 /// Complexity: for counts one run, and one measurement for each. A distance takes up to 12 runs more, from
 /// the original over the levels before it, each measured.
-std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::vector<Level>& levels,
-                                             const Options& options = {});
+FAQEM_EXPORT std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
+                                                          const std::vector<Level>& levels,
+                                                          const Options& options = {});
 
 }  // namespace faqem

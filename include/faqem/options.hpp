@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 
 namespace faqem {
@@ -208,6 +209,6 @@ struct Options {
 
 /// Checks every range stated above.
 /// \throws OptionError naming the member
-void validate(const Options& options);
+FAQEM_EXPORT void validate(const Options& options);
 
 }  // namespace faqem

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem {
@@ -107,15 +108,15 @@ struct Report {
     PhaseSeconds seconds;
 };
 
-std::string_view name(Preset preset);
-std::string_view name(StopReason reason);
-std::string_view name(Refusal refusal);
-std::string_view name(Rung rung);
+FAQEM_EXPORT std::string_view name(Preset preset);
+FAQEM_EXPORT std::string_view name(StopReason reason);
+FAQEM_EXPORT std::string_view name(Refusal refusal);
+FAQEM_EXPORT std::string_view name(Rung rung);
 
 /// Finds a preset by the name that name() gives. \throws OptionError if there is none
-Preset preset_named(std::string_view text);
+FAQEM_EXPORT Preset preset_named(std::string_view text);
 
 /// The report as JSON, with the keys documented in docs/cli.md and the process's peak memory.
-std::string to_json(const Report& report);
+FAQEM_EXPORT std::string to_json(const Report& report);
 
 }  // namespace faqem

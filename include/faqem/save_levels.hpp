@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem {
 
@@ -28,7 +29,8 @@ struct SavedLevel {
 /// \throws InputError        the levels have not the same number of parts, or not a coverage for each part
 /// \throws UnsupportedError  the name does not end in .glb or .gltf
 /// \throws WriteError        as save()
-std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const std::filesystem::path& file,
-                                     Overwrite overwrite = Overwrite::no);
+FAQEM_EXPORT std::vector<std::string> save_levels(std::vector<SavedLevel> levels,
+                                                  const std::filesystem::path& file,
+                                                  Overwrite overwrite = Overwrite::no);
 
 }  // namespace faqem

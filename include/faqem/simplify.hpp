@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
@@ -32,6 +33,6 @@ struct SimplifyResult {
 ///                      or there are more than 2^32 - 2 vertices or faces, or 2^32 - 2 corners / 3
 /// Complexity: O(n log n) time in the number of faces for bounded valence, O(n) memory. With max_error and no
 /// target up to 12 such runs, each from the original and measured; `progress` goes over all of them.
-SimplifyResult simplify(const MeshView& mesh, const Options& options = {});
+FAQEM_EXPORT SimplifyResult simplify(const MeshView& mesh, const Options& options = {});
 
 }  // namespace faqem

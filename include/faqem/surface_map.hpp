@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/options.hpp"
 
@@ -18,8 +19,8 @@ class Poll;
 
 namespace detail {
 /// A map whose making polls. \throws what the poll throws
-SurfaceMap polled_map(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded,
-                      const engine::Poll& poll);
+FAQEM_EXPORT SurfaceMap polled_map(const CollapseHistory& history, Mapping mapping,
+                                   std::span<const Triangle> unwelded, const engine::Poll& poll);
 }  // namespace detail
 
 /// How a sample found its place.
@@ -40,7 +41,7 @@ struct SurfacePoint {
 
 /// Answers "where on the original is this point of the small mesh?". Immutable once built; map() may be
 /// called from several threads at once.
-class SurfaceMap {
+class FAQEM_EXPORT SurfaceMap {
 public:
     /// \param history  of the run that made the small mesh; must outlive the map
     /// \param mapping  how places are found

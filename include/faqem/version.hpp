@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "faqem/export.hpp"
+
 namespace faqem {
 
 /// The version of these headers, as https://semver.org counts. What each number promises is in CHANGELOG.md.
@@ -12,6 +14,6 @@ inline constexpr int version_minor = 1;
 inline constexpr int version_patch = 0;
 
 /// "MAJOR.MINOR.PATCH" of the library that runs: with a shared one it may be newer than the headers.
-std::string_view version();
+FAQEM_EXPORT std::string_view version();
 
 }  // namespace faqem

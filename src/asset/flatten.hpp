@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -15,7 +16,7 @@ namespace faqem::detail {
 /// get neutral values elsewhere: normals and UVs zero, colours white. Tangents, skins and morph targets are
 /// left out. A part that is alone and stays where it is comes out with the same bits. \throws InputError when
 /// there are more vertices or faces than 32-bit indices can tell apart
-Part flatten(const Asset& asset);
+FAQEM_EXPORT Part flatten(const Asset& asset);
 
 /// The same for these instances instead of those of the asset's scene.
 Part flatten(const Asset& asset, const std::vector<Instance>& all);

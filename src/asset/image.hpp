@@ -8,14 +8,15 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/engine/poll.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
 /// The public functions of these names, which poll. \throws what the poll throws, too
-Pixels decode(const Image& image, engine::Poll poll);
-Image encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll);
-Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content,
-                  engine::Poll poll);
+FAQEM_EXPORT Pixels decode(const Image& image, engine::Poll poll);
+FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll);
+FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
+                               Content content, engine::Poll poll);
 
 /// Media type by magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/vnd-ms.dds, image/gif,
 /// image/bmp; empty if it is none of these.

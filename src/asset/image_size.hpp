@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "faqem/export.hpp"
+
 namespace faqem::detail {
 
 /// Larger images are refused.
@@ -19,7 +21,7 @@ struct ImageSize {
 };
 
 /// The size in the header of a PNG, JPEG or WebP; nothing where there is none. O(bytes)
-std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
+FAQEM_EXPORT std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
 /// Whether so many bytes can hold so many pixels, as far as the format tells.
 ///

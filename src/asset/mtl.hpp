@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -36,8 +37,8 @@ struct MtlMaterial {
 /// are skipped; other statements are skipped with a counted warning. Source of the Ns formula: Karis,
 /// "Specular BRDF reference", 2013, with alpha = roughness^2. \param name      for messages \throws
 /// InputError  a number is not one, or a statement comes before the first newmtl
-std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
-                                  std::vector<std::string>& warnings);
+FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
+                                               std::vector<std::string>& warnings);
 
 /// Adds a material and the images it uses to the asset. An image already there is shared. An image that is
 /// missing or lies outside the folder is a warning: the material keeps its colour. \param folder  of the OBJ

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -37,6 +38,6 @@ inline Index face_material(const Part& part, std::size_t face) {
 /// Materials merge where alpha mode (and cutoff), double-sidedness and unlitness agree. One with other
 /// extensions stays alone: what those say cannot be merged. `vertex` has one colour per vertex and nothing
 /// else, so there the factors that are no base colour must agree too. O(faces + materials^2)
-MaterialGroups group_materials(const Asset& asset, Bake kind);
+FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, Bake kind);
 
 }  // namespace faqem::detail

@@ -10,6 +10,7 @@
 #include "bake/groups.hpp"
 #include "bake/normals.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/export.hpp"
 #include "parallel.hpp"
 #include "stopwatch.hpp"
 
@@ -63,7 +64,7 @@ void polled_blocks(const BakeJob& job, Phase phase, std::size_t size, std::size_
 std::string material_title(const Asset& asset, Index material);
 
 /// `part 'leg'`, or by number where it has no name.
-std::string part_title(const Asset& asset, std::size_t part);
+FAQEM_EXPORT std::string part_title(const Asset& asset, std::size_t part);
 
 /// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
 bool bake_pages(BakeJob& job);

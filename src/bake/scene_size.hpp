@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -29,7 +30,7 @@ struct SceneSize {
 /// How large the scene is, and how large it shows its parts.
 /// \throws InputError  an index is out of range
 /// O(faces log faces)
-SceneSize scene_size(const Asset& source);
+FAQEM_EXPORT SceneSize scene_size(const Asset& source);
 
 /// What a part is simplified with: Topology::prune in the part's own units, at its largest scale; unset where
 /// the scene shrinks the part to nothing. \param size   of the scene \param scale  the part's
