@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,58 +26,114 @@ using Vec3 = std::array<double, 3>;
 /// Three vertex indices, counter-clockwise seen from outside.
 using Triangle = std::array<Index, 3>;
 
-/// Positions that belong to the caller, as float or double, tightly packed xyz.
+/// Positions that belong to the caller, as float or double, where they are: packed, interleaved with other
+/// data, or one coordinate after the other. Nothing is copied.
 class PositionView {
 public:
     PositionView() = default;
-    PositionView(std::span<const Vec3> p) : data_(p.data()), size_(p.size()), is_double_(true) {}
-    PositionView(std::span<const Vec3f> p) : data_(p.data()), size_(p.size()) {}
+    PositionView(std::span<const Vec3> p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
+    PositionView(std::span<const Vec3f> p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
     PositionView(const std::vector<Vec3>& p) : PositionView(std::span(p)) {}
     PositionView(const std::vector<Vec3f>& p) : PositionView(std::span(p)) {}
     /// Flat xyz; a trailing one or two numbers are ignored.
-    PositionView(std::span<const double> xyz) : data_(xyz.data()), size_(xyz.size() / 3), is_double_(true) {}
-    PositionView(std::span<const float> xyz) : data_(xyz.data()), size_(xyz.size() / 3) {}
+    PositionView(std::span<const double> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
+    PositionView(std::span<const float> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
     PositionView(const std::vector<double>& xyz) : PositionView(std::span(xyz)) {}
     PositionView(const std::vector<float>& xyz) : PositionView(std::span(xyz)) {}
+
+    /// Any layout: sizeof(Vertex) is the stride of positions in an array of Vertex; of a matrix with a row
+    /// per vertex, column by column, it is sizeof(double), and the step sizeof(double) * rows. \param first
+    /// x of the first vertex; need not be aligned \param count   of vertices \param stride  bytes from a
+    /// vertex to the next one \param step    bytes from x to y, and from y to z
+    PositionView(const double* first, std::size_t count, std::size_t stride,
+                 std::size_t step = sizeof(double))
+        : data_(first), size_(count), stride_(stride), step_(step), is_double_(true) {}
+    PositionView(const float* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(float))
+        : data_(first), size_(count), stride_(stride), step_(step) {}
 
     /// Number of vertices.
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
 
     Vec3 operator[](std::size_t i) const {
-        if (is_double_) {
-            const double* p = static_cast<const double*>(data_) + 3 * i;
-            return {p[0], p[1], p[2]};
-        }
-        const float* p = static_cast<const float*>(data_) + 3 * i;
-        return {p[0], p[1], p[2]};
+        const auto* at = static_cast<const std::byte*>(data_) + i * stride_;
+        if (is_double_) return {read<double>(at), read<double>(at + step_), read<double>(at + 2 * step_)};
+        return {read<float>(at), read<float>(at + step_), read<float>(at + 2 * step_)};
     }
 
 private:
+    template <class Vec>
+    static const typename Vec::value_type* scalars(std::span<const Vec> p) {
+        return p.empty() ? nullptr : p.front().data();
+    }
+
+    template <class Scalar>
+    static double read(const std::byte* at) {
+        Scalar value;
+        std::memcpy(&value, at, sizeof value);
+        return value;
+    }
+
     const void* data_ = nullptr;
     std::size_t size_ = 0;
+    std::size_t stride_ = 0, step_ = 0;  // bytes
     bool is_double_ = false;
 };
 
-/// Triangles that belong to the caller, as triples or as a flat list of indices.
+/// Triangles that belong to the caller, as triples or as a flat list of indices, of 16 or 32 bits. Nothing is
+/// copied.
 class TriangleView {
 public:
     TriangleView() = default;
     TriangleView(std::span<const Triangle> t)
-        : data_(t.empty() ? nullptr : t.front().data()), size_(t.size()) {}
+        : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
     TriangleView(const std::vector<Triangle>& t) : TriangleView(std::span(t)) {}
     /// Flat list; a trailing one or two indices are ignored.
-    TriangleView(std::span<const Index> flat) : data_(flat.data()), size_(flat.size() / 3) {}
+    TriangleView(std::span<const Index> flat)
+        : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
+    TriangleView(std::span<const std::uint16_t> flat)
+        : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
     TriangleView(const std::vector<Index>& flat) : TriangleView(std::span(flat)) {}
+    TriangleView(const std::vector<std::uint16_t>& flat) : TriangleView(std::span(flat)) {}
+
+    /// Any layout, as PositionView(). Of signed indices, those below 0 are out of range.
+    /// \param first   first corner of the first triangle; need not be aligned
+    /// \param count   of triangles
+    /// \param stride  bytes from a triangle to the next one
+    /// \param step    bytes from a corner to the next one
+    TriangleView(const Index* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(Index))
+        : data_(first), size_(count), stride_(stride), step_(step) {}
+    TriangleView(const std::int32_t* first, std::size_t count, std::size_t stride,
+                 std::size_t step = sizeof(std::int32_t))
+        : data_(first), size_(count), stride_(stride), step_(step) {}
+    TriangleView(const std::uint16_t* first, std::size_t count, std::size_t stride,
+                 std::size_t step = sizeof(std::uint16_t))
+        : data_(first), size_(count), stride_(stride), step_(step), is_short_(true) {}
 
     /// Number of triangles.
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
-    Triangle operator[](std::size_t f) const { return {data_[3 * f], data_[3 * f + 1], data_[3 * f + 2]}; }
+
+    Triangle operator[](std::size_t f) const {
+        const auto* at = static_cast<const std::byte*>(data_) + f * stride_;
+        if (is_short_)
+            return {read<std::uint16_t>(at), read<std::uint16_t>(at + step_),
+                    read<std::uint16_t>(at + 2 * step_)};
+        return {read<Index>(at), read<Index>(at + step_), read<Index>(at + 2 * step_)};
+    }
 
 private:
-    const Index* data_ = nullptr;
+    template <class Number>
+    static Index read(const std::byte* at) {
+        Number value;
+        std::memcpy(&value, at, sizeof value);
+        return value;
+    }
+
+    const void* data_ = nullptr;
     std::size_t size_ = 0;
+    std::size_t stride_ = 0, step_ = 0;  // bytes
+    bool is_short_ = false;
 };
 
 /// Attributes that live on face corners (UVs, colours): `width` floats per corner, 3 * faces corners.
