@@ -9,6 +9,7 @@
 #include "faqem/compare_colors.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"
+#include "faqem/forward_map.hpp"
 #include "faqem/history.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/mesh.hpp"
