@@ -44,7 +44,7 @@ enum class Ladder {
 /// What the loop needs besides the complex, the metric and the recorder.
 struct LoopOptions {
     std::size_t target_faces = 4;
-    Rules rules;
+    Rules rules = {};
     Ladder ladder = Ladder::climb;
     /// Vertices from here on are there for their faces with others; what else lies around them is not known.
     /// They must be locked, and so must their neighbours.
@@ -59,7 +59,7 @@ struct LoopOptions {
     double tiny_component = 0;
     /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
     /// or cancels, the complex stays whole.
-    std::function<Continue(double)> progress;
+    std::function<Continue(double)> progress = {};
 };
 
 /// What the loop did.

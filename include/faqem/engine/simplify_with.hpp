@@ -1,0 +1,103 @@
+#pragma once
+/// \file
+/// One call of the engine with a metric of the user's own.
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/engine.hpp"
+#include "faqem/engine/weld.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::engine {
+
+/// What simplify_with() gives back.
+struct CustomResult {
+    TriangleMesh mesh;                 ///< positions and triangles
+    std::vector<Index> vertex_origin;  ///< per vertex of `mesh`: an input vertex it grew from
+    std::vector<Index> face_origin;    ///< per face of `mesh`: the input face it was
+    LoopResult loop;
+};
+
+namespace simplify_with_detail {
+
+inline void check(const MeshView& mesh) {
+    if (!(mesh.positions.size() < no_index)) throw InputError("positions: too many");
+    if (mesh.triangles.size() > max_faces) throw InputError("triangles: too many");
+    if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size())
+        throw InputError("vertex_locks: needs one entry per vertex or none");
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!to_eigen(mesh.positions[v]).allFinite())
+            throw InputError("vertex " + std::to_string(v) + ": position is not finite");
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (const Index v : mesh.triangles[f]) {
+            if (!(v < mesh.positions.size()))
+                throw InputError("face " + std::to_string(f) + ": vertex index out of range");
+        }
+    }
+}
+
+// Three no_index where two corners are at one place.
+inline std::vector<Triangle> welded_faces(const MeshView& mesh, const std::vector<Index>& representative) {
+    std::vector<Triangle> triangles(mesh.triangles.size());
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+        Triangle t = mesh.triangles[f];
+        for (Index& v : t) v = representative[v];
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = {no_index, no_index, no_index};
+        triangles[f] = t;
+    }
+    return triangles;
+}
+
+inline void collect(const Complex& complex, CustomResult& result) {
+    std::vector<Index> number(complex.vertex_slots(), no_index);
+    for (Index v = 0; v < complex.vertex_slots(); ++v) {
+        if (complex.degree(v) == 0) continue;
+        number[v] = static_cast<Index>(result.mesh.positions.size());
+        result.mesh.positions.push_back(to_array(complex.position(v)));
+        result.vertex_origin.push_back(v);
+    }
+    for (Index f = 0; f < complex.face_slots(); ++f) {
+        if (!complex.alive(f)) continue;
+        const Triangle& t = complex.triangle(f);
+        result.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+        result.face_origin.push_back(f);
+    }
+}
+
+}  // namespace simplify_with_detail
+
+/// Collapses pairs, cheapest first by `metric`, until `options` says that it is enough. Vertices at one place
+/// are one. There are no units but the model's: a metric that needs a certain scale must see to it. \param
+/// mesh     any triangle soup; positions, triangles and locks count \param metric   what a collapse costs and
+/// where it goes; a CustomMetric, say \param options  target_faces, rules, ladder, progress \throws
+/// InputError  an index is out of range, a position is not finite, or an array has the wrong length O(n log
+/// n) in the number of faces for bounded valence.
+template <CollapseMetric Metric, CollapseQueue Queue = HeapQueue>
+CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOptions& options) {
+    simplify_with_detail::check(mesh);
+    std::vector<Vec3> positions(mesh.positions.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = mesh.positions[v];
+    const std::vector<Index> representative = weld_exact(positions);
+    std::vector<std::uint8_t> locked(positions.size(), 0);
+    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v)
+        locked[representative[v]] |= mesh.vertex_locks[v] != 0;
+    std::vector<Vector3> places;
+    places.reserve(positions.size());
+    for (const Vec3& p : positions) places.push_back(to_eigen(p));
+
+    Complex complex(places, simplify_with_detail::welded_faces(mesh, representative));
+    PairTable pairs(complex, {});
+    Wedges wedges;
+    NoRecorder recorder;
+    CustomResult result;
+    Engine<Metric, Queue, NoRecorder> engine(complex, pairs, wedges, locked, metric, recorder);
+    result.loop = engine.run(options);
+    simplify_with_detail::collect(complex, result);
+    return result;
+}
+
+}  // namespace faqem::engine
