@@ -1,0 +1,39 @@
+// A textured model: fewer faces, and a new texture that looks like the old one.
+
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "faqem/bake.hpp"
+
+int main(int argc, char** argv) try {
+    if (argc != 4) {
+        std::cerr << "usage: textured IN OUT REPORT.json\n";
+        return 2;
+    }
+    const faqem::Asset source = faqem::load(argv[1]);
+    for (const std::string& warning : source.warnings) std::cerr << argv[1] << ": " << warning << "\n";
+
+    faqem::Options options;
+    options.target = faqem::ratio(0.1);
+    options.bake.texture_size = 512;
+    options.bake.image_format = faqem::ImageFormat::jpeg;
+    options.progress = [last = -1](faqem::Phase, double share) mutable {
+        const int percent = static_cast<int>(100 * share);
+        if (percent / 25 != last / 25) std::cerr << percent << "%\n";
+        last = percent;
+        return faqem::Continue::yes;  // `no` stops, and the report says so
+    };
+
+    const faqem::LightAsset light = faqem::simplify(source, options);
+    std::ofstream(argv[3]) << faqem::to_json(light.report) << "\n";
+    if (light.report.stop == faqem::StopReason::cancelled) return 1;
+    for (const std::string& lost : faqem::save(light.asset, argv[2], faqem::Overwrite::yes))
+        std::cerr << argv[2] << ": " << lost << "\n";
+    std::cout << light.report.faces_in << " faces, now " << light.report.faces_out << ", with "
+              << light.asset.images.size() << " images\n";
+    return 0;
+} catch (const std::exception& error) {
+    std::cerr << "textured: " << error.what() << "\n";
+    return 1;
+}
