@@ -1,0 +1,48 @@
+"""No link between the pages is broken: the file is there, and in a page the heading. Usage: links.py"""
+import re
+import sys
+
+import pages
+
+
+def headings(page):
+    """The names that headings have in links."""
+    names = set()
+    inside = False
+    for line in page.read_text(encoding="utf-8").splitlines():
+        inside = inside != line.lstrip().startswith("```")
+        heading = None if inside else re.match(r"#+\s+(.*?)\s*$", line)
+        if heading:
+            text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading.group(1))
+            name = re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", "-")
+            repeated = sum(1 for other in names if re.fullmatch(re.escape(name) + r"(-\d+)?", other))
+            names.add(f"{name}-{repeated}" if repeated else name)
+    return names
+
+
+def problem(page, target):
+    """Why a link leads nowhere, or None."""
+    if re.match(r"[a-z]+:", target):
+        return None
+    path, _, heading = target.partition("#")
+    file = (page.parent / path).resolve() if path else page
+    if not file.exists():
+        return "there is no such file"
+    if not file.is_relative_to(pages.SOURCE):
+        return "it leads out of the sources"
+    if heading and file.suffix == ".md" and heading not in headings(file):
+        return "there is no such heading"
+    return None
+
+
+links = problems = 0
+for page in pages.PAGES:
+    for number, line in enumerate(pages.without_blocks(page), 1):
+        for target in re.findall(r"\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\"", line):
+            links += 1
+            why = problem(page, target[0] or target[1])
+            if why:
+                problems += 1
+                print(f"{page}:{number}: {target[0] or target[1]}: {why}")
+print(f"{links} links on {len(pages.PAGES)} pages, {problems} lead nowhere")
+sys.exit(problems > 0 or links == 0)

@@ -1,0 +1,44 @@
+"""docs/cli.md has every option of the tool, and no other. Usage: options.py TOOL"""
+import re
+import subprocess
+import sys
+
+import pages
+
+# What a section leaves to another one in words.
+SAME_AS_SIMPLIFY = {"lod", "batch", "cut"}
+
+
+def options_of_tool(tool):
+    """Command -> its options, as the manual page has them."""
+    manual = subprocess.run([tool, "man"], check=True, capture_output=True, text=True).stdout.replace("\\-", "-")
+    commands = {}
+    for section in re.split(r"^\.SS ", manual.split(".SH EXIT STATUS")[0], flags=re.M)[1:]:
+        name = re.match(r"\\fBfaqem (\S+)\\fR", section).group(1)
+        commands[name] = set(re.findall(r"^\\fB.*?(--[a-z-]+)\\fR", section, flags=re.M)) - {"--help"}
+    return commands
+
+
+def options_of_page(page):
+    """Command -> options in the first column of the tables below its heading."""
+    commands, name = {}, None
+    for line in page.read_text(encoding="utf-8").splitlines():
+        heading = re.match(r"## (?:faqem (\w+))?", line)
+        if heading and not line.startswith("###"):
+            name = heading.group(1)
+            if name:
+                commands[name] = set()
+        if name and line.startswith("| `--"):
+            commands[name] |= set(re.findall(r"--[a-z-]+", line.split("|")[1]))
+    return commands
+
+
+tool, page = options_of_tool(sys.argv[1]), options_of_page(pages.SOURCE / "docs" / "cli.md")
+problems = []
+for command, there in tool.items():
+    told = page.get(command, set())
+    known = told | page["simplify"] if command in SAME_AS_SIMPLIFY else told
+    problems += [f"faqem {command} has {option}, which docs/cli.md does not tell" for option in there - known]
+    problems += [f"docs/cli.md tells of faqem {command} {option}, which there is not" for option in told - there]
+print("\n".join(sorted(problems)) or f"{sum(map(len, tool.values()))} options of {len(tool)} commands")
+sys.exit(bool(problems))

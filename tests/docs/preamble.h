@@ -1,0 +1,5 @@
+/* What code blocks take for granted: the reader's own data. */
+#include <faqem/faqem_asset.h>
+
+static faqem_options* options;
+static faqem_error error;
