@@ -1,8 +1,14 @@
 #!/bin/sh
-# Builds faqem and runs every test. Usage: tests/run.sh [PRESET [CTEST-OPTION...]], a configure preset of
+# Builds faqem and runs every test. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
 # CMakePresets.json; default: release. Needs Debian 12 and nothing else: packages are installed first.
+# --quick leaves out what runs whole programs for long: the package, Python, the validator, fuzzing, examples, the site.
 set -eu
 cd "$(dirname "$0")/.."
+quick=""
+if [ "${1:-}" = --quick ]; then
+    quick="^(package|python|validator|fuzz|examples)/|^docs/(commands work|the site)"
+    shift
+fi
 preset=${1:-release}
 [ $# -eq 0 ] || shift
 
@@ -16,4 +22,4 @@ cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start turns them of
 echo "== build"
 cmake --build --preset "$preset"
 echo "== test"
-ctest --preset "$preset" "$@"
+ctest --preset "$preset" ${quick:+-E "$quick"} "$@"
