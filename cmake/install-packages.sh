@@ -4,7 +4,7 @@
 set -eu
 
 packages="build-essential cmake ninja-build file pkg-config libeigen3-dev libnanoflann-dev nlohmann-json3-dev \
-libopenmesh-dev libtinygltf-dev libopenimageio-dev libdraco-dev libmeshoptimizer-dev openimageio-tools libcli11-dev catch2 \
+libopenmesh-dev libtinygltf-dev libopenimageio-dev libdraco-dev libmeshoptimizer-dev openimageio-tools libcli11-dev catch2 doxygen \
 python3-numpy python3-pip python3-setuptools python3-wheel zsh $*"
 # The glTF validator runs on Node. A Node from elsewhere brings its own npm, which Debian's package conflicts with.
 command -v npm >/dev/null 2>&1 || packages="$packages npm"
