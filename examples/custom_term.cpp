@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "faqem/asset.hpp"
 #include "faqem/engine/custom_metric.hpp"
@@ -13,10 +13,7 @@
 using namespace faqem::engine;
 
 int main(int argc, char** argv) try {
-    if (argc != 4) {
-        std::cerr << "usage: custom_term IN OUT LONGEST-EDGE\n";
-        return 2;
-    }
+    if (argc != 4) throw std::invalid_argument("usage: custom_term IN OUT LONGEST-EDGE");
     const faqem::Asset model = faqem::load(argv[1]);
     const double longest = std::atof(argv[3]);
     faqem::Part part;

@@ -2,8 +2,8 @@
 // mesh, and back again to all places of the original.
 
 #include <cmath>
-#include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "faqem/asset.hpp"
 #include "faqem/forward_map.hpp"
@@ -16,10 +16,7 @@ double mixed(const std::vector<double>& values, const faqem::Triangle& t, const 
 }
 
 int main(int argc, char** argv) try {
-    if (argc != 2) {
-        std::cerr << "usage: field_transfer IN\n";
-        return 2;
-    }
+    if (argc != 2) throw std::invalid_argument("usage: field_transfer IN");
     const faqem::Asset model = faqem::load(argv[1]);
     const faqem::Part& original = model.parts.at(0);
     std::vector<double> temperature;  // per vertex of the original, from 0 to 1

@@ -1,7 +1,9 @@
-"""Draws the diagrams of docs/concepts.md beside this file. Usage: draw.py"""
+"""Draws the diagrams of docs/concepts.md beside this file, or in OUT. Usage: draw.py [OUT]"""
 import math
 import pathlib
+import sys
 
+OUT = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
 INK, PALE, BLUE, RED, GREEN = "#2b3440", "#e8eef5", "#2f6fb7", "#c8452f", "#3c8d5a"
 
 
@@ -11,8 +13,9 @@ class Drawing:
 
     def polygon(self, points, fill="none", stroke=INK, width=1.4, closed=True, dash=""):
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        dashes = f' stroke-dasharray="{dash}"' if dash else ""
         self.parts.append(f'<{"polygon" if closed else "polyline"} points="{path}" fill="{fill}" stroke="{stroke}" '
-                          f'stroke-width="{width}" stroke-linejoin="round"{dash and f" stroke-dasharray={chr(34)}{dash}{chr(34)}"}/>')
+                          f'stroke-width="{width}" stroke-linejoin="round"{dashes}/>')
 
     def line(self, a, b, stroke=INK, width=1.4, dash="", arrow=False):
         self.polygon([a, b], stroke=stroke, width=width, closed=False, dash=dash)
@@ -25,23 +28,23 @@ class Drawing:
         self.parts.append(f'<circle cx="{p[0]:.1f}" cy="{p[1]:.1f}" r="{radius}" fill="{fill}" stroke="white"/>')
 
     def ellipse(self, p, rx, ry, angle, stroke=BLUE):
-        self.parts.append(f'<ellipse cx="{p[0]:.1f}" cy="{p[1]:.1f}" rx="{rx:.1f}" ry="{ry:.1f}" fill="none" stroke="{stroke}" '
-                          f'transform="rotate({angle:.1f} {p[0]:.1f} {p[1]:.1f})"/>')
+        self.parts.append(f'<ellipse cx="{p[0]:.1f}" cy="{p[1]:.1f}" rx="{rx:.1f}" ry="{ry:.1f}" fill="none" '
+                          f'stroke="{stroke}" transform="rotate({angle:.1f} {p[0]:.1f} {p[1]:.1f})"/>')
 
     def text(self, p, words, fill=INK, size=14, anchor="middle", style="normal"):
-        self.parts.append(f'<text x="{p[0]:.1f}" y="{p[1]:.1f}" fill="{fill}" font-size="{size}" text-anchor="{anchor}" '
-                          f'font-style="{style}">{words}</text>')
+        self.parts.append(f'<text x="{p[0]:.1f}" y="{p[1]:.1f}" fill="{fill}" font-size="{size}" '
+                          f'text-anchor="{anchor}" font-style="{style}">{words}</text>')
 
     def save(self, name, title):
-        head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" width="{self.width}" '
-                f'height="{self.height}" font-family="system-ui, sans-serif" role="img">\n<title>{title}</title>\n'
+        head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" '
+                f'width="{self.width}" height="{self.height}" font-family="system-ui, sans-serif" role="img">\n<title>{title}</title>\n'
                 f'<rect width="{self.width}" height="{self.height}" rx="8" fill="white"/>\n')
-        pathlib.Path(__file__).with_name(name).write_text(head + "\n".join(self.parts) + "\n</svg>\n", encoding="utf-8")
+        (OUT / name).write_text(head + "\n".join(self.parts) + "\n</svg>\n", encoding="utf-8")
 
 
 def ring(centre, count, rx, ry, turn=0.0):
-    return [(centre[0] + rx * math.cos(turn + 2 * math.pi * k / count), centre[1] + ry * math.sin(turn + 2 * math.pi * k / count))
-            for k in range(count)]
+    angles = [turn + 2 * math.pi * k / count for k in range(count)]
+    return [(centre[0] + rx * math.cos(angle), centre[1] + ry * math.sin(angle)) for angle in angles]
 
 
 def collapse():

@@ -1,8 +1,8 @@
 """Makes of the repository's pages what Doxygen reads. Usage: prepare.py SOURCE OUT TOOL
 
-The pages are for GitHub: headings are linked to by name, and files by their place. Doxygen wants an id for each, and has
-pages for headers and examples, but not for other files. The reference of the command is asked of the command (or left
-out, where TOOL is empty), and each example gets a page.
+The pages are for GitHub: headings are linked to by name, and files by their place. Doxygen wants an id for each, and
+has pages for headers and examples, but not for other files. The reference of the command is asked of the command (or
+left out, where TOOL is empty), and each example gets a page.
 """
 import pathlib
 import re

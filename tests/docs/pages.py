@@ -30,4 +30,4 @@ def without_blocks(page):
     for line in page.read_text(encoding="utf-8").splitlines():
         fence = re.match(r"\s*```", line)
         inside = inside != bool(fence)
-        yield "" if inside or fence else re.sub(r"`[^`]*`", lambda code: "`" + "x" * (len(code.group()) - 2) + "`", line)
+        yield "" if inside or fence else re.sub(r"`[^`]*`", "``", line)

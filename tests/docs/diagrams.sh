@@ -1,0 +1,10 @@
+#!/bin/sh
+# The diagrams are what the script beside them draws. Usage: diagrams.sh PYTHON DIAGRAMS OUT
+set -eu
+python=$1 diagrams=$2 out=$3
+rm -rf "$out"
+mkdir -p "$out"
+"$python" -B "$diagrams/draw.py" "$out"
+for drawn in "$out"/*.svg; do
+    cmp "$drawn" "$diagrams/$(basename "$drawn")"
+done
