@@ -78,18 +78,32 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::stri
     if (format == "png" && size.pixels() * bits / 8 / 1032 > image.encoded.size()) fail_length(image, size);
 }
 
-/// Spreads 1 to 4 channels to RGBA from the last pixel to the first, in place.
-void spread_to_rgba(std::vector<std::uint8_t>& bytes, std::size_t pixels, std::size_t channels) {
+/// Calls work(begin, end) for bands of rows, each of which takes a few thousandths of a second, and asks
+/// before each. OpenImageIO has a callback of its own, but calls it once for 64 MB of pixels. \param work
+/// false where it has failed. \return whether it never has
+template <class Work>
+bool in_bands(const Pixels& pixels, engine::Poll poll, Work&& work) {
+    constexpr std::uint32_t pixels_of_band = 16384;
+    const std::uint32_t rows = std::max(1u, pixels_of_band / pixels.width);
+    for (std::uint32_t y = 0, end; y < pixels.height; y = end) {
+        end = y + std::min(rows, pixels.height - y);
+        poll.now();
+        if (!work(y, end)) return false;
+    }
+    return true;
+}
+
+/// Spreads 1 to 4 channels to RGBA.
+void spread_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
     const bool grey = channels < 3;
     const bool alpha = channels == 2 || channels == 4;
-    for (std::size_t i = pixels; i-- > 0;) {
-        std::array<std::uint8_t, 4> from = {};
-        std::memcpy(from.data(), bytes.data() + i * channels, channels);
-        std::uint8_t* to = bytes.data() + i * 4;
-        to[0] = from[0];
-        to[1] = grey ? from[0] : from[1];
-        to[2] = grey ? from[0] : from[2];
-        to[3] = alpha ? from[channels - 1] : std::uint8_t{255};
+    for (std::size_t i = 0; i < pixels; ++i) {
+        std::array<std::uint8_t, 4> pixel = {};
+        std::memcpy(pixel.data(), from + i * channels, channels);
+        to[4 * i] = pixel[0];
+        to[4 * i + 1] = grey ? pixel[0] : pixel[1];
+        to[4 * i + 2] = grey ? pixel[0] : pixel[2];
+        to[4 * i + 3] = alpha ? pixel[channels - 1] : std::uint8_t{255};
     }
 }
 
@@ -101,33 +115,8 @@ OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int chann
                            OIIO::TypeDesc::UINT8);
 }
 
-/// What OpenImageIO calls between rows. Nothing may be thrown through it.
-struct RowCallback {
-    engine::Poll poll;
-    std::exception_ptr error = {};
-
-    static bool call(void* self, float) {
-        auto& [poll, error] = *static_cast<RowCallback*>(self);
-        try {
-            poll.now();
-        } catch (...) {
-            error = std::current_exception();
-        }
-        return error != nullptr;
-    }
-    void rethrow() const {
-        if (error) std::rethrow_exception(error);
-    }
-};
-
 Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
              const std::string& format, engine::Poll poll) {
-    std::vector<std::uint8_t> rgb;
-    if (spec.nchannels == 3) {
-        const std::size_t count = std::size_t{pixels.width} * pixels.height;
-        rgb.resize(count * 3);
-        for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], &pixels.rgba[4 * i], 3);
-    }
     Image image;
     image.name = name;
     image.mime_type = "image/" + format;
@@ -136,15 +125,24 @@ Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpe
     if (!output) throw Error("OpenImageIO has no writer for " + format + ": " + OIIO::geterror());
     output->set_ioproxy(&bytes);
     const bool opened = output->open("memory." + format, spec);
-    RowCallback rows{poll};
-    const bool written =
-        opened &&
-        output->write_image(OIIO::TypeDesc::UINT8, rgb.empty() ? pixels.rgba.data() : rgb.data(),
-                            OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, RowCallback::call, &rows);
+    const auto channels = static_cast<OIIO::stride_t>(spec.nchannels);
+    std::vector<std::uint8_t> rgb;
+    const bool written = opened && in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
+                             const std::size_t first = std::size_t{begin} * pixels.width;
+                             const std::size_t count = std::size_t{end - begin} * pixels.width;
+                             const std::uint8_t* rows = &pixels.rgba[4 * first];
+                             if (channels == 3) {
+                                 rgb.resize(3 * count);
+                                 for (std::size_t i = 0; i < count; ++i)
+                                     std::memcpy(&rgb[3 * i], rows + 4 * i, 3);
+                                 rows = rgb.data();
+                             }
+                             return output->write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
+                                                            OIIO::TypeDesc::UINT8, rows);
+                         });
     const bool closed = opened && output->close();
     // OpenImageIO 2.4 reports some failures here only.
     const std::string error = output->geterror();
-    rows.rethrow();
     if (!written || !closed || !error.empty())
         throw WriteError("image '" + name + "': cannot encode: " + error);
     return image;
@@ -216,20 +214,24 @@ Pixels detail::decode(const Image& image, engine::Poll poll) {
     pixels.width = static_cast<std::uint32_t>(spec.width);
     pixels.height = static_cast<std::uint32_t>(spec.height);
     const int channels = std::min(spec.nchannels, 4);
-    const std::size_t count = std::size_t{pixels.width} * pixels.height;
-    pixels.rgba.resize(count * 4);
-    detail::RowCallback rows{poll};
-    const bool read =
-        input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.rgba.data(), OIIO::AutoStride,
-                          OIIO::AutoStride, OIIO::AutoStride, detail::RowCallback::call, &rows);
+    pixels.rgba.resize(std::size_t{pixels.width} * pixels.height * 4);
+    std::vector<std::uint8_t> band;
+    const bool read = detail::in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
+        const std::size_t count = std::size_t{end - begin} * pixels.width;
+        band.resize(count * static_cast<std::size_t>(channels));
+        if (!input->read_scanlines(0, 0, static_cast<int>(begin), static_cast<int>(end), 0, 0, channels,
+                                   OIIO::TypeDesc::UINT8, band.data()))
+            return false;
+        std::uint8_t* rgba = &pixels.rgba[std::size_t{begin} * pixels.width * 4];
+        detail::spread_to_rgba(band.data(), count, static_cast<std::size_t>(channels), rgba);
+        for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
+            pixels.has_alpha = rgba[4 * i + 3] != 255;
+        return true;
+    });
     const bool closed = input->close();
     const std::string error = input->geterror();
-    rows.rethrow();
     if (!read || !closed || !error.empty())
         detail::fail(image, error.empty() ? "is damaged" : "is damaged: " + detail::first_line(error));
-    detail::spread_to_rgba(pixels.rgba, count, static_cast<std::size_t>(channels));
-    for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
-        pixels.has_alpha = pixels.rgba[4 * i + 3] != 255;
     return pixels;
 }
 

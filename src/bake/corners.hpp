@@ -23,6 +23,9 @@ struct SmallPart {
     std::size_t faces() const { return small->mesh.triangles.size(); }
 };
 
+/// Operations of a poll that finding a place through SmallPart::map counts as.
+inline constexpr std::uint64_t operations_of_map = 32;
+
 /// Corners of the small mesh by vertex.
 struct VertexCorners {
     std::vector<std::uint64_t> begin;    ///< vertices + 1

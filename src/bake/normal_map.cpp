@@ -47,8 +47,11 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
 
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) each[i] = face_deviation(job, faces[i]);
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end, Poll poll) {
+        for (std::size_t i = begin; i < end; ++i) {
+            poll(4 * operations_of_map);
+            each[i] = face_deviation(job, faces[i]);
+        }
     });
     Deviation all;
     for (const Deviation& d : each) {

@@ -114,12 +114,13 @@ CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, Wo
     std::vector<Vector3> raw(corners), sides(mesh.triangles.size());
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          turned_faces(part, workers.poll)};
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end, Poll poll) {
         for (std::size_t f = begin; f < end; ++f) {
             sides[f] =
                 transfers ? face_side(part, result, f) : winding_normal(mesh.positions, mesh.triangles[f]);
         }
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+            poll(transfers ? operations_of_map : 1);
             const Vector3& side = sides[c / 3];
             raw[c] = side;
             if (transfers) {

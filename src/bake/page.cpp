@@ -20,8 +20,9 @@ constexpr float clear = 1.0f / 512;
 
 constexpr std::size_t texels_per_poll = 4096;
 
-Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha) {
+Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, Poll poll) {
     if (!wanted) return {};
+    poll.now();
     const std::size_t texels = std::size_t{atlas.width} * atlas.height;
     return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * texels, 255), has_alpha};
 }
@@ -51,11 +52,12 @@ public:
         : job_(job), surface_(surface), request_(request), samples_(job.options.bake.samples) {
         const Atlas& atlas = request.atlas;
         const Channels& channels = request.channels;
-        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque);
+        const Poll poll = job.poll();
+        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque, poll);
         images_.occlusion_roughness_metallic =
-            blank(atlas, channels.occlusion || channels.metallic_roughness, false);
-        images_.emissive = blank(atlas, channels.emissive, false);
-        images_.normal = blank(atlas, channels.normal, false);
+            blank(atlas, channels.occlusion || channels.metallic_roughness, false, poll);
+        images_.emissive = blank(atlas, channels.emissive, false, poll);
+        images_.normal = blank(atlas, channels.normal, false, poll);
         known_.assign(std::size_t{atlas.width} * atlas.height, 0);
         relaxed_.assign(known_.size(), 0);
         closest_.assign(known_.size(), 0);

@@ -133,8 +133,9 @@ namespace {
 std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& surface,
                                      std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end, Poll poll) {
         for (std::size_t i = begin; i < end; ++i) {
+            poll(4 * operations_of_map);
             density[i] = density_at(job.parts[faces[i].part], surface, faces[i].face);
         }
     });

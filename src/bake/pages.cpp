@@ -100,7 +100,7 @@ double relative_density(const BakeJob& job, const SourceSurface& surface, const 
     const Poll poll = job.poll();
     double own = 0, wanted = 0;
     for (std::size_t i = 0; i < page.faces.size(); ++i) {
-        poll();
+        poll(operations_of_map);
         const PageFace& at = page.faces[i];
         const SmallPart& part = job.parts[at.part];
         const Triangle& t = part.small->mesh.triangles[at.face];

@@ -96,10 +96,10 @@ void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined, engine
     const bool skin = !from.joints.empty() && !from.weights.empty();
     if ((!skin && from.morph_targets.empty()) || !small.map) return;
     const TriangleMesh& mesh = small.small->mesh;
-    const VertexCorners at = vertex_corners(mesh);
+    const VertexCorners at = vertex_corners(mesh, poll);
     to.morph_targets.resize(from.morph_targets.size());
     for (std::uint64_t corner : joined.corner) {
-        poll();
+        poll(operations_of_map);
         const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
         const SurfacePoint point = small.map->map(static_cast<Index>(shared / 3), near_corner(shared % 3, 0));
         if (skin) blend_skin(from, point, to);
@@ -122,8 +122,9 @@ std::vector<Vec4f> corner_colors(const SmallPart& part, const SourceSurface& sur
                                  const CornerNormals& normals, Workers workers) {
     const TriangleMesh& mesh = part.small->mesh;
     std::vector<Linear> raw(3 * mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end, Poll poll) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+            poll(operations_of_map);
             const Index face = static_cast<Index>(c / 3);
             // A vertex speaks for the surface about it, a quarter of an edge each way.
             const double spacing = shortest_edge(mesh, face) / 4;
@@ -133,7 +134,7 @@ std::vector<Vec4f> corner_colors(const SmallPart& part, const SourceSurface& sur
     const auto group = [&](std::uint64_t c) {
         return mesh.face_groups.empty() ? 0 : mesh.face_groups[c / 3];
     };
-    const VertexCorners at = vertex_corners(mesh);
+    const VertexCorners at = vertex_corners(mesh, workers.poll);
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         workers.poll();

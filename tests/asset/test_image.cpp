@@ -1,6 +1,7 @@
 // Decoding and encoding of images.
 
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "asset/format_support.hpp"
 #include "asset/image.hpp"
@@ -238,6 +239,34 @@ TEST_CASE("images of other kinds are unsupported, by name") {
 TEST_CASE("pixels that do not match their size are not encoded") {
     CHECK_THROWS_AS(encode_png(Pixels{2, 2, Bytes(12), false}, ""), InputError);
     CHECK_THROWS_AS(encode_png(Pixels{}, ""), InputError);
+}
+
+TEST_CASE("coding an image asks for each few rows, and stops at any of these questions") {
+    Pixels pixels{600, 300, {}, false};
+    for (std::uint32_t i = 0; i < pixels.width * pixels.height; ++i) {
+        for (const std::uint32_t value : {i % 251, i / 7 % 256, i * i % 256, 255u})
+            pixels.rgba.push_back(static_cast<std::uint8_t>(value));
+    }
+    const Image png = encode_png(pixels, "x"), jpeg = encode_jpeg(pixels, "x", 90, Content::colour);
+    const std::function<bool(engine::Poll)> works[] = {
+        [&](engine::Poll poll) { return detail::encode_png(pixels, "x", poll).encoded == png.encoded; },
+        [&](engine::Poll poll) {
+            return detail::encode_jpeg(pixels, "x", 90, Content::colour, poll).encoded == jpeg.encoded;
+        },
+        [&](engine::Poll poll) { return detail::decode(png, poll).rgba == pixels.rgba; },
+        [&](engine::Poll poll) { return detail::decode(jpeg, poll).width == 600; }};
+    for (const auto& work : works) {
+        int questions = 0;
+        engine::Asker count([&] { return ++questions, Continue::yes; });
+        CHECK(work(engine::Poll(count)));
+        CHECK(questions >= 600 * 300 / 16384);
+        for (int stop = 1; stop <= questions; ++stop) {
+            int calls = 0;
+            engine::Asker asker([&] { return ++calls == stop ? Continue::cancel : Continue::yes; });
+            CHECK_THROWS_AS(work(engine::Poll(asker)), engine::Cancelled);
+            CHECK(calls == stop);
+        }
+    }
 }
 
 TEST_CASE("a JPEG is decoded, and refused when it is cut off") {
