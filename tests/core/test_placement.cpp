@@ -49,3 +49,13 @@ TEST_CASE("two freedoms together are the stricter one, or none where they differ
     CHECK(both(at_first, at_second) == nowhere);
     CHECK(both(at_second, at_first) == nowhere);
 }
+
+TEST_CASE("a minimum outside of the room there is counts as none") {
+    Quadric q = plane_x(7, 1);
+    q += Quadric::plane_through({0, 1, 0}, {0, 0, 0}, 1);
+    q += Quadric::plane_through({0, 0, 1}, {0, 0, 0}, 1);
+    const Eigen::AlignedBox3d wide(Vector3(0, 0, 0), Vector3(7, 0, 0)),
+        narrow(Vector3(0, 0, 0), Vector3(6, 0, 0));
+    CHECK(place(q, a, b, Freedom::anywhere, &wide) == Vector3(7, 0, 0));
+    CHECK(place(q, a, b, Freedom::anywhere, &narrow) == b);
+}

@@ -113,10 +113,12 @@ public:
 
     void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
         quadrics_.assign(complex.vertex_slots(), {});
+        room_.setEmpty();
         for (Index f = 0; f < complex.face_slots(); ++f) {
             poll();
             if (!complex.alive(f)) continue;
             const Triangle& t = complex.triangle(f);
+            for (const Index v : t) room_.extend(complex.position(v));
             const Quadric q = base_term(complex.area_vector(f), complex.position(t[0]), weights_.base,
                                         weights_.plane_area, weights_.least_area);
             for (const Index v : t) quadrics_[v] += q;
@@ -125,6 +127,10 @@ public:
             poll();
             add_vertex_terms(complex, pairs, v);
         }
+        // Planes that are nearly parallel meet anywhere: noise put vertices six diagonals away.
+        const double margin = 0.1 * room_.diagonal().norm();
+        room_.extend(Vector3(room_.max().array() + margin));
+        room_.extend(Vector3(room_.min().array() - margin));
     }
 
     std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
@@ -140,7 +146,7 @@ public:
             area *= weights_.area;
             if (weights_.area_term == AreaTerm::before_placement) q += area;
         }
-        const Vector3 p = place(q, complex.position(u), complex.position(v), freedom);
+        const Vector3 p = place(q, complex.position(u), complex.position(v), freedom, &room_);
         double cost = std::max(q(p), 0.0);
         if (has_area && weights_.area_term == AreaTerm::after_placement) cost += std::max(area(p), 0.0);
         if (!std::isfinite(cost)) return std::nullopt;
@@ -197,6 +203,7 @@ private:
     std::span<const std::uint8_t> seam_vertex_;
     const GroupCurves* curves_;
     std::vector<Quadric> quadrics_;
+    Eigen::AlignedBox3d room_;  // for new vertices: the box of the original, with a margin
 };
 
 static_assert(CollapseMetric<MemoryMetric>);

@@ -30,10 +30,12 @@ struct Candidate {
 
 /// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
 /// taken (paper, Sec. 3.1). \pre freedom is not `nowhere`
-inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freedom freedom) {
+/// \param room  a minimum outside of it counts as ill conditioned; null: there is room everywhere
+inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freedom freedom,
+                     const Eigen::AlignedBox3d* room = nullptr) {
     if (freedom == Freedom::at_first) return a;
     if (freedom == Freedom::at_second) return b;
-    if (const auto p = q.minimum()) return *p;
+    if (const auto p = q.minimum(); p && (!room || room->contains(*p))) return *p;
     Vector3 best = a;
     double lowest = q(a);
     for (const Vector3& p : {b, Vector3(0.5 * (a + b))}) {
