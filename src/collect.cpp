@@ -97,6 +97,21 @@ void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll
     history.kept_faces = result.face_origin;
 }
 
+bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now) {
+    while (true) {
+        bool is_good = true, is_changed = false;
+        for (const Triangle& t : triangles) {
+            if (!has_no_area(now[t[0]], now[t[1]], now[t[2]])) continue;
+            is_good = false;
+            for (const Index v : t) {
+                is_changed = is_changed || now[v] != before[v];
+                now[v] = before[v];
+            }
+        }
+        if (is_good || !is_changed) return is_good;
+    }
+}
+
 void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
     CollapseHistory& history = result.history;
     if (result.report.vertices_relaxed > 0) history.kept_positions = result.mesh.positions;
@@ -139,6 +154,8 @@ void finish_report(const Options& options, const Settings& settings, const Prepa
         report.warnings.push_back(std::to_string(report.components_deleted) +
                                   " small components were deleted to reach the target");
     }
+    if (report.faces_out == 0 && report.faces_in > 0 && report.stop != StopReason::cancelled)
+        report.warnings.push_back("nothing is left: no face that remained had an area");
 }
 
 }  // namespace faqem::detail

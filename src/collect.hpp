@@ -32,6 +32,11 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
 void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll poll,
                     SimplifyResult& result);
 
+/// Puts vertices of faces that have no area back to where they were, until all have one: moves and roundings
+/// of the relaxation are not to make what collect() has left out. \return false: some have none with all
+/// their vertices back
+bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now);
+
 /// Adds to the history of the result where its vertices went in the end, and which edges were swapped.
 /// \param swaps  of faces of the result
 void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result);

@@ -353,6 +353,8 @@ private:
             fixed.push_back(work.locked[v] || is_seam || work.curves.has(v));
         }
         TriangleMesh& mesh = result.mesh;
+        std::vector<Vec3> moved = mesh.positions;
+        std::vector<Triangle> triangles = mesh.triangles;
         const detail::Patchwork light{now, mesh.triangles};
         detail::Relaxed relaxed;
         if (work.wedges.empty()) {
@@ -363,10 +365,14 @@ private:
         }
         for (std::size_t v = 0; v < now.size(); ++v) {
             if (relaxed.positions[v] == now[v]) continue;
-            mesh.positions[v] = prepared_.to_model(relaxed.positions[v]);
-            ++result.report.vertices_relaxed;
+            moved[v] = prepared_.to_model(relaxed.positions[v]);
         }
-        for (const auto& [s, t] : relaxed.swaps) detail::swap_edge(mesh.triangles[s], mesh.triangles[t]);
+        for (const auto& [s, t] : relaxed.swaps) detail::swap_edge(triangles[s], triangles[t]);
+        if (!detail::keep_area(mesh.positions, triangles, moved)) return;
+        for (std::size_t v = 0; v < now.size(); ++v)
+            result.report.vertices_relaxed += moved[v] != mesh.positions[v];
+        mesh.positions = std::move(moved);
+        mesh.triangles = std::move(triangles);
         result.report.edges_swapped = relaxed.swaps.size();
         if (!result.history.empty()) detail::add_relaxed(relaxed.swaps, result);
     }
