@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <set>
+#include <thread>
 
 #include "core/meshes.hpp"
 #include "faqem/simplify.hpp"
@@ -275,6 +276,27 @@ TEST_CASE("vertices that no face uses change nothing") {
             CHECK(result.face_origin == plain.face_origin);
             for (std::size_t v = 0; v < plain.vertex_origin.size(); ++v)
                 CHECK(result.vertex_origin[v] == 3 * plain.vertex_origin[v] + 1);
+        }
+    }
+}
+
+TEST_CASE("two runs at once know nothing of each other") {
+    const std::vector<TriangleMesh> meshes = surfaces();
+    const auto all = [&] {
+        std::vector<TriangleMesh> results;
+        for (const TriangleMesh& mesh : meshes)
+            for (const Preset preset : all_presets) results.push_back(run(mesh, preset, 0.1).mesh);
+        return results;
+    };
+    const std::vector<TriangleMesh> alone = all();
+    std::vector<TriangleMesh> here, there;
+    std::thread other([&] { there = all(); });
+    here = all();
+    other.join();
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        for (const TriangleMesh& mesh : {here[i], there[i]}) {
+            CHECK(mesh.triangles == alone[i].triangles);
+            CHECK(same_bits(mesh.positions, alone[i].positions));
         }
     }
 }
