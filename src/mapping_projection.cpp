@@ -222,7 +222,13 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
 SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     const Query query = start(face, barycentric);
     if (!passes(near.face, query)) return map(face, barycentric);
-    return settle(query, near.face, near.step);
+    const ClosestPoint here = on_original(near.face, query.p0);
+    const Bvh::Hit hit = tree_.closest_if(
+        to_array(query.p0), [&](Index f) { return passes(f, query); }, here.distance_squared, most_refused);
+    if (hit.face == no_index) return {near.face, to_array(here.barycentric), near.step};
+    // On flat ground most faces are not around: `near` would hold on to the sample for the rest of its row.
+    return is_around(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
+                                      : map(face, barycentric);
 }
 
 }  // namespace faqem::detail

@@ -38,9 +38,10 @@ public:
 
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// As map(), but without the walk: the answer for a sample close by on the same small face bounds the
-    /// distance instead. The same answer, but where the walk would find a closer face that is not around the
-    /// small one. Where `near` fails the tests of sheet, group or side, map() answers.
+    /// As map(), but without the walk where it can do without: the answer for a sample close by on the same
+    /// small face bounds the distance instead. The same answer, but where the walk would find a face that is
+    /// not around the small one and looks another way or is of another sheet. Where `near` fails the tests of
+    /// sheet, group or side, or a closer face passes them that is not around, map() answers.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:

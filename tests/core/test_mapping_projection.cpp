@@ -1,7 +1,9 @@
 #include "mapping_projection.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,47 @@
 
 using namespace faqem;
 using namespace faqem::test;
+
+namespace {
+
+double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// A flat grid whose inner vertices were swallowed by neighbours, in a random order that turned no face over.
+CollapseHistory swallowed_grid(Index n) {
+    std::vector<Vec3> places;  // of versions
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) places.push_back({double(i), double(j), 0});
+    }
+    const std::vector<Triangle> faces = grid_faces(n, [n](Index i, Index j) { return (n + 1) * j + i; });
+    HandHistory hand(places, faces);
+    const auto inner = [&](Index v) {
+        return places[v][0] > 0 && places[v][0] < n && places[v][1] > 0 && places[v][1] < n;
+    };
+    const auto turns_none_over = [&](Index gone, Index into) {
+        for (Index f = 0; f < faces.size(); ++f) {
+            Triangle t = hand.corners(f);
+            std::replace(t.begin(), t.end(), gone, into);
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            if (!(twice_area(places[t[0]], places[t[1]], places[t[2]]) > 0)) return false;
+        }
+        return true;
+    };
+    std::uint32_t random = 1;
+    for (int tries = 0; tries < 4000; ++tries) {
+        random = random * 1664525u + 1013904223u;
+        const Triangle t = hand.corners((random >> 8) % faces.size());
+        const Index gone = t[(random >> 4) % 3], into = t[((random >> 4) + 1) % 3];
+        if (gone == into || !inner(gone) || !turns_none_over(gone, into)) continue;
+        const Vec3 place = places[into];
+        hand.collapse(gone, into, place);
+        places.push_back(place);
+    }
+    return hand.finish();
+}
+
+}  // namespace
 
 TEST_CASE("samples stay in their material group") {
     std::vector<Vec3> positions;
@@ -126,4 +169,20 @@ TEST_CASE("walks that get too long end at the closest point of their sheet") {
         }
     }
     if (bump > 0) CHECK(given_up > 0);
+}
+
+// On flat ground most original faces in a small face have no corner that collapsed into one of its corners.
+TEST_CASE("samples that start from their neighbour's answer find where they are on flat ground") {
+    const CollapseHistory history = swallowed_grid(12);
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < 60);
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        SurfacePoint last = map.map(f, {0.98, 0.01, 0.01});
+        for (int i = 1; i < 50; ++i) {
+            const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
+            last = map.map_near(f, w, last);
+            CHECK(distance(original_point(history, last), small_point(small, f, w)) < 1e-12);
+        }
+    }
 }
