@@ -158,3 +158,37 @@ TEST_CASE("a page of charts has the same bytes with any number of threads") {
     CHECK(one.asset.images.at(0).encoded == three.asset.images.at(0).encoded);
     CHECK(one.asset.parts[0].uvs == three.asset.parts[0].uvs);
 }
+
+TEST_CASE("no texel that a triangle covers is left unmapped, and each comes from near by") {
+    const Asset source = painted_ball();
+    Options options = of_kind(GENERATE(Bake::atlas, Bake::per_triangle), GENERATE(64u, 256u));
+    options.target = ratio(GENERATE(1.0, 0.1, 0.02));
+    options.bake.correspondence = Recording::on;
+    const LightAsset light = simplify(source, options);
+    REQUIRE(light.correspondence.size() == 1);
+    const PageOrigins& page = light.correspondence[0];
+    const Part &from = source.parts[0], &part = light.asset.parts[0];
+    std::size_t covered = 0, unmapped = 0;
+    double farthest = 0;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (const Vec3& w : spread(24)) {
+            const auto uv = blend(part.uvs[0], part.triangles[f], w);
+            const auto x = static_cast<std::size_t>(uv[0] * page.width);
+            const auto y = static_cast<std::size_t>(uv[1] * page.height);
+            const TexelOrigin& texel = page.texels.at(y * page.width + x);
+            ++covered;
+            if (texel.part != 0 || !(texel.point.face < from.triangles.size())) {
+                ++unmapped;
+                continue;
+            }
+            const Vec3 here = blend(part.positions, part.triangles[f], w);
+            const Vec3 there =
+                blend(from.positions, from.triangles[texel.point.face], texel.point.barycentric);
+            farthest =
+                std::max(farthest, std::hypot(here[0] - there[0], here[1] - there[1], here[2] - there[2]));
+        }
+    }
+    CHECK(covered > 0);
+    CHECK(unmapped == 0);
+    CHECK(farthest < 0.4);  // of the diameter of 2: some texels and most small faces are this large
+}
