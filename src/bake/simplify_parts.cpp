@@ -5,6 +5,7 @@
 
 #include "bake/budget.hpp"
 #include "bake/check_asset.hpp"
+#include "bake/double_faces.hpp"
 #include "bake/groups.hpp"
 #include "bake/job.hpp"
 #include "bake/parts_run.hpp"
@@ -69,8 +70,8 @@ void add(Report& sum, const Report& part, const std::string& title) {
 }
 
 // A part as the engine takes it. Where materials are baked into one page they are one group, so that borders
-// between them cost no faces and samples may cross them; elsewhere, and where such borders are to be kept,
-// they are the materials themselves.
+// between them cost no faces and samples may cross them, but for doubles of another material; elsewhere, and
+// where such borders are to be kept, they are the materials themselves.
 struct PartInput {
     std::vector<Index> groups;
     CornerAttributes attributes;
@@ -78,6 +79,7 @@ struct PartInput {
 
     PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake)
         : groups(face_groups(part, material_groups)) {
+        if (material_groups) groups = detail::set_materials_apart(part, std::move(groups));
         if (bake == Bake::keep) attributes = corner_attributes(part);
         view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {}};
     }
@@ -111,7 +113,7 @@ public:
             is_cancelled_ = results.back().report.stop == StopReason::cancelled;
             for (std::size_t i = 0; i < results.size(); ++i) {
                 small_[i].parts[p] = std::move(results[i]);
-                if (keeps_groups() && groups_) regroup(p, small_[i].parts[p]);
+                if (groups_) regroup(p, small_[i].parts[p]);
                 add(small_[i].report, small_[i].parts[p].report, detail::part_title(source_, p));
             }
         });
@@ -157,7 +159,7 @@ private:
 
     bool keeps_groups() const { return options_.topology.group_borders == GroupBorders::kept; }
 
-    // Kept borders say nothing about what is baked into one page.
+    // Kept borders, and faces set apart, say nothing about what is baked into one page.
     void regroup(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
         result.mesh.face_groups.clear();

@@ -321,3 +321,23 @@ TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
     refused([&](Asset& a, Part&) { a.materials[0].roughness = nan; },
             "material 'paint': a factor is not finite");
 }
+
+// A face of one material, the same of another, the same of the first again, and one back to back.
+TEST_CASE("faces at one place with different materials both stay, though they share a page") {
+    Asset asset;
+    asset.materials.resize(3);
+    asset.materials[2].double_sided = true;  // a page of its own
+    Part part;
+    part.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    part.triangles = {{0, 1, 2}, {4, 5, 3}, {3, 4, 5}, {0, 2, 1}, {3, 4, 2}};
+    part.face_material = {0, 1, 0, 0, 2};
+    asset.parts = {part};
+    Options options;
+    options.target = ratio(1);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
+    CHECK(small.report.faces_dropped == 1);
+    // The second stage may go from one to the other.
+    CHECK(small.parts[0].history.face_groups == std::vector<Index>{0, 0, 0, 0, 1});
+    CHECK(small.parts[0].mesh.face_groups == std::vector<Index>{0, 0, 0, 1});
+}
