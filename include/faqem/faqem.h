@@ -10,7 +10,7 @@
  *
  * What can fail returns a faqem_status and fills the faqem_error it is given, which may be null. Then nothing is
  * written to the other arguments. Arrays and strings that are returned belong to the object they were asked of.
- * Textured models are in faqem/faqem_asset.h.
+ * Levels of detail and histories are in faqem/faqem_levels.h, textured models in faqem/faqem_asset.h.
  */
 
 #include <stddef.h>
@@ -83,6 +83,9 @@ typedef enum faqem_link FAQEM_ENUM {
 /** Whether a border may move. */
 typedef enum faqem_border FAQEM_ENUM { FAQEM_BORDER_FREE = 0, FAQEM_BORDER_KEPT = 1 } faqem_border;
 
+/** Whether something that takes memory is kept. */
+typedef enum faqem_recording FAQEM_ENUM { FAQEM_RECORDING_OFF = 0, FAQEM_RECORDING_ON = 1 } faqem_recording;
+
 /**
  * The setters. Each returns FAQEM_OK, or FAQEM_ERROR_OPTION where `options` is null or an enumerator unknown, and
  * then changes nothing. Ranges are checked by the call that gets the options.
@@ -105,6 +108,8 @@ FAQEM_API faqem_status faqem_options_set_weld_distance(faqem_options* options, d
 FAQEM_API faqem_status faqem_options_set_virtual_edges(faqem_options* options, double share);
 /** Connected components whose box has a smaller diagonal are deleted first; finite and > 0. */
 FAQEM_API faqem_status faqem_options_set_prune(faqem_options* options, double size, faqem_unit unit);
+/** Whether results keep the collapse history, for faqem/faqem_levels.h. */
+FAQEM_API faqem_status faqem_options_set_history(faqem_options* options, faqem_recording history);
 /** Threads at most; 0: all there are. The result does not depend on it. */
 FAQEM_API faqem_status faqem_options_set_threads(faqem_options* options, uint32_t threads);
 
@@ -136,6 +141,9 @@ typedef struct faqem_mesh {
     const uint32_t* face_groups;  /**< null, or face_count groups (materials) */
     const uint8_t* vertex_locks;  /**< null, or vertex_count; nonzero: stays where it is */
     const float* vertex_weights;  /**< null, or vertex_count in [1e-6, 1e6]: errors there count so many times */
+    /** Null, or corner_width numbers for each of the 3 * face_count corners, such as UVs: they are carried along. */
+    const float* corner_values;
+    uint32_t corner_width;
 } faqem_mesh;
 
 /** A small mesh, where it came from, and the report. Nothing in it changes. */
@@ -162,6 +170,10 @@ FAQEM_API const double* faqem_result_positions(const faqem_result* result);
 FAQEM_API const uint32_t* faqem_result_triangles(const faqem_result* result);
 /** face_count, or null where the input had no groups. */
 FAQEM_API const uint32_t* faqem_result_face_groups(const faqem_result* result);
+/** corner_width * 3 * face_count, or null where the input had none. */
+FAQEM_API const float* faqem_result_corner_values(const faqem_result* result);
+/** As that of the input; 0 where it had none. */
+FAQEM_API uint32_t faqem_result_corner_width(const faqem_result* result);
 /** vertex_count: an input vertex that each grew from. */
 FAQEM_API const uint32_t* faqem_result_vertex_origin(const faqem_result* result);
 /** face_count: the input face that each was. */

@@ -69,8 +69,8 @@ typedef enum faqem_overwrite FAQEM_ENUM { FAQEM_OVERWRITE_NO = 0, FAQEM_OVERWRIT
 FAQEM_API faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error);
 
 /**
- * A model of one part without materials, from arrays that are copied. Locks and weights are not part of a model;
- * groups are not either.
+ * A model of one part without materials, from arrays that are copied. Locks, weights, groups and corner values are not
+ * part of a model.
  */
 FAQEM_API faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error);
 

@@ -8,6 +8,7 @@ docs/python.md has every option.
 """
 
 from ._library import version as _version
+from ._levels import History, simplify_levels
 from ._model import Model, Part, bake, load, save
 from ._simplify import Simplified, simplify
 from .errors import Error, InputError, InternalError, OptionError, UnsupportedError, WriteError
@@ -16,6 +17,7 @@ __version__ = _version()
 
 __all__ = [
     "Error",
+    "History",
     "InputError",
     "InternalError",
     "Model",
@@ -28,4 +30,5 @@ __all__ = [
     "load",
     "save",
     "simplify",
+    "simplify_levels",
 ]

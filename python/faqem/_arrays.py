@@ -43,7 +43,7 @@ def _per_element(values, count, kind, name):
 class MeshArrays:
     """A mesh for the C door. `mesh` is valid as long as this object is. Arrays of the right type are not copied."""
 
-    def __init__(self, vertices, triangles, groups=None, locks=None, weights=None):
+    def __init__(self, vertices, triangles, groups=None, locks=None, weights=None, uvs=None):
         positions = _positions(vertices)
         corners = _indices(triangles, "triangles")
         corners = _shaped(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
@@ -60,6 +60,12 @@ class MeshArrays:
             self._point("vertex_locks", locks)
         if weights is not None:
             self._point("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
+        if uvs is not None:
+            corner_values = numpy.ascontiguousarray(uvs, dtype=numpy.float32)
+            if corner_values.ndim != 3 or corner_values.shape[:2] != (len(corners), 3) or corner_values.shape[2] < 1:
+                raise InputError(f"uvs: the shape is {corner_values.shape}, not ({len(corners)}, 3, n)")
+            self._point("corner_values", corner_values)
+            self.mesh.corner_width = corner_values.shape[2]
 
     def _point(self, field, array):
         self._kept.append(array)

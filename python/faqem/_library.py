@@ -1,4 +1,4 @@
-"""The functions of the C door (faqem/faqem.h, faqem/faqem_asset.h), and its errors as exceptions."""
+"""The functions of the C door (faqem/faqem.h, faqem_levels.h, faqem_asset.h), and its errors as exceptions."""
 
 import ctypes
 import pathlib
@@ -21,7 +21,15 @@ class Mesh(ctypes.Structure):
         ("face_groups", POINTER(c_uint32)),
         ("vertex_locks", POINTER(c_uint8)),
         ("vertex_weights", POINTER(c_float)),
+        ("corner_values", POINTER(c_float)),
+        ("corner_width", c_uint32),
     ]
+
+
+class Level(ctypes.Structure):
+    """faqem_level."""
+
+    _fields_ = [("kind", c_int), ("value", c_double)]
 
 
 class _Error(ctypes.Structure):
@@ -43,6 +51,7 @@ _declarations = {
     "faqem_options_set_weld_distance": (_set, [_object, c_double]),
     "faqem_options_set_virtual_edges": (_set, [_object, c_double]),
     "faqem_options_set_prune": (_set, [_object, c_double, c_int]),
+    "faqem_options_set_history": (_set, [_object, c_int]),
     "faqem_options_set_threads": (_set, [_object, c_uint32]),
     "faqem_options_set_progress": (_set, [_object, Progress, c_void_p]),
     "faqem_options_set_bake": (_set, [_object, c_int]),
@@ -60,6 +69,24 @@ _declarations = {
     "faqem_result_vertex_origin": (POINTER(c_uint32), [_object]),
     "faqem_result_face_origin": (POINTER(c_uint32), [_object]),
     "faqem_result_report_json": (c_char_p, [_object]),
+    "faqem_result_corner_values": (POINTER(c_float), [_object]),
+    "faqem_result_corner_width": (c_uint32, [_object]),
+    "faqem_result_level_error": (c_double, [_object]),
+    "faqem_result_map": (
+        c_int,
+        [_object, c_int, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(c_double),
+         POINTER(_Error)],
+    ),
+    "faqem_simplify_levels": (
+        c_int,
+        [POINTER(Mesh), _object, POINTER(Level), c_size_t, POINTER(_object), POINTER(_Error)],
+    ),
+    "faqem_history_create": (c_int, [POINTER(_object), c_size_t, POINTER(_object), POINTER(_Error)]),
+    "faqem_history_read": (c_int, [c_char_p, c_size_t, POINTER(_object), POINTER(_Error)]),
+    "faqem_history_destroy": (None, [_object]),
+    "faqem_history_bytes": (c_void_p, [_object, POINTER(c_size_t)]),
+    "faqem_history_level_count": (c_size_t, [_object]),
+    "faqem_history_cut": (c_int, [_object, c_uint64, POINTER(_object), POINTER(_Error)]),
     "faqem_asset_load": (c_int, [c_char_p, POINTER(_object), POINTER(_Error)]),
     "faqem_asset_create": (c_int, [POINTER(Mesh), POINTER(_object), POINTER(_Error)]),
     "faqem_asset_simplify": (c_int, [_object, _object, POINTER(_object), POINTER(_Error)]),

@@ -15,13 +15,14 @@ _image_formats = ["png", "jpeg", "source"]
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 
-def _numbered(names, name, option):
+def numbered(names, name, option):
+    """The number of an enumerator of the C door."""
     if name not in names:
         raise OptionError(f"{option}: unknown value {name!r} (known: {', '.join(names)})")
     return names.index(name)
 
 
-def _length(value, option):
+def length(value, option):
     """0.01 in model units, or "0.1%" of the diagonal. Returns number and unit."""
     try:
         if isinstance(value, str) and value.endswith("%"):
@@ -31,7 +32,7 @@ def _length(value, option):
         raise OptionError(f"{option}: {value!r} is no length") from None
 
 
-def _whole(value, option, bits):
+def whole(value, option, bits):
     if not (isinstance(value, int) or hasattr(value, "__index__")) or not 0 <= int(value) < 2**bits:
         raise OptionError(f"{option}: {value!r} is no whole number from 0 to 2^{bits} - 1")
     return int(value)
@@ -42,7 +43,7 @@ class Options:
 
     def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, border=None,
                  group_borders=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
-                 progress=None, bake=None, texture_size=None, normal_map=None, normals=None, image_format=None):
+                 progress=None, history=None, bake=None, texture_size=None, normal_map=None, normals=None, image_format=None):
         if ratio is not None and faces is not None:
             raise OptionError("ratio and faces: give one of them")
         self.object = library.faqem_options_create()
@@ -53,19 +54,21 @@ class Options:
         if ratio is not None:
             self._set("ratio", float(ratio))
         if faces is not None:
-            self._set("faces", _whole(faces, "faces", 53))
+            self._set("faces", whole(faces, "faces", 53))
         if max_error is not None:
-            self._set("max_error", *_length(max_error, "max_error"))
+            self._set("max_error", *length(max_error, "max_error"))
         if weld_distance is not None:
             self._set("weld_distance", float(weld_distance))
         if virtual_edges is not None:
             self._set("virtual_edges", float(virtual_edges))
         if prune is not None:
-            self._set("prune", *_length(prune, "prune"))
+            self._set("prune", *length(prune, "prune"))
         if threads is not None:
-            self._set("threads", _whole(threads, "threads", 32))
+            self._set("threads", whole(threads, "threads", 32))
+        if history is not None:
+            self._set("history", 1 if history else 0)
         if texture_size is not None:
-            self._set("texture_size", _whole(texture_size, "texture_size", 32))
+            self._set("texture_size", whole(texture_size, "texture_size", 32))
         for option, setter, name, names in [
             ("preset", "preset", preset, _presets),
             ("link", "link", link, _links),
@@ -77,7 +80,7 @@ class Options:
             ("image_format", "image_format", image_format, _image_formats),
         ]:
             if name is not None:
-                self._set(setter, _numbered(names, name, option))
+                self._set(setter, numbered(names, name, option))
         self._follow(progress)
 
     def _set(self, name, *values):

@@ -1,28 +1,73 @@
 """Flat arrays in, flat arrays out."""
 
-import dataclasses
+import ctypes
 import json
+import weakref
 
 import numpy
 
 from ._arrays import MeshArrays, copied, reference
-from ._library import create, library
-from ._options import Options
+from ._library import call, create, library
+from ._options import Options, numbered
+from .errors import InputError
+
+_mappings = ["projection", "lineage", "closest"]
 
 
-@dataclasses.dataclass(frozen=True)
 class Simplified:
-    """A small mesh, where it came from, and what happened."""
+    """A small mesh, where it came from, and what happened. The arrays are its own."""
 
     vertices: numpy.ndarray  #: (v, 3) float64; what was not moved is unchanged to the last bit
     triangles: numpy.ndarray  #: (f, 3) uint32
     groups: "numpy.ndarray | None"  #: (f,) uint32, or None where the input had none
-    vertex_origin: numpy.ndarray  #: (v,) uint32: an input vertex that each grew from
+    uvs: "numpy.ndarray | None"  #: (f, 3, n) float32, or None where the input had none
+    vertex_origin: numpy.ndarray  #: (v,) uint32: an input vertex that each grew from; empty after History.cut()
     face_origin: numpy.ndarray  #: (f,) uint32: the input triangle that each was
     report: dict  #: with the keys of docs/cli.md
+    error: "float | None"  #: of a level: no point is farther from the original; None of other results
+
+    def __init__(self, made):
+        self._object = made  # its history is asked for later
+        weakref.finalize(self, library.faqem_result_destroy, made)
+        v = library.faqem_result_vertex_count(made)
+        f = library.faqem_result_face_count(made)
+        groups = library.faqem_result_face_groups(made)
+        width = library.faqem_result_corner_width(made)
+        self.vertices = copied(library.faqem_result_positions(made), v, 3)
+        self.triangles = copied(library.faqem_result_triangles(made), f, 3)
+        self.groups = copied(groups, f) if groups else None
+        self.uvs = copied(library.faqem_result_corner_values(made), f, 3, width) if width else None
+        self.vertex_origin = copied(library.faqem_result_vertex_origin(made), v)
+        self.face_origin = copied(library.faqem_result_face_origin(made), f)
+        self.report = json.loads(library.faqem_result_report_json(made))
+        error = library.faqem_result_level_error(made)
+        self.error = None if numpy.isnan(error) else error
+
+    def map(self, faces, barycentric, mapping="projection"):
+        """Where points lie on the original. Needs history=True.
+
+        faces        (n,) triangles of the small mesh
+        barycentric  (n, 3) weights of their corners, >= 0, of sum 1
+        mapping      "projection", "lineage" or "closest"; see docs/baking.md
+
+        Returns the input triangles (n,) and the weights of their corners (n, 3).
+        """
+        faces = numpy.ascontiguousarray(faces, dtype=numpy.uint32)
+        weights = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
+        if faces.ndim != 1 or weights.shape != (len(faces), 3):
+            raise InputError(f"map: the shapes are {faces.shape} and {weights.shape}, not (n,) and (n, 3)")
+        source_faces, source_weights = numpy.empty_like(faces), numpy.empty_like(weights)
+
+        def at(array, kind):
+            return array.ctypes.data_as(ctypes.POINTER(kind))
+
+        call(library.faqem_result_map, self._object, numbered(_mappings, mapping, "mapping"),
+             at(faces, ctypes.c_uint32), at(weights, ctypes.c_double), len(faces),
+             at(source_faces, ctypes.c_uint32), at(source_weights, ctypes.c_double))
+        return source_faces, source_weights
 
 
-def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, **options):
+def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
     """Simplifies a triangle soup.
 
     vertices   (v, 3) numbers; float32 and float64 are used without a copy
@@ -30,24 +75,12 @@ def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, *
     groups     (f,) whole numbers, for group_borders="kept"
     locks      (v,) truth values: these stay where they are
     weights    (v,) numbers in [1e-6, 1e6]: errors there count so many times
+    uvs        (f, 3, n) numbers at the corners, which are carried along
     options    ratio, faces, max_error, preset, link, border, group_borders, weld_distance, virtual_edges,
-               prune, threads, progress; see docs/python.md
+               prune, history, threads, progress; see docs/python.md
 
     Raises OptionError, InputError, MemoryError, and what `progress` raises.
     """
-    arrays = MeshArrays(vertices, triangles, groups, locks, weights)
+    arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    result = chosen.run(lambda: create(library.faqem_simplify, reference(arrays), chosen.object))
-    try:
-        v = library.faqem_result_vertex_count(result)
-        f = library.faqem_result_face_count(result)
-        return Simplified(
-            vertices=copied(library.faqem_result_positions(result), v, 3),
-            triangles=copied(library.faqem_result_triangles(result), f, 3),
-            groups=None if groups is None else copied(library.faqem_result_face_groups(result), f),
-            vertex_origin=copied(library.faqem_result_vertex_origin(result), v),
-            face_origin=copied(library.faqem_result_face_origin(result), f),
-            report=json.loads(library.faqem_result_report_json(result)),
-        )
-    finally:
-        library.faqem_result_destroy(result)
+    return Simplified(chosen.run(lambda: create(library.faqem_simplify, reference(arrays), chosen.object)))

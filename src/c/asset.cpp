@@ -62,7 +62,7 @@ faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faq
     return c::guarded(error, [&] {
         c::require_argument(mesh, "mesh");
         c::require_argument(asset, "asset");
-        Part part = part_of_arrays(c::view_of(*mesh));
+        Part part = part_of_arrays(c::MeshArrays(*mesh).view);
         check(part);
         Asset whole;
         whole.parts.push_back(std::move(part));

@@ -1,5 +1,6 @@
 #include "c/mesh.hpp"
 
+#include <limits>
 #include <string>
 
 #include "faqem/error.hpp"
@@ -31,15 +32,21 @@ std::span<const Value> optional_array(const Value* array, std::size_t count) {
 
 }  // namespace
 
-MeshView view_of(const faqem_mesh& mesh) {
-    MeshView view;
+MeshArrays::MeshArrays(const faqem_mesh& mesh) {
     view.positions = positions_of(mesh);
     require_array(mesh.triangles, mesh.face_count, "triangles");
     view.triangles = std::span(mesh.triangles, 3 * mesh.face_count);
     view.face_groups = optional_array(mesh.face_groups, mesh.face_count);
     view.vertex_locks = optional_array(mesh.vertex_locks, mesh.vertex_count);
     view.vertex_weights = optional_array(mesh.vertex_weights, mesh.vertex_count);
-    return view;
+    if ((mesh.corner_values != nullptr) != (mesh.corner_width > 0))
+        throw InputError("", "corner_values", "an array needs a corner_width, and a corner_width an array");
+    if (!mesh.corner_values) return;
+    if (mesh.face_count > std::numeric_limits<std::size_t>::max() / 3 / mesh.corner_width)
+        throw InputError("", "corner_values", "more than memory can hold");
+    corners.width = mesh.corner_width;
+    corners.values.assign(mesh.corner_values, mesh.corner_values + 3 * mesh.face_count * mesh.corner_width);
+    view.attributes = &corners;
 }
 
 }  // namespace faqem::c

@@ -7,8 +7,17 @@
 
 namespace faqem::c {
 
-/// Nothing is copied. Indices and positions are checked by whoever gets the view.
-/// \throws InputError  arrays that must be there are null, or there are more elements than indices can count
-MeshView view_of(const faqem_mesh& mesh);
+/// A mesh of the C door. Only corner values are copied; indices and positions are checked by whoever gets the
+/// view.
+struct MeshArrays {
+    /// \throws InputError  arrays that must be there are null, or there are more elements than indices can
+    /// count
+    explicit MeshArrays(const faqem_mesh& mesh);
+    MeshArrays(const MeshArrays&) = delete;  // the view points into it
+    MeshArrays& operator=(const MeshArrays&) = delete;
+
+    CornerAttributes corners;
+    MeshView view;
+};
 
 }  // namespace faqem::c

@@ -21,6 +21,7 @@ static_assert(same(FAQEM_LINK_AS_PRESET, LinkCondition::as_preset) &&
               same(FAQEM_LINK_ON, LinkCondition::on) && same(FAQEM_LINK_STRICT, LinkCondition::strict));
 static_assert(same(FAQEM_BORDER_FREE, Border::free) && same(FAQEM_BORDER_KEPT, Border::locked) &&
               same(FAQEM_BORDER_FREE, GroupBorders::free) && same(FAQEM_BORDER_KEPT, GroupBorders::kept));
+static_assert(same(FAQEM_RECORDING_OFF, Recording::off) && same(FAQEM_RECORDING_ON, Recording::on));
 static_assert(same(FAQEM_PHASE_LOAD, Phase::load) && same(FAQEM_PHASE_WELD, Phase::weld) &&
               same(FAQEM_PHASE_SIMPLIFY, Phase::simplify) && same(FAQEM_PHASE_MAP, Phase::map) &&
               same(FAQEM_PHASE_BAKE, Phase::bake) && same(FAQEM_PHASE_SAVE, Phase::save));
@@ -85,6 +86,11 @@ faqem_status faqem_options_set_virtual_edges(faqem_options* options, double shar
 faqem_status faqem_options_set_prune(faqem_options* options, double size, faqem_unit unit) {
     return set_length(
         options, size, unit, [](Options & o) -> auto& { return o.topology.prune; });
+}
+
+faqem_status faqem_options_set_history(faqem_options* options, faqem_recording history) {
+    return set_enum(
+        options, history, FAQEM_RECORDING_ON, [](Options & o) -> auto& { return o.history; });
 }
 
 faqem_status faqem_options_set_threads(faqem_options* options, uint32_t threads) {

@@ -1,18 +1,11 @@
 #include "faqem/simplify.hpp"
 
-#include <utility>
 #include <vector>
 
 #include "c/guard.hpp"
 #include "c/mesh.hpp"
-#include "c/objects.hpp"
+#include "c/result.hpp"
 #include "faqem/version.hpp"
-
-struct faqem_result {
-    faqem::TriangleMesh mesh;
-    std::vector<faqem::Index> vertex_origin, face_origin;
-    faqem::c::KeptReport kept;
-};
 
 namespace {
 
@@ -36,41 +29,47 @@ faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options
     return c::guarded(error, [&] {
         c::require_argument(mesh, "mesh");
         c::require_argument(result, "result");
-        SimplifyResult out = simplify(c::view_of(*mesh), c::options_or_defaults(options));
-        if (out.report.stop == StopReason::cancelled) throw c::CancelledError();
-        *result = new faqem_result{std::move(out.mesh), std::move(out.vertex_origin),
-                                   std::move(out.face_origin), c::KeptReport(out.report)};
+        const c::MeshArrays arrays(*mesh);
+        *result = new faqem_result(simplify(arrays.view, c::options_or_defaults(options)));
     });
 }
 
 void faqem_result_destroy(faqem_result* result) { delete result; }
 
 size_t faqem_result_vertex_count(const faqem_result* result) {
-    return result ? result->mesh.positions.size() : 0;
+    return result ? result->out.mesh.positions.size() : 0;
 }
 
 size_t faqem_result_face_count(const faqem_result* result) {
-    return result ? result->mesh.triangles.size() : 0;
+    return result ? result->out.mesh.triangles.size() : 0;
 }
 
 const double* faqem_result_positions(const faqem_result* result) {
-    return faqem_result_vertex_count(result) > 0 ? result->mesh.positions.front().data() : nullptr;
+    return faqem_result_vertex_count(result) > 0 ? result->out.mesh.positions.front().data() : nullptr;
 }
 
 const uint32_t* faqem_result_triangles(const faqem_result* result) {
-    return faqem_result_face_count(result) > 0 ? result->mesh.triangles.front().data() : nullptr;
+    return faqem_result_face_count(result) > 0 ? result->out.mesh.triangles.front().data() : nullptr;
 }
 
 const uint32_t* faqem_result_face_groups(const faqem_result* result) {
-    return result ? data_or_null(result->mesh.face_groups) : nullptr;
+    return result ? data_or_null(result->out.mesh.face_groups) : nullptr;
+}
+
+const float* faqem_result_corner_values(const faqem_result* result) {
+    return result ? data_or_null(result->out.mesh.attributes.values) : nullptr;
+}
+
+uint32_t faqem_result_corner_width(const faqem_result* result) {
+    return result ? result->out.mesh.attributes.width : 0;
 }
 
 const uint32_t* faqem_result_vertex_origin(const faqem_result* result) {
-    return result ? data_or_null(result->vertex_origin) : nullptr;
+    return result ? data_or_null(result->out.vertex_origin) : nullptr;
 }
 
 const uint32_t* faqem_result_face_origin(const faqem_result* result) {
-    return result ? data_or_null(result->face_origin) : nullptr;
+    return result ? data_or_null(result->out.face_origin) : nullptr;
 }
 
 faqem_status faqem_result_report(const faqem_result* result, faqem_report* report) {

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     int ran = 0;
     if (!*wanted || strcmp(wanted, "simplify") == 0) ++ran, test_simplify();
     if (!*wanted || strcmp(wanted, "options") == 0) ++ran, test_options();
+    if (!*wanted || strcmp(wanted, "levels") == 0) ++ran, test_levels();
 #ifdef FAQEM_HAS_ASSET
     if (!*wanted || strcmp(wanted, "asset") == 0) ++ran, test_asset();
 #endif

@@ -1,0 +1,77 @@
+"""Levels of detail, and the histories that they can be cut from again."""
+
+import ctypes
+import os
+import weakref
+
+from ._arrays import MeshArrays, reference
+from ._library import Level, call, create, library
+from ._options import Options, length, whole
+from ._simplify import Simplified
+from .errors import OptionError
+
+_ratio, _faces, _distance = 0, 1, 2  # a share of the diagonal comes after the distance
+
+
+def _level(level):
+    if isinstance(level, str):
+        if not level.startswith("error:"):
+            raise OptionError(f"levels: {level!r} is none; a distance is 'error:0.01' or 'error:0.1%'")
+        value, unit = length(level[len("error:"):], "levels")
+        return Level(_distance + unit, value)
+    if 0 < level <= 1:
+        return Level(_ratio, float(level))
+    return Level(_faces, whole(level, "levels", 53))
+
+
+def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
+    """Simplifies a triangle soup to one level after the other, and measures each against the original.
+
+    levels   from fine to coarse: 0.5 (share of the triangles), 5000 (triangles), "error:0.01" (distance in model
+             units) or "error:0.1%" (of the diagonal)
+    options  those of simplify(), without ratio, faces and max_error
+
+    Returns a list of Simplified, whose `error` ascends. Raises what simplify() raises.
+    """
+    arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
+    chosen = Options(**options)
+    wanted = (Level * len(levels))(*map(_level, levels))
+    made = (ctypes.c_void_p * len(levels))()
+    chosen.run(lambda: call(library.faqem_simplify_levels, reference(arrays), chosen.object, wanted, len(levels), made))
+    return [Simplified(ctypes.c_void_p(one)) for one in made]
+
+
+class History:
+    """How the original became one level after the other. Comes from History.of() or History.load()."""
+
+    def __init__(self, made):
+        self._object = made
+        weakref.finalize(self, library.faqem_history_destroy, made)
+
+    @classmethod
+    def of(cls, levels):
+        """Of what simplify_levels(), or a list of one simplify(), gave with history=True."""
+        objects = (ctypes.c_void_p * len(levels))(*(level._object.value for level in levels))
+        return cls(create(library.faqem_history_create, objects, len(levels)))
+
+    @classmethod
+    def load(cls, path):
+        """From a file of save(), or of the command for a model of one mesh. Raises InputError, OSError."""
+        with open(path, "rb") as file:
+            content = file.read()
+        return cls(create(library.faqem_history_read, content, len(content)))
+
+    def save(self, path, *, overwrite=False):
+        """In the format of docs/history-format.md. Raises OSError."""
+        size = ctypes.c_size_t()
+        content = ctypes.string_at(library.faqem_history_bytes(self._object, ctypes.byref(size)), size.value)
+        with open(os.fspath(path), "wb" if overwrite else "xb") as file:
+            file.write(content)
+
+    def __len__(self):
+        """Number of levels."""
+        return library.faqem_history_level_count(self._object)
+
+    def cut(self, faces):
+        """The mesh when no more than so many triangles were left, as a Simplified; see docs/levels.md."""
+        return Simplified(create(library.faqem_history_cut, self._object, whole(faces, "faces", 53)))

@@ -1,0 +1,121 @@
+#include "faqem/history.hpp"
+
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "c/guard.hpp"
+#include "c/result.hpp"
+#include "c/setter.hpp"
+#include "faqem/cut.hpp"
+#include "faqem/faqem_levels.h"
+#include "faqem/surface_map.hpp"
+
+struct faqem_history {
+    explicit faqem_history(faqem::ChainHistory history) : chain(std::move(history)) {
+        std::ostringstream out;
+        write(chain, out);
+        bytes = std::move(out).str();
+    }
+
+    faqem::ChainHistory chain;
+    std::string bytes;  ///< made at once: getters only read
+};
+
+namespace {
+
+using namespace faqem;
+using faqem::c::same;
+
+static_assert(same(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
+              same(FAQEM_MAPPING_LINEAGE, Mapping::lineage) && same(FAQEM_MAPPING_CLOSEST, Mapping::closest));
+
+const CollapseHistory& history_of(const faqem_result* result) {
+    c::require_argument(result, "a result");
+    if (result->out.history.empty())
+        throw OptionError(
+            "a result has no history: faqem_options_set_history() was not asked for, or there are no faces");
+    return result->out.history;
+}
+
+void check_point(const CollapseHistory& history, Index face, const Vec3& weights, std::size_t i) {
+    const std::string where = "point " + std::to_string(i);
+    if (face >= history.kept_faces.size())
+        throw InputError("", where, "there is no face " + std::to_string(face));
+    const double sum = weights[0] + weights[1] + weights[2];
+    if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 && sum > 1 - 1e-6 && sum < 1 + 1e-6))
+        throw InputError("", where, "its weights are negative, or their sum is not 1");
+}
+
+}  // namespace
+
+faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
+                                  faqem_history** history, faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(results, "results");
+        c::require_argument(history, "history");
+        if (result_count == 0) throw OptionError("there are no results");
+        std::vector<CollapseHistory> levels;
+        for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
+        *history = new faqem_history(join(levels));
+    });
+}
+
+faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history** history,
+                                faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(bytes, "bytes");
+        c::require_argument(history, "history");
+        std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
+        ChainHistory chain = read_chain_history(in);
+        if (in.peek() != std::istringstream::traits_type::eof())
+            throw InputError("", "", "there is more behind the history: it is of several meshes");
+        *history = new faqem_history(std::move(chain));
+    });
+}
+
+void faqem_history_destroy(faqem_history* history) { delete history; }
+
+const uint8_t* faqem_history_bytes(const faqem_history* history, size_t* size) {
+    if (size) *size = history ? history->bytes.size() : 0;
+    return history ? reinterpret_cast<const uint8_t*>(history->bytes.data()) : nullptr;
+}
+
+size_t faqem_history_level_count(const faqem_history* history) {
+    return history ? history->chain.level_count() : 0;
+}
+
+faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
+                               faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(history, "history");
+        c::require_argument(result, "result");
+        if (faces == 0) throw OptionError("faces must be at least 1");
+        *result = new faqem_result(restore(cut_to(history->chain, faces)));
+    });
+}
+
+faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping, const uint32_t* faces,
+                              const double* barycentric, size_t count, uint32_t* source_faces,
+                              double* source_barycentric, faqem_error* error) {
+    return c::guarded(error, [&] {
+        const CollapseHistory& history = history_of(result);
+        c::require_argument(faces, "faces");
+        c::require_argument(barycentric, "barycentric");
+        c::require_argument(source_faces, "source_faces");
+        c::require_argument(source_barycentric, "source_barycentric");
+        if (mapping < FAQEM_MAPPING_PROJECTION || mapping > FAQEM_MAPPING_CLOSEST)
+            throw OptionError("mapping: unknown");
+        const auto weights = [&](std::size_t i) {
+            return Vec3{barycentric[3 * i], barycentric[3 * i + 1], barycentric[3 * i + 2]};
+        };
+        for (std::size_t i = 0; i < count; ++i) check_point(history, faces[i], weights(i), i);
+        const SurfaceMap map(history, static_cast<Mapping>(mapping));
+        for (std::size_t i = 0; i < count; ++i) {
+            const SurfacePoint at = map.map(faces[i], weights(i));
+            source_faces[i] = at.face;
+            for (std::size_t k = 0; k < 3; ++k) source_barycentric[3 * i + k] = at.barycentric[k];
+        }
+    });
+}

@@ -1,0 +1,100 @@
+"""faqem.simplify_levels, histories, and the way back to the original."""
+
+import pathlib
+import tempfile
+import unittest
+
+import faqem
+import numpy
+from numpy.testing import assert_allclose, assert_array_equal
+
+
+def hill(n):
+    """(n + 1)^2 vertices and 2 n^2 triangles."""
+    x, y = numpy.meshgrid(numpy.arange(n + 1.0), numpy.arange(n + 1.0), indexing="ij")
+    vertices = numpy.stack([x, y, 3 * numpy.sin(x / 4) * numpy.cos(y / 5)], axis=-1).reshape(-1, 3)
+    a = ((n + 1) * numpy.arange(n)[:, None] + numpy.arange(n)).reshape(-1, 1)
+    return vertices, numpy.concatenate([a + [0, n + 1, n + 2], a + [0, n + 2, 1]])
+
+
+def points(vertices, triangles, faces, weights):
+    return numpy.einsum("nk,nki->ni", weights, vertices[triangles[faces]])
+
+
+class Levels(unittest.TestCase):
+    def test_levels_get_coarser_and_their_errors_larger(self):
+        levels = faqem.simplify_levels(*hill(20), [0.5, 100, "error:5%"])
+        self.assertEqual(len(levels), 3)
+        self.assertLessEqual(len(levels[0].triangles), 400)
+        self.assertLessEqual(len(levels[1].triangles), 100)
+        self.assertTrue(0 < levels[0].error <= levels[1].error <= levels[2].error)
+        self.assertIsNone(faqem.simplify(*hill(20)).error)
+
+    def test_wrong_levels_are_refused(self):
+        for wrong in [[0.1, 0.5], ["fine"], ["error:much"], [2.5], [0], [-1], [float("nan")]]:
+            with self.subTest(wrong), self.assertRaises(faqem.OptionError):
+                faqem.simplify_levels(*hill(6), wrong)
+        with self.assertRaises(faqem.OptionError):
+            faqem.simplify_levels(*hill(6), [0.5], ratio=0.5)
+
+    def test_progress_that_raises_leaves_nothing_behind(self):
+        def stop(phase, fraction):
+            raise KeyError(phase)
+
+        with self.assertRaises(KeyError):
+            faqem.simplify_levels(*hill(20), [0.5, 0.1], progress=stop)
+
+    def test_a_history_gives_every_level_again_also_from_a_file(self):
+        levels = faqem.simplify_levels(*hill(20), [300, 50], history=True)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "hill.history"
+            faqem.History.of(levels).save(path)
+            with self.assertRaises(FileExistsError):
+                faqem.History.of(levels).save(path)
+            history = faqem.History.load(path)
+            path.write_bytes(path.read_bytes()[:-1])
+            with self.assertRaises(faqem.InputError):
+                faqem.History.load(path)
+        self.assertEqual(len(history), 2)
+        for level in levels:
+            cut = history.cut(len(level.triangles))
+            assert_array_equal(cut.vertices, level.vertices)
+            assert_array_equal(cut.triangles, level.triangles)
+            assert_array_equal(cut.face_origin, level.face_origin)
+            self.assertEqual(len(cut.vertex_origin), 0)
+        self.assertLessEqual(len(history.cut(150).triangles), 150)
+        with self.assertRaises(faqem.OptionError):
+            history.cut(0)
+        with self.assertRaises(faqem.OptionError):
+            faqem.History.of([faqem.simplify(*hill(6))])
+        with self.assertRaises(faqem.OptionError):
+            faqem.History.of([])
+
+    def test_points_find_their_place_on_the_original(self):
+        vertices, triangles = hill(20)
+        out = faqem.simplify(vertices, triangles, ratio=0.2, history=True)
+        faces = numpy.arange(len(out.triangles))
+        weights = numpy.full((len(faces), 3), 1 / 3)
+        for mapping in ("projection", "closest"):
+            source, there = out.map(faces, weights, mapping)
+            assert_allclose(there.sum(axis=1), 1)
+            gap = points(vertices, triangles, source, there) - points(out.vertices, out.triangles, faces, weights)
+            self.assertLess(numpy.linalg.norm(gap, axis=1).max(), 1)
+        for wrong in [([len(faces)], [[1, 0, 0]]), ([0], [[2, 0, 0]]), ([0, 1], [[1, 0, 0]])]:
+            with self.subTest(wrong), self.assertRaises(faqem.InputError):
+                out.map(*wrong)
+        with self.assertRaises(faqem.OptionError):
+            faqem.simplify(vertices, triangles).map([0], [[1, 0, 0]])
+        with self.assertRaises(faqem.OptionError):
+            out.map([0], [[1, 0, 0]], "by magic")
+
+    def test_uvs_come_along(self):
+        vertices, triangles = hill(20)
+        uvs = vertices[triangles][:, :, :2] / 20
+        out = faqem.simplify(vertices, triangles, uvs=uvs, ratio=0.2)
+        self.assertEqual(out.uvs.shape, (len(out.triangles), 3, 2))
+        assert_allclose(out.uvs, out.vertices[out.triangles][:, :, :2] / 20, atol=0.05)
+        self.assertIsNone(faqem.simplify(vertices, triangles).uvs)
+        for wrong in [uvs[:-1], uvs[:, :2], uvs[:, :, :0], uvs.reshape(-1, 2)]:
+            with self.assertRaises(faqem.InputError):
+                faqem.simplify(vertices, triangles, uvs=wrong)
