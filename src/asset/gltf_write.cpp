@@ -121,6 +121,13 @@ void finish(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
         write_glb(writer, file, overwrite);
 }
 
+void write_all(GltfWriter& writer) {
+    find_source_images(writer);
+    std::vector<Index> new_meshes;
+    write_meshes(writer, new_meshes);
+    write_scene(writer, new_meshes);
+}
+
 }  // namespace
 
 const Json& source_array(const GltfWriter& writer, const char* key) {
@@ -151,12 +158,18 @@ std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Ov
     const SourceDocument none;
     const SourceDocument& source = asset.source ? *asset.source : none;
     GltfWriter writer{asset, source, start_document(source.document)};
-    find_source_images(writer);
-    std::vector<Index> new_meshes;
-    write_meshes(writer, new_meshes);
-    write_scene(writer, new_meshes);
+    write_all(writer);
     finish(writer, file, overwrite);
     return std::move(writer.warnings);
+}
+
+std::vector<std::uint8_t> glb_of(const Asset& asset) {
+    const SourceDocument none;
+    const SourceDocument& source = asset.source ? *asset.source : none;
+    GltfWriter writer{asset, source, start_document(source.document)};
+    write_all(writer);
+    write_extension_lists(writer);
+    return glb_bytes(writer, "the model in memory");
 }
 
 std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,

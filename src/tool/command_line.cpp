@@ -33,6 +33,7 @@ constexpr std::array value_names = {
     Pair{"--max-memory", "SIZE"},
     Pair{"--normal-map", "auto|on|off"},
     Pair{"--normals", "transfer|smooth|flat|none"},
+    Pair{"--out", "FILE"},
     Pair{"--pixel-error", "N"},
     Pair{"--preset", "qem|paper|stmw|fast|balanced|best"},
     Pair{"--prune", "LENGTH"},
@@ -71,6 +72,7 @@ constexpr std::array examples = {
     Pair{"info", "  faqem info model.glb --json"},
     Pair{"compare", "  faqem compare model.glb light.glb --samples 1000000"},
     Pair{"render", "  faqem render model.glb light.glb before-after.png --views 3"},
+    Pair{"report", "  faqem report model.glb light.glb -o report.html"},
     Pair{"completion",
          "  source <(faqem completion bash)\n"
          "  faqem completion zsh > ~/.zfunc/_faqem"},
@@ -101,6 +103,7 @@ void build_command_line(CLI::App& app, Action& action) {
     add_info_command(app, action);
     add_compare_command(app, action);
     add_render_command(app, action);
+    add_report_command(app, action);
     add_completion_command(app, action);
     add_man_command(app, action);
     for (const auto& [command, lines] : examples) {

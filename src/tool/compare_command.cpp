@@ -1,15 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "asset/flatten.hpp"
-#include "faqem/asset.hpp"
-#include "faqem/compare_colors.hpp"
-#include "faqem/error.hpp"
 #include "tool/commands.hpp"
+#include "tool/compare_options.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/json.hpp"
+#include "tool/model_comparison.hpp"
 
 namespace faqem::tool {
 
@@ -33,35 +32,19 @@ Json side_json(const OneSidedColors& side) {
         {"rmse", side.rmse}, {"wrong", side.wrong}, {"one_sided", side.one_sided}, {"hidden", side.hidden}};
 }
 
-/// Null where a model says nothing of colours, or an image cannot be read: that is no reason to withhold the
-/// distances.
-Json colors_json(const Asset& a, const Asset& b, const CompareOptions& options) {
-    if (!has_colors(a) || !has_colors(b)) return nullptr;
-    try {
-        const ColorComparison c = compare_colors(a, b, options);
-        return {{"rmse", c.rmse},
-                {"psnr", c.psnr},
-                {"a_to_b", side_json(c.a_to_b)},
-                {"b_to_a", side_json(c.b_to_a)}};
-    } catch (const Error& error) {
-        std::cerr << "faqem: warning: colours are not compared: " << error.what() << "\n";
-        return nullptr;
-    }
-}
-
-Part flat(const Asset& asset, const std::string& file) {
-    Part part = detail::flatten(asset);
-    if (!(info(MeshView{part.positions, part.triangles}).area > 0)) {
-        throw InputError(file, "", "has no face with area");
-    }
-    return part;
+Json colors_json(const std::optional<ColorComparison>& colors) {
+    if (!colors) return nullptr;
+    return {{"rmse", colors->rmse},
+            {"psnr", colors->psnr},
+            {"a_to_b", side_json(colors->a_to_b)},
+            {"b_to_a", side_json(colors->b_to_a)}};
 }
 
 int run(const Arguments& arguments) {
-    const Asset asset_a = load(arguments.a), asset_b = load(arguments.b);
-    const Part a = flat(asset_a, arguments.a), b = flat(asset_b, arguments.b);
-    const MeshView view_a{a.positions, a.triangles}, view_b{b.positions, b.triangles};
-    const Comparison result = compare(view_a, view_b, arguments.options);
+    const ModelComparison all =
+        compare_models(load_placed(arguments.a), load_placed(arguments.b), arguments.options);
+    if (!all.colors_warning.empty()) std::cerr << "faqem: warning: " << all.colors_warning << "\n";
+    const Comparison& result = all.distances;
     const double d = result.diagonal;
     print_json({{"a", arguments.a},
                 {"b", arguments.b},
@@ -75,9 +58,9 @@ int run(const Arguments& arguments) {
                 {"mean_normal_degrees", result.mean_normal_degrees},
                 {"a_to_b", side_json(result.a_to_b)},
                 {"b_to_a", side_json(result.b_to_a)},
-                {"colors", colors_json(asset_a, asset_b, arguments.options)},
-                {"info_a", info_json(info(view_a))},
-                {"info_b", info_json(info(view_b))},
+                {"colors", colors_json(all.colors)},
+                {"info_a", info_json(all.a)},
+                {"info_b", info_json(all.b)},
                 {"samples", arguments.options.samples},
                 {"seed", arguments.options.seed},
                 {"tolerance", arguments.options.tolerance}});
@@ -92,17 +75,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         "compare", "Distances and colour differences between two models, both ways, as JSON");
     command->add_option("A", arguments->a, "The original; its diagonal is the unit of *_rel")->required();
     command->add_option("B", arguments->b, "The other model")->required();
-    command->add_option("--samples", arguments->options.samples, "Samples on each model (default 200000)")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
-    command->add_option("--seed", arguments->options.seed, "Another seed, other samples (default 1)");
-    command
-        ->add_option("--tolerance", arguments->options.tolerance,
-                     "Gap allowed between a largest distance and its bound, as a share of it (default 0.01)")
-        ->check(CLI::Range(0.0, 1e9));
-    command
-        ->add_option("--threads", arguments->options.threads,
-                     "Threads at most; the result does not depend on it")
-        ->check(CLI::Range(0, 1024));
+    add_compare_options(*command, arguments->options);
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

@@ -39,8 +39,8 @@ using Words = std::set<std::string>;
 }  // namespace
 
 TEST_CASE("bash completes commands, options and values") {
-    CHECK(in_bash("''", 1) ==
-          Words{"simplify", "lod", "cut", "batch", "info", "compare", "render", "completion", "man"});
+    CHECK(in_bash("''", 1) == Words{"simplify", "lod", "cut", "batch", "info", "compare", "render", "report",
+                                    "completion", "man"});
     CHECK(in_bash("co", 1) == Words{"compare", "completion"});
     CHECK(in_bash("--v", 1) == Words{"--version"});
     CHECK(in_bash("simplify a.glb --tex", 3) == Words{"--texture-size"});
@@ -67,7 +67,7 @@ TEST_CASE("zsh completes commands, options and values") {
         "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
         "source ./_faqem\n";
     const Words commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
-    CHECK(commands.size() == 9);
+    CHECK(commands.size() == 10);
     CHECK(commands.count("info:Count and measure what is in a file"));
     const Words options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");

@@ -1,0 +1,12 @@
+#pragma once
+/// \file
+/// The files of this folder that the page is made of, as they were when faqem was built (embed.cmake).
+
+#include <string_view>
+
+namespace faqem::tool {
+
+extern const std::string_view page_html, page_style, view_html;
+extern const std::string_view viewer_script;  ///< viewer/, bundled; empty: built without npm
+
+}  // namespace faqem::tool

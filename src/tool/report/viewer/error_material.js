@@ -1,0 +1,37 @@
+// Colours by distance, shaded a little by the face's normal so that the shape is seen.
+import { DataTexture, DoubleSide, LinearFilter, ShaderMaterial } from 'three';
+
+const vertexShader = `
+  varying float error;
+  varying vec3 place;
+  void main() {
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    error = uv.x;
+    place = seen.xyz;
+    gl_Position = projectionMatrix * seen;
+  }`;
+
+const fragmentShader = `
+  uniform sampler2D ramp;
+  uniform float stops, limit;
+  varying float error;
+  varying vec3 place;
+  void main() {
+    float share = limit > 0.0 ? clamp(error / limit, 0.0, 1.0) : 0.0;
+    vec3 colour = texture2D(ramp, vec2((share * (stops - 1.0) + 0.5) / stops, 0.5)).rgb;
+    vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+    gl_FragColor = vec4(colour * (0.65 + 0.35 * abs(normal.z)), 1.0);
+  }`;
+
+/// \param ramp  sRGB colours, 0 to 255, from no error to the largest
+export function makeErrorMaterial(ramp) {
+  const texture = new DataTexture(Uint8Array.from(ramp.flatMap((colour) => [...colour, 255])), ramp.length, 1);
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return new ShaderMaterial({
+    uniforms: { ramp: { value: texture }, stops: { value: ramp.length }, limit: { value: 1 } },
+    vertexShader,
+    fragmentShader,
+    side: DoubleSide,
+  });
+}

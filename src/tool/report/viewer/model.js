@@ -1,0 +1,33 @@
+// A model of the page: its look, its faces coloured by error, and its edges.
+import { Group, Mesh, MeshBasicMaterial } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+
+const wires = new MeshBasicMaterial({ wireframe: true, color: 0x10131a, transparent: true, opacity: 0.4 });
+
+function bytesOf(element) {
+  const text = atob(element.textContent.trim());
+  element.remove(); // its memory
+  return Uint8Array.from(text, (character) => character.charCodeAt(0)).buffer;
+}
+
+// Faces a little farther back, so that their edges are not half hidden by them.
+function pushBack(material) {
+  Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+}
+
+/// The GLB has two meshes: `look`, the model itself, and `error`, whose texture coordinate u is the distance to the
+/// other model. \return what is drawn, for each way to show it
+export async function readModel(element, errorMaterial) {
+  const { scene } = await new GLTFLoader().parseAsync(bytesOf(element), '');
+  const look = scene.getObjectByName('look'), error = scene.getObjectByName('error'), edges = new Group();
+  look.traverse((object) => {
+    if (!object.isMesh) return;
+    pushBack(object.material);
+    edges.add(new Mesh(object.geometry, wires));
+  });
+  pushBack(errorMaterial);
+  error.traverse((object) => {
+    if (object.isMesh) object.material = errorMaterial;
+  });
+  return { look, error, edges };
+}

@@ -1,0 +1,88 @@
+// One canvas behind the frames of both models, drawn by one camera: they are linked because there is no second one.
+import {
+  NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+
+const fieldOfView = 30; // degrees
+const firstLook = new Vector3(0.34, 0.16, 0.93).normalize(); // as the first picture of the page
+const reach = 1.5; // the models' diagonal is about 1: what is farther from the target is cut off
+
+function moveByKeys(canvas, controls) {
+  const turn = Math.PI / 36, zoom = 0.9;
+  const moves = {
+    ArrowLeft: () => controls.rotateLeft(turn),
+    ArrowRight: () => controls.rotateLeft(-turn),
+    ArrowUp: () => controls.rotateUp(turn),
+    ArrowDown: () => controls.rotateUp(-turn),
+    '+': () => controls.dollyIn(zoom),
+    '-': () => controls.dollyOut(zoom),
+  };
+  canvas.addEventListener('keydown', (event) => {
+    if (!moves[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    moves[event.key]();
+  });
+}
+
+/// \param frames  elements over the canvas, one for each model
+export function makeStage(canvas, frames) {
+  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+  renderer.toneMapping = NeutralToneMapping;
+  renderer.setScissorTest(true);
+  const generator = new PMREMGenerator(renderer);
+  const environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+  const scenes = frames.map(() => Object.assign(new Scene(), { environment }));
+  const camera = new PerspectiveCamera(fieldOfView);
+  const controls = new OrbitControls(camera, canvas);
+  let models = [], asked = false;
+
+  function drawFrame(frame, scene) {
+    const outer = canvas.getBoundingClientRect(), inner = frame.getBoundingClientRect();
+    const box = [inner.left - outer.left, outer.bottom - inner.bottom, inner.width, inner.height];
+    renderer.setViewport(...box);
+    renderer.setScissor(...box);
+    camera.aspect = inner.width / inner.height;
+    camera.updateProjectionMatrix();
+    renderer.render(scene, camera);
+  }
+  function drawNow() {
+    asked = false;
+    const { clientWidth, clientHeight } = canvas;
+    if (!clientWidth || !clientHeight) return;
+    renderer.setPixelRatio(window.devicePixelRatio);
+    renderer.setSize(clientWidth, clientHeight, false);
+    const distance = camera.position.distanceTo(controls.target);
+    camera.near = Math.max(distance - reach, distance / 500);
+    camera.far = distance + reach;
+    frames.forEach((frame, i) => drawFrame(frame, scenes[i]));
+  }
+  function draw() {
+    if (!asked) requestAnimationFrame(drawNow);
+    asked = true;
+  }
+  function place(placed) {
+    models = placed;
+    models.forEach(({ look, error, edges }, i) => scenes[i].add(look, error, edges));
+    draw();
+  }
+  function show({ wireframe, error }) {
+    for (const model of models) {
+      model.look.visible = !error;
+      model.error.visible = error;
+      model.edges.visible = wireframe;
+    }
+    draw();
+  }
+
+  const shape = frames[0].getBoundingClientRect();
+  const narrow = Math.min(1, shape.width / shape.height);
+  camera.position.copy(firstLook).multiplyScalar(0.47 / Math.sin((fieldOfView / 360) * Math.PI) / narrow);
+  controls.update();
+  controls.saveState();
+  controls.addEventListener('change', draw);
+  moveByKeys(canvas, controls);
+  new ResizeObserver(draw).observe(canvas);
+  return { place, show, draw, reset: () => controls.reset() };
+}

@@ -1,0 +1,39 @@
+#include "tool/report/html.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tool/report/base64.hpp"
+
+using namespace faqem::tool;
+
+TEST_CASE("what means something in HTML is escaped") {
+    CHECK(escaped("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+    CHECK(escaped("plain größe") == "plain größe");
+}
+
+TEST_CASE("names between signs are replaced, and values are not looked into") {
+    CHECK(filled("x @A@ y @B_2@", {{"A", "@B_2@"}, {"B_2", "2"}}) == "x @B_2@ y 2");
+    CHECK(filled("@media a@b @A@ @", {{"A", ""}}) == "@media a@b  @");
+    CHECK(filled("", {}).empty());
+}
+
+TEST_CASE("a table has headers on two sides, and its cells are escaped") {
+    CHECK(table("c<", {"", "t<"}, {{"r", "<1"}}) ==
+          "<div><table>\n<caption>c&lt;</caption>\n<thead><tr><td></td><th "
+          "scope=\"col\">t&lt;</th></tr></thead>\n"
+          "<tbody>\n<tr><th scope=\"row\">r</th><td>&lt;1</td></tr>\n</tbody>\n</table></div>\n");
+}
+
+TEST_CASE("base64 is that of RFC 4648") {
+    const auto coded = [](std::string_view text) {
+        return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    };
+    CHECK(coded("").empty());
+    CHECK(coded("f") == "Zg==");
+    CHECK(coded("fo") == "Zm8=");
+    CHECK(coded("foo") == "Zm9v");
+    CHECK(coded("foob") == "Zm9vYg==");
+    CHECK(coded("fooba") == "Zm9vYmE=");
+    CHECK(coded("foobar") == "Zm9vYmFy");
+    CHECK(coded("\xfb\xff\xfe") == "+//+");
+}
