@@ -12,6 +12,7 @@
 #include "tool/interrupt.hpp"
 #include "tool/machine_memory.hpp"
 #include "tool/output.hpp"
+#include "tool/profile.hpp"
 #include "tool/simplify_options.hpp"
 
 namespace faqem::tool {
@@ -86,6 +87,7 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->add_flag("--resume", arguments->resume,
                       "Skip what is done and unchanged, redo what is out of date");
     add_simplify_options(*command, *arguments);
+    add_profile_option(*command);
     command
         ->add_option("--threads", arguments->options.threads,
                      "Threads of each model at most (default: those there are, divided by the jobs)")

@@ -19,6 +19,7 @@ using Pair = std::pair<std::string_view, std::string_view>;
 constexpr std::array value_names = {
     Pair{"--bake", "auto|atlas|per-triangle|vertex|keep|none"},
     Pair{"--budget", "scene|mesh"},
+    Pair{"--config", "FILE"},
     Pair{"--correspondence", "FILE"},
     Pair{"--faces", "N"},
     Pair{"--format", "glb|gltf|obj|ply|stl"},
@@ -48,6 +49,7 @@ constexpr std::array value_names = {
     Pair{"--threads", "N"},
     Pair{"--tolerance", "T"},
     Pair{"--views", "N"},
+    Pair{"--virtual-edges", "TAU"},
     Pair{"--w-area", "W"},
     Pair{"--w-boundary", "W"},
     Pair{"--w-normal", "W"},

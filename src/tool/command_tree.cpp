@@ -1,6 +1,7 @@
 #include "tool/command_tree.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <sstream>
 
 namespace faqem::tool {
@@ -23,9 +24,15 @@ OptionInfo info_of(const CLI::Option& option) {
     }
     for (const std::string& name : option.get_snames()) info.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) info.names.push_back("--" + name);
-    if (option.get_expected_min() == 0) return info;
-    const std::string type = option.get_type_name();
-    info.value = type.substr(0, type.find(':'));  // behind it is what the value is checked for
+    for (const CLI::Option* other : option.get_excludes()) info.excludes.push_back(other->get_name());
+    std::sort(info.excludes.begin(), info.excludes.end());  // the set is one of addresses
+    std::string type = option.get_type_name();
+    type = type.substr(0, type.find(':'));  // behind it is what the value is checked for
+    if (option.get_expected_min() == 0) {
+        info.optional_value = type;
+        return info;
+    }
+    info.value = type;
     if (info.value.find('|') != std::string::npos) info.choices = split(info.value, '|');
     return info;
 }

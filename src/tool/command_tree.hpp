@@ -13,9 +13,11 @@ namespace faqem::tool {
 
 /// An option, or an argument without dashes.
 struct OptionInfo {
-    std::vector<std::string> names;    ///< `-h` and `--help`; of an argument its one name
-    std::string value;                 ///< what stands for the value; empty: a flag, or an argument
-    std::vector<std::string> choices;  ///< all that the value can be; empty: anything
+    std::vector<std::string> names;     ///< `-h` and `--help`; of an argument its one name
+    std::string value;                  ///< what stands for the value; empty: a flag, or an argument
+    std::vector<std::string> choices;   ///< all that the value can be; empty: anything
+    std::string optional_value;         ///< of a flag that may have a value behind `=`: what stands for it
+    std::vector<std::string> excludes;  ///< options that cannot be given with it, sorted
     std::string description;
 };
 

@@ -17,6 +17,7 @@
 #include "tool/interrupt.hpp"
 #include "tool/lod_manifest.hpp"
 #include "tool/output.hpp"
+#include "tool/profile.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/simplify_options.hpp"
 
@@ -243,6 +244,7 @@ void add_lod_command(CLI::App& app, Action& action) {
                         "Write the collapse history to this file, for faqem cut");
     add_viewing_options(*command, arguments->viewing);
     add_level_options(*command, *arguments);
+    add_profile_option(*command);
     command->add_option("--threads", arguments->options.threads, "Threads at most")
         ->check(CLI::Range(0, 1024));
     command->add_flag("--force", arguments->force, "Replace files that exist");

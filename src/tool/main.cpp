@@ -4,16 +4,25 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "faqem/error.hpp"
 #include "tool/command_line.hpp"
 #include "tool/command_tree.hpp"
 #include "tool/exit_code.hpp"
+#include "tool/profile.hpp"
 #include "tool/suggestion.hpp"
 
 namespace faqem::tool {
 
 namespace {
+
+int fail(const std::exception& error) {
+    std::cerr << "faqem: " << message_of(error) << "\n";
+    return exit_code_of(error);
+}
 
 int run(const Action& action) try {
     const int code = action();
@@ -21,21 +30,25 @@ int run(const Action& action) try {
     if (!std::cout) throw WriteError("standard output: cannot be written");
     return code;
 } catch (const std::exception& error) {
-    std::cerr << "faqem: " << message_of(error) << "\n";
-    return exit_code_of(error);
+    return fail(error);
 }
 
 int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
     build_command_line(app, action);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> all = with_profile(command_tree(app), words);
+        std::reverse(all.begin(), all.end());  // as CLI11 takes them
+        app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) return exit_ok;
-        const std::string meant = suggestion(command_tree(app), {argv + std::min(argc, 1), argv + argc});
+        const std::string meant = suggestion(command_tree(app), words);
         if (!meant.empty()) std::cerr << "Did you mean " << meant << "?\n";
         return exit_usage;
+    } catch (const std::exception& error) {
+        return fail(error);
     }
     return run(action);
 }

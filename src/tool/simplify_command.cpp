@@ -18,6 +18,7 @@
 #include "tool/machine_memory.hpp"
 #include "tool/memory_limit.hpp"
 #include "tool/output.hpp"
+#include "tool/profile.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/simplify_options.hpp"
 #include "tool/simplify_rules.hpp"
@@ -212,6 +213,7 @@ void add_simplify_command(CLI::App& app, Action& action) {
     command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
     add_simplify_options(*command, *arguments);
     add_run_options(*command, *arguments);
+    add_profile_option(*command);
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

@@ -30,9 +30,13 @@ TEST_CASE("the closest word is the first of those, or none that is far off") {
 
 TEST_CASE("a suggestion is about the first wrong word") {
     CommandTree tree;
-    tree.options = {{{"--version"}, "", {}, ""}};
-    tree.commands = {{"simplify", "", {}, {}, {{{"-h", "--help"}, "", {}, ""}, {{"--ratio"}, "R", {}, ""}}},
-                     {"info", "", {}, {}, {{{"--json"}, "", {}, ""}}}};
+    tree.options = {{{"--version"}, "", {}, "", {}, ""}};
+    tree.commands = {{"simplify",
+                      "",
+                      {},
+                      {},
+                      {{{"-h", "--help"}, "", {}, "", {}, ""}, {{"--ratio"}, "R", {}, "", {}, ""}}},
+                     {"info", "", {}, {}, {{{"--json"}, "", {}, "", {}, ""}}}};
     CHECK(suggestion(tree, {}).empty());
     CHECK(suggestion(tree, {"smplify"}) == "simplify");
     CHECK(suggestion(tree, {"--versoin"}) == "--version");
