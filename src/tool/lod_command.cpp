@@ -15,6 +15,7 @@
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/lod_level.hpp"
 #include "tool/lod_manifest.hpp"
 #include "tool/output.hpp"
 #include "tool/profile.hpp"
@@ -185,7 +186,7 @@ private:
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     std::vector<Level> levels;
-    for (const std::string& text : arguments.levels) levels.push_back(level_of(text));
+    for (const std::string& text : arguments.levels) levels.push_back(lod_level(text, arguments.viewing));
     const Outputs outputs(arguments);
     make_folder(arguments.out);
     check(arguments, outputs);
@@ -231,9 +232,11 @@ void add_lod_command(CLI::App& app, Action& action) {
     command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
     command->add_option("OUTDIR", arguments->out, "Folder for NAME_LOD0 ... and NAME_LOD.json")->required();
     command
-        ->add_option("--levels", arguments->levels,
-                     "From fine to coarse, with commas: 0.5 (share of the faces), 5000 (faces), error:0.01 "
-                     "(distance in model units) or error:0.1% (default 0.5,0.25,0.1,0.01)")
+        ->add_option(
+            "--levels", arguments->levels,
+            "From fine to coarse, with commas: 0.5 (share of the faces), 5000 (faces), error:0.01 "
+            "(distance in model units), error:0.1% or pixels:1@50 (as much as 1 pixel at distance 50) "
+            "(default 0.5,0.25,0.1,0.01)")
         ->delimiter(',');
     command->add_flag("--without-original", arguments->without_original,
                       "The first level is LOD0; else the original is, as it was read");

@@ -18,6 +18,10 @@ double switch_distance(double error, const Viewing& viewing) {
     return error * viewing.screen_height / (height_at_one(viewing) * viewing.pixel_error);
 }
 
+double error_of_pixels(double pixels, double distance, const Viewing& viewing) {
+    return pixels * height_at_one(viewing) * distance / viewing.screen_height;
+}
+
 double screen_coverage(double diagonal, double error, const Viewing& viewing) {
     return diagonal / (height_at_one(viewing) * switch_distance(error, viewing));
 }

@@ -30,6 +30,9 @@ struct WrittenLevel {
 /// allowed.
 double switch_distance(double error, const Viewing& viewing);
 
+/// The error that covers so many pixels where the eye is `distance` from the nearest point of the model.
+double error_of_pixels(double pixels, double distance, const Viewing& viewing);
+
 /// Share of the screen's height that a length takes at the switch distance; infinity where that is 0.
 double screen_coverage(double diagonal, double error, const Viewing& viewing);
 

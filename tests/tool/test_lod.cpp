@@ -5,6 +5,8 @@
 #include <string>
 
 #include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+#include "tool/lod_level.hpp"
 #include "tool/lod_manifest.hpp"
 #include "tool_support.hpp"
 
@@ -154,4 +156,44 @@ TEST_CASE("lod puts all levels into one file, which shows the finest") {
         CHECK(coverage[i - 1].get<double>() == Approx(full));
     }
     CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
+}
+
+TEST_CASE("a level may be so many pixels off at a distance") {
+    using namespace faqem::tool;
+    const Viewing viewing{1, 90, 1000};  // 2 units are 1000 pixels at distance 1
+    const auto error = [&](const char* text) {
+        const faqem::Level level = lod_level(text, viewing);
+        REQUIRE(std::holds_alternative<faqem::MaxError>(level));
+        CHECK(std::get<faqem::MaxError>(level).unit == faqem::Length::Unit::model);
+        return std::get<faqem::MaxError>(level).value;
+    };
+    CHECK(error("pixels:1@1") == Approx(0.002));
+    CHECK(error("pixels:2@50") == Approx(0.2));
+    CHECK(switch_distance(error("pixels:1@50"), viewing) == Approx(50));
+    CHECK(std::holds_alternative<faqem::Target>(lod_level("0.5", viewing)));
+    for (const char* wrong : {"pixels:", "pixels:1", "pixels:1@", "pixels:@5", "pixels:0@5", "pixels:1@-5",
+                              "pixels:nan@5", "pixels:1@inf", "pixels:1@5x"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(lod_level(wrong, viewing), faqem::OptionError);
+    }
+}
+
+TEST_CASE("lod stays below as many pixels at a distance as asked for") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(run(folder, "lod a.glb out --levels pixels:1@2,pixels:1@20 --bake none --quiet").code == 0);
+    const Json json = manifest(folder, "out/a_LOD.json");
+    CHECK(json["levels"][1]["switch_distance"] <= 2);
+    CHECK(json["levels"][2]["switch_distance"] <= 20);
+    CHECK(json["levels"][2]["switch_distance"] > 2);
+}
+
+TEST_CASE("levels that keep the texture share it in one file") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(run(folder, "lod a.glb out --levels 0.5,0.1 --bake keep --one-file --quiet").code == 0);
+    const std::string bytes = read(folder / "out/a_LOD.glb");
+    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    CHECK(document["images"].size() == 1);
+    CHECK(document["meshes"].size() == 3);
 }
