@@ -130,14 +130,31 @@ private:
         double x = 0, y = 0;  // on the page
     };
 
-    // The last sample on a face: the next one may start from there if it is close by.
+    // The last sample on a face and the first one of its row: the next one may start from there if it is
+    // close by.
     struct Trail {
-        SurfacePoint last;
-        std::uint32_t x = 0, y = 0;
+        struct Mark {
+            SurfacePoint point;
+            std::uint32_t x = 0, y = 0;
+
+            bool is_near(std::uint32_t to_x, std::uint32_t to_y) const {
+                constexpr std::uint32_t steps = 4;  // a row may begin far from where the one above did
+                return to_y - y <= 1 && to_x + steps - x <= 2 * steps;
+            }
+        };
+        Mark last, row;
         bool started = false;
 
-        bool leads_to(std::uint32_t to_x, std::uint32_t to_y) const {
-            return started && y == to_y && to_x - x <= 1;
+        // Null where there is none.
+        const SurfacePoint* to(std::uint32_t x, std::uint32_t y) const {
+            if (!started) return nullptr;
+            if (last.y == y && x - last.x <= 1) return &last.point;
+            return row.is_near(x, y) ? &row.point : nullptr;
+        }
+        void add(const SurfacePoint& point, std::uint32_t x, std::uint32_t y) {
+            last = {point, x, y};
+            if (!started || row.y != y) row = last;
+            started = true;
         }
     };
 
@@ -177,7 +194,7 @@ private:
         Vector3 bent_normal(const SourceSurface& surface, const SmallPoint& at) const {
             const TangentFrame here = blend_frames(frames, own_weights(at));
             const Vector3 side = face_side(part, normals_of_part, at.face);
-            const Vector3 normal = surface.normal(face.part, trails[at.trail].last, spacing, side);
+            const Vector3 normal = surface.normal(face.part, trails[at.trail].last.point, spacing, side);
             if (at.trail == 0) return here.from_mesh(normal);
             Vector3 there = Vector3::Zero();
             for (std::size_t i = 0; i < 3; ++i) {
@@ -299,18 +316,17 @@ private:
     void add_sample(Texel& sum, Painter& painter, std::uint32_t x, std::uint32_t y,
                     const SmallPoint& at) const {
         Trail& trail = painter.trails[at.trail];
-        trail.last = trail.leads_to(x, y) ? painter.map.map_near(at.face, at.weights, trail.last)
-                                          : painter.map.map(at.face, at.weights);
-        ++sum.steps[static_cast<std::size_t>(trail.last.step)];
-        trail.started = true;
-        trail.x = x;
-        trail.y = y;
-        sum.add(surface_.sample(painter.face.part, trail.last, painter.spacing),
+        const SurfacePoint* near = trail.to(x, y);
+        const SurfacePoint point =
+            near ? painter.map.map_near(at.face, at.weights, *near) : painter.map.map(at.face, at.weights);
+        trail.add(point, x, y);
+        ++sum.steps[static_cast<std::size_t>(point.step)];
+        sum.add(surface_.sample(painter.face.part, point, painter.spacing),
                 1.0f / static_cast<float>(samples_ * samples_));
         const double off_middle = std::hypot(at.x - x - 0.5, at.y - y - 0.5);
         if (off_middle < sum.off_middle) {
             sum.off_middle = off_middle;
-            sum.origin = {painter.face.part, trail.last};
+            sum.origin = {painter.face.part, point};
         }
         if (request_.channels.normal) sum.normal += painter.bent_normal(surface_, at);
     }
