@@ -122,7 +122,7 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
 class Packing {
 public:
     Packing(std::span<const AtlasTriangle> triangles, double scale, engine::Poll poll)
-        : triangles_(triangles), scale_(scale) {
+        : triangles_(triangles), scale_(scale), poll_(poll) {
         std::vector<Unit> strangers;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             poll();
@@ -147,6 +147,7 @@ public:
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
         for (std::size_t i = 0; i < strangers.size(); ++i) {
+            poll();
             Unit unit = strangers[i];
             const bool two = !unit.shape.single && i + 1 < strangers.size() &&
                              unit.shape.key() == strangers[i + 1].shape.key();
@@ -166,6 +167,7 @@ public:
     bool shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
         std::uint64_t x = 0, y = 0, shelf = 0;
         for (std::size_t i = 0; i < units_.size(); ++i) {
+            poll_();
             const Shape& shape = units_[i].shape;
             if (shape.width > width) return false;
             if (shape.height > shelf || x + shape.width > width) {
@@ -195,9 +197,11 @@ public:
         for (std::size_t begin = 0, end; begin < units_.size(); begin = end) {
             for (end = begin; end < units_.size() && units_[end].shape.size() == units_[begin].shape.size();)
                 ++end;
-            std::sort(spots.begin() + std::ptrdiff_t(begin), spots.begin() + std::ptrdiff_t(end));
+            std::sort(spots.begin() + std::ptrdiff_t(begin), spots.begin() + std::ptrdiff_t(end),
+                      engine::polled_less(poll_));
         }
         for (std::size_t i = 0; i < units_.size(); ++i) {
+            poll_();
             const Unit& unit = units_[i];
             const AtlasCell cell{spots[i].x, spots[i].y,  unit.shape.width, unit.shape.height,
                                  unit.first, unit.second, unit.joined};
@@ -220,6 +224,7 @@ private:
 
     std::span<const AtlasTriangle> triangles_;
     double scale_;
+    engine::Poll poll_;
     std::vector<Unit> units_;
 };
 

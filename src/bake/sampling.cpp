@@ -79,7 +79,7 @@ MipImage::Level MipImage::half(std::size_t from, engine::Poll poll) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
     result.rgba.reserve(std::size_t{result.width} * result.height * 4);
     for (std::uint32_t y = 0; y < result.height; ++y) {
-        poll(result.width / 8);
+        poll(result.width / 4);
         const Taps rows = taps(y, height(from), result.height);
         for (std::uint32_t x = 0; x < result.width; ++x) {
             const Taps columns = taps(x, width(from), result.width);

@@ -75,6 +75,7 @@ public:
         }
         std::vector<Vec4f> result(corners_.size());
         for (std::size_t c = 0; c < result.size(); ++c) {
+            poll_();
             result[c] = group_[c] == none ? any_tangent(normal(c)) : tangents_[group_[c]];
         }
         adopt(result);
@@ -123,6 +124,7 @@ private:
         edges.reserve(corners_.size());
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
             if (faces_[c / 3].flat) continue;
+            poll_();
             const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
             edges.push_back({low, high, c});
         }
@@ -132,6 +134,7 @@ private:
         });
         std::vector<std::uint32_t> waiting;
         for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+            poll_(2);
             // All that wait run the same way.
             waiting.clear();
             std::size_t first = 0;
@@ -197,6 +200,7 @@ private:
     void adopt(std::vector<Vec4f>& result) const {
         std::vector<std::uint32_t> donor(corners_.size(), none);
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+            poll_();
             if (!faces_[c / 3].flat && donor[vertex_[c]] == none) donor[vertex_[c]] = c;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) {

@@ -3,7 +3,7 @@
 
 #include "core/meshes.hpp"
 #include "core/original.hpp"
-#include "counted/steps.hpp"
+#include "counted/silence.hpp"
 #include "faqem/engine/components.hpp"
 #include "faqem/engine/double_faces.hpp"
 #include "faqem/engine/engine.hpp"
@@ -13,44 +13,11 @@
 
 using namespace faqem;
 using namespace faqem::engine;
+using test::longest_silence;
+using test::most_steps;
+using test::Watch;
 
 namespace {
-
-// A few thousandths of a second: a few thousand evaluations of a pair, of a few hundred basic blocks each
-// where little is inlined.
-constexpr std::uint64_t most_steps = 2'000'000;
-
-// How long nobody was asked.
-class Watch {
-public:
-    Poll poll() { return Poll(asker_); }
-    std::function<Continue(double)> progress() {
-        return [this](double) { return note(), Continue::yes; };
-    }
-    void note() {
-        longest_ = std::max(longest_, test::steps() - last_);
-        last_ = test::steps();
-        ++calls_;
-    }
-    // From the beginning of the work to its end; less than that was not asked for.
-    std::uint64_t longest() {
-        note();
-        CHECK(calls_ > 2);
-        return longest_;
-    }
-
-private:
-    std::uint64_t last_ = test::steps(), longest_ = 0;
-    int calls_ = 0;
-    Asker asker_{[this] { return note(), Continue::yes; }};
-};
-
-template <class Work>
-std::uint64_t longest_silence(Work&& work) {
-    Watch watch;
-    work(watch.poll());
-    return watch.longest();
-}
 
 template <class Metric, class Queue>
 std::uint64_t silence_of_engine(const TriangleMesh& mesh, Metric metric, std::size_t target) {
