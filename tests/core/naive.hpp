@@ -33,6 +33,9 @@ public:
     Naive(const TriangleMesh& mesh, const CompositeWeights& weights, const Rules& rules)
         : faces_(mesh.triangles), weights_(weights), rules_(rules) {
         for (const Vec3& p : mesh.positions) positions_.push_back(to_eigen(p));
+        for (const Triangle& t : faces_) {
+            for (const Index v : t) box_.extend(positions_[v]);
+        }
         const Edges all = edges(faces_);
         for (Index v = 0; v < positions_.size(); ++v) quadrics_.push_back(first_quadric(all, v));
         for (const auto& edge : all) evaluate(edge.first.first, edge.first.second);
@@ -112,10 +115,12 @@ private:
         if (weights_.area_term == AreaTerm::before_placement) q += area;
         const Eigen::Matrix3d a = q.topLeftCorner<3, 3>();
         const Vector3 b = q.topRightCorner<3, 1>();
-        Vector3 p = positions_[u];
-        if (a.determinant() > 1e-9 * std::pow(a.trace(), 3)) {
-            p = a.fullPivLu().solve(-b);
-        } else {
+        Vector3 p = a.fullPivLu().solve(-b);
+        // Not in the paper: a minimum farther outside of the box than a tenth of its diagonal counts as none.
+        const double outside = std::max((box_.min() - p).maxCoeff(), (p - box_.max()).maxCoeff());
+        const bool is_near = outside <= 0.1 * box_.diagonal().norm();
+        if (!(a.determinant() > 1e-9 * std::pow(a.trace(), 3)) || !is_near) {
+            p = positions_[u];
             for (const Vector3& other : {positions_[v], Vector3((positions_[u] + positions_[v]) / 2)}) {
                 if (error(q, other) < error(q, p)) p = other;
             }
@@ -175,6 +180,7 @@ private:
 
     std::vector<Vector3> positions_;
     std::vector<Triangle> faces_;
+    Eigen::AlignedBox3d box_;
     std::vector<Matrix4> quadrics_;
     std::map<std::pair<Index, Index>, Candidate> queue_;
     std::vector<Collapse> trace_;

@@ -149,8 +149,9 @@ TEST_CASE("one triangle, and one that is a point") {
     const SimplifyResult gone = simplify(test::scaled(triangle, 0).view(), options(Preset::paper, faces(1)));
     CHECK(gone.mesh.triangles.empty());
     CHECK(gone.report.faces_dropped == 1);
-    REQUIRE(gone.report.warnings.size() == 1);
+    REQUIRE(gone.report.warnings.size() == 2);
     CHECK(gone.report.warnings[0].find("1 faces without area") == 0);
+    CHECK(gone.report.warnings[1].find("nothing is left") != std::string::npos);
 }
 
 TEST_CASE("faces without area are dropped and counted") {
