@@ -1,5 +1,7 @@
 /* What code blocks take for granted: the reader's own data. */
 #include <faqem/faqem_asset.h>
+#include <faqem/faqem_levels.h>
 
 static faqem_options* options;
 static faqem_error error;
+static faqem_mesh mesh;
