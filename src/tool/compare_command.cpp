@@ -41,8 +41,8 @@ Json colors_json(const std::optional<ColorComparison>& colors) {
 }
 
 int run(const Arguments& arguments) {
-    const ModelComparison all =
-        compare_models(load_placed(arguments.a), load_placed(arguments.b), arguments.options);
+    const PlacedModel a = load_placed(arguments.a), b = load_placed(arguments.b);
+    const ModelComparison all = compare_models(a, b, arguments.options);
     if (!all.colors_warning.empty()) std::cerr << "faqem: warning: " << all.colors_warning << "\n";
     const Comparison& result = all.distances;
     const double d = result.diagonal;
