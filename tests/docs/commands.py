@@ -23,7 +23,7 @@ def run(command, folder, environment):
 
 
 def make_seeds(tool, model, folder):
-    """A model of a few hundred faces, in all formats and under all names, and the histories of some."""
+    """A model of a few hundred faces, in all formats and under all names, the histories of some, and a profile."""
     small = ["--ratio", "0.1", "--texture-size", "64", "--quiet"]
     for name in MODELS:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -33,6 +33,8 @@ def make_seeds(tool, model, folder):
         subprocess.run([tool, "lod", folder / name, folder / "levels.tmp", "--levels", "0.9,0.2", "--history", history,
                         "--bake", "none", "--quiet"], check=True)
         shutil.rmtree(folder / "levels.tmp")
+    _, profile = next(pages.blocks(pages.SOURCE / "docs" / "profile.md", "json"))
+    (folder / "game.json").write_text("\n".join(profile), encoding="utf-8")
 
 
 def commands(lines):

@@ -28,7 +28,7 @@ def options_of_page(page):
             name = heading.group(1)
             if name:
                 commands[name] = set()
-        if name and line.startswith("| `--"):
+        if name and line.startswith("| `-"):
             commands[name] |= set(re.findall(r"--[a-z-]+", line.split("|")[1]))
     return commands
 
