@@ -33,8 +33,8 @@ void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll
                     SimplifyResult& result);
 
 /// Puts vertices of faces that have no area back to where they were, until all have one: moves and roundings
-/// of the relaxation are not to make what collect() has left out. \return false: some have none with all
-/// their vertices back
+/// of the relaxation are not to make what collect() has left out.
+/// \return false: some have none with all their vertices back
 bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now);
 
 /// Adds to the history of the result where its vertices went in the end, and which edges were swapped.

@@ -42,9 +42,11 @@ public:
     PositionView(const std::vector<float>& xyz) : PositionView(std::span(xyz)) {}
 
     /// Any layout: sizeof(Vertex) is the stride of positions in an array of Vertex; of a matrix with a row
-    /// per vertex, column by column, it is sizeof(double), and the step sizeof(double) * rows. \param first
-    /// x of the first vertex; need not be aligned \param count   of vertices \param stride  bytes from a
-    /// vertex to the next one \param step    bytes from x to y, and from y to z
+    /// per vertex, column by column, it is sizeof(double), and the step sizeof(double) * rows.
+    /// \param first   x of the first vertex; need not be aligned
+    /// \param count   of vertices
+    /// \param stride  bytes from a vertex to the next one
+    /// \param step    bytes from x to y, and from y to z
     PositionView(const double* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(double))
         : data_(first), size_(count), stride_(stride), step_(step), is_double_(true) {}

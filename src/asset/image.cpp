@@ -79,8 +79,9 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::stri
 }
 
 /// Calls work(begin, end) for bands of rows, each of which takes a few thousandths of a second, and asks
-/// before each. OpenImageIO has a callback of its own, but calls it once for 64 MB of pixels. \param work
-/// false where it has failed. \return whether it never has
+/// before each. OpenImageIO has a callback of its own, but calls it once for 64 MB of pixels.
+/// \param work  false where it has failed
+/// \return whether it never has
 template <class Work>
 bool in_bands(const Pixels& pixels, engine::Poll poll, Work&& work) {
     constexpr std::uint32_t pixels_of_band = 16384;

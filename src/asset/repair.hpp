@@ -21,9 +21,9 @@ std::string counted(std::uint64_t count, const std::string& noun);
 void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
 
 /// Drops the faces at vertices with a non-finite position, and those vertices; resets other non-finite
-/// numbers (normal to zero, UV to zero, colour to white). Adds one counted warning for each kind. \param
-/// dropped   faces the reader has left out already for the same reason \throws InputError  `no faces` when
-/// none is left
+/// numbers (normal to zero, UV to zero, colour to white). Adds one counted warning for each kind.
+/// \param dropped  faces the reader has left out already for the same reason
+/// \throws InputError  `no faces` when none is left
 void repair_numbers(Part& part, const std::string& file, std::uint64_t dropped,
                     std::vector<std::string>& warnings);
 

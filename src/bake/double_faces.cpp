@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bake/groups.hpp"
+#include "faqem/engine/weld.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -14,22 +15,9 @@ bool has_one_material(const Part& part) {
                        [&](Index m) { return m == part.face_material.front(); });
 }
 
-// Per vertex: the first one at its place.
-std::vector<Index> first_at_place(const std::vector<Vec3>& positions) {
-    std::vector<Index> order(positions.size()), result(positions.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(),
-              [&](Index a, Index b) { return std::tie(positions[a], a) < std::tie(positions[b], b); });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        result[order[i]] = same ? result[order[i - 1]] : order[i];
-    }
-    return result;
-}
-
 // The smallest corner first, so that doubles are equal and faces back to back are not.
 std::vector<Triangle> corner_places(const Part& part) {
-    const std::vector<Index> first = first_at_place(part.positions);
+    const std::vector<Index> first = engine::weld_exact(part.positions);
     std::vector<Triangle> result;
     result.reserve(part.triangles.size());
     for (const Triangle& t : part.triangles) {

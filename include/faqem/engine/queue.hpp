@@ -144,7 +144,7 @@ public:
     }
 
     /// Makes one level of the lowest ones, which have at most so many pairs together. Who knows that all of
-    /// these will go may let them go block by block. O(pairs)
+    /// these will go may let them go block by block. O(pairs + levels times blocks)
     void merge_lowest(std::size_t pairs) {
         std::size_t level = ground_;
         for (std::size_t below = 0; level + 1 < level_count; ++level) {

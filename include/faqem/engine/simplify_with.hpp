@@ -71,11 +71,12 @@ inline void collect(const Complex& complex, CustomResult& result) {
 }  // namespace simplify_with_detail
 
 /// Collapses pairs, cheapest first by `metric`, until `options` says that it is enough. Vertices at one place
-/// are one. There are no units but the model's: a metric that needs a certain scale must see to it. \param
-/// mesh     any triangle soup; positions, triangles and locks count \param metric   what a collapse costs and
-/// where it goes; a CustomMetric, say \param options  target_faces, rules, ladder, progress \throws
-/// InputError  an index is out of range, a position is not finite, or an array has the wrong length O(n log
-/// n) in the number of faces for bounded valence.
+/// are one. There are no units but the model's: a metric that needs a certain scale must see to it.
+/// \param mesh     any triangle soup; positions, triangles and locks count
+/// \param metric   what a collapse costs and where it goes; a CustomMetric, say
+/// \param options  target_faces, rules, ladder, progress
+/// \throws InputError  an index is out of range, a position is not finite, or an array has the wrong length
+/// O(n log n) in the number of faces for bounded valence.
 template <CollapseMetric Metric, CollapseQueue Queue = HeapQueue>
 CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOptions& options) {
     simplify_with_detail::check(mesh);

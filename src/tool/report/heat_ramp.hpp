@@ -20,7 +20,8 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1
                                                                           {170, 220, 50},
                                                                           {253, 231, 37}}};
 
-/// \param share  of the ramp; below 0 and not a number: 0, above 1: 1 \return linear RGBA
+/// \param share  of the ramp; below 0 and not a number: 0, above 1: 1
+/// \return linear RGBA
 Vec4f heat_colour(double share);
 
 }  // namespace faqem::tool
