@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 #include "parallel.hpp"
 
@@ -23,8 +24,6 @@ using engine::Vector3;
 // Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
 // more.
 constexpr double local_share = 0.8;
-// Costs come out of order among the lowest; of more, the error would grow.
-constexpr double sure_share = 0.3;
 
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
@@ -255,9 +254,8 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
     };
-    engine::Engine<Metric, engine::BucketQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
-                                                                     metric, recorder, nullptr,
-                                                                     engine::BucketQueue(queue_block_bits));
+    engine::Engine<Metric, engine::RoundQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
+                                                                    metric, recorder);
     done.result = engine.run(options);
     recorder.end_step(complex);
     progress(to_remove, known, poll);
@@ -342,8 +340,6 @@ engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t f
     options.ladder = engine::Ladder::stay;
     const auto inside = static_cast<double>(faces - between);
     options.target_faces = between + static_cast<std::size_t>(local_share * share * inside);
-    const double going = 1 - static_cast<double>(options.target_faces) / static_cast<double>(faces);
-    options.sure_share = sure_share * going * going;
     return options;
 }
 

@@ -48,9 +48,6 @@ std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vert
 /// than the result: the faces that did not take part are denser, and will go first.
 inline constexpr double spare_share = 1.15;
 
-/// What the queue of a block keeps together fits into the cache of a core, more or less.
-inline constexpr unsigned queue_block_bits = 12;
-
 /// What the engine of a block is told.
 /// \param faces, between  of the block: all, and those that have a corner elsewhere
 /// \param share           of the others that will stay

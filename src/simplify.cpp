@@ -12,6 +12,7 @@
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/importance.hpp"
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 #include "ground.hpp"
 #include "prepare.hpp"
@@ -27,6 +28,9 @@
 namespace faqem {
 
 namespace {
+
+// Up to which the queue is exact.
+constexpr std::size_t few_pairs = 1 << 17;
 
 using detail::Stopwatch;
 using engine::Complex;
@@ -66,16 +70,16 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
                        Recorder& recorder, const engine::LoopOptions& loop, const detail::Ground& ground,
                        GoesOn&& goes_on) {
     engine::GroupCurves* curves = work.curves.empty() ? nullptr : &work.curves;
-    const auto collapse = [&]<class Queue>(auto metric, Queue) {
-        engine::Engine<decltype(metric), Queue, Recorder> engine(work.complex, pairs, work.wedges,
-                                                                 work.locked, metric, recorder, curves);
+    const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
+        engine::Engine<decltype(metric), Queue, Recorder> engine(
+            work.complex, pairs, work.wedges, work.locked, metric, recorder, curves, std::move(queue));
         engine::LoopResult result = engine.run(loop);
         while (goes_on(result)) result = engine.go_on(loop);
         return result;
     };
     const auto weighted = [&](auto metric, auto queue) {
-        if (work.importance.empty()) return collapse(std::move(metric), queue);
-        return collapse(engine::ImportanceMetric(std::move(metric), work.importance), queue);
+        if (work.importance.empty()) return collapse(std::move(metric), std::move(queue));
+        return collapse(engine::ImportanceMetric(std::move(metric), work.importance), std::move(queue));
     };
     switch (settings.carry) {
         case detail::Settings::Carry::memory: {
@@ -84,13 +88,13 @@ engine::LoopResult run(Work& work, engine::PairTable& pairs, const detail::Setti
             return weighted(engine::MemoryMetric(settings.weights, seam, curves), engine::HeapQueue());
         }
         case detail::Settings::Carry::memoryless:
-            return weighted(engine::MemorylessMetric({}, curves), engine::BucketQueue());
+            return weighted(engine::MemorylessMetric({}, curves), engine::RoundQueue(few_pairs));
         case detail::Settings::Carry::tracked:
             break;
     }
     return weighted(engine::TrackedMetric({}, *ground.original(), engine::Lineage(ground.into()),
                                           loop.target_faces, loop.distance_weight, curves),
-                    engine::BucketQueue());
+                    engine::RoundQueue(few_pairs));
 }
 
 // Everything of one run, in the order it is made.

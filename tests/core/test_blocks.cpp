@@ -8,6 +8,7 @@
 
 #include "arrange.hpp"
 #include "core/original.hpp"
+#include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 
 using namespace faqem;
@@ -55,8 +56,7 @@ std::vector<BlockStep> alone(const TriangleMesh& mesh, const LoopOptions& loop, 
     const std::size_t faces = complex.face_count();
     const double share = spare_share * static_cast<double>(wanted) / static_cast<double>(3 * faces);
     Steps steps;
-    Engine<TrackedMetric, BucketQueue, Steps>(complex, pairs, wedges, free, metric, steps, nullptr,
-                                              BucketQueue(queue_block_bits))
+    Engine<TrackedMetric, RoundQueue, Steps>(complex, pairs, wedges, free, metric, steps)
         .run(block_options(loop, faces, 0, share));
     return steps.steps;
 }

@@ -6,6 +6,7 @@
 #include "counted/steps.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 
 using namespace faqem;
@@ -54,7 +55,7 @@ LoopResult run(Complex& complex, Metric metric) {
     Wedges wedges;
     std::vector<std::uint8_t> free(complex.vertex_slots(), 0);
     NoRecorder nothing;
-    return Engine<Metric, BucketQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing).run(loop);
+    return Engine<Metric, RoundQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing).run(loop);
 }
 
 // Of simplifying to a tenth, per face.

@@ -8,6 +8,7 @@
 #include "faqem/engine/double_faces.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 #include "faqem/engine/weld.hpp"
 
@@ -61,11 +62,11 @@ TEST_CASE("polls: no part of the preparations is silent for long") {
 
 TEST_CASE("polls: no part of the collapse loop is silent for long") {
     const TriangleMesh mesh = test::shaken(test::icosphere(5), 0.005, 1);
-    CHECK(silence_of_engine<MemorylessMetric, BucketQueue>(mesh, MemorylessMetric(), 200) < most_steps);
+    CHECK(silence_of_engine<MemorylessMetric, RoundQueue>(mesh, MemorylessMetric(), 200) < most_steps);
     CHECK(silence_of_engine<MemoryMetric, HeapQueue>(mesh, MemoryMetric({}), 200) < most_steps);
     const test::OriginalOf original(mesh);
     for (const std::size_t target : {std::size_t{2000}, std::size_t{40}}) {
-        CHECK(silence_of_engine<TrackedMetric, BucketQueue>(
+        CHECK(silence_of_engine<TrackedMetric, RoundQueue>(
                   mesh, TrackedMetric({}, original.surface, original.lineage, target, 0.1), target) <
               most_steps);
     }
@@ -91,7 +92,7 @@ TEST_CASE("polls: who cancels inside of a collapse finds the complex whole") {
         int calls = 0;
         loop.progress = [&](double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
         const LoopResult result =
-            Engine<MemorylessMetric, BucketQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing)
+            Engine<MemorylessMetric, RoundQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing)
                 .run(loop);
         if (result.stop != StopReason::cancelled) break;
         CHECK(calls == stop);

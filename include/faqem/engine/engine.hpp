@@ -52,9 +52,6 @@ struct LoopOptions {
     /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
     /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
     double distance_weight = 0;
-    /// This share of all pairs, the cheapest, may go in the order that suits the memory, since all of them
-    /// will go whatever happens; of a queue that can do so. In [0, 1]
-    double sure_share = 0;
     /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
     double tiny_component = 0;
     /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
@@ -108,11 +105,9 @@ public:
         return unless_cancelled([&] {
             if (distance_weight_ > 0) borders_.emplace(complex_, pairs_, options.first_context, poll_);
             queue_.reserve(pairs_.size());
+            if constexpr (AimingQueue<Queue>) queue_.aim(pairs_left(options.target_faces), poll_);
             initialise(metric_, complex_, pairs_, poll_);
             seed();
-            if constexpr (requires { queue_.merge_lowest(0); }) {
-                if (options.sure_share > 0) queue_.merge_lowest(sure_pairs(options));
-            }
             seeded_at_ = complex_.face_count();
             collapse_to_target(options);
         });
@@ -159,8 +154,10 @@ private:
         }
     }
 
-    std::size_t sure_pairs(const LoopOptions& options) const {
-        return static_cast<std::size_t>(options.sure_share * static_cast<double>(pairs_.size()));
+    std::size_t pairs_left(std::size_t faces) const {
+        const double share =
+            static_cast<double>(faces) / static_cast<double>(std::max<std::size_t>(first_count_, 1));
+        return static_cast<std::size_t>(share * static_cast<double>(pairs_.size()));
     }
 
     // Tells whether all pairs are worth another look, after a rung of the ladder perhaps.
@@ -185,7 +182,7 @@ private:
     bool drain(const LoopOptions& options) {
         while (complex_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
-            poll_();
+            poll_(evaluations_per_collapse);
             const Index pair = queue_.pop();
             if (!try_collapse(pair)) veto(pair);
         }
@@ -230,6 +227,14 @@ private:
             queue_.erase(pair);
             veto(pair);
         }
+    }
+
+    // Evaluates the pair, now or when its turn comes.
+    void renew(Index pair) {
+        if constexpr (LazyQueue<Queue>) {
+            if (queue_.outdate(pair) && !lifted_[pair]) return;
+        }
+        evaluate(pair);
     }
 
     // The pair is out of the queue, or far behind in it, until the surroundings of one of its ends change.
@@ -306,6 +311,11 @@ private:
 
     // A pair that turns out dearer than it seemed, and than the next one, waits for its turn.
     bool postpone(Index pair, double cost) {
+        if constexpr (LazyQueue<Queue>) {
+            // To try a pair at a hub is a long look at it: not before its turn.
+            const bool is_long = complex_.is_hub(pairs_.first(pair)) || complex_.is_hub(pairs_.second(pair));
+            if (is_long) cost *= queue_.slack();
+        }
         if (!queue_.has_before(cost)) return false;
         queue_.set(pair, cost);
         return true;
@@ -327,7 +337,7 @@ private:
         metric_.collapsed(complex_, pairs_, survivor, changes_);
         ++result_.collapses;
         for (const PairTable::Change& change : changes_) {
-            if (change.neighbour.pair != no_index) evaluate(change.neighbour.pair);
+            if (change.neighbour.pair != no_index) renew(change.neighbour.pair);
         }
         for (const PairTable::Change& change : changes_) {
             const Staleness staleness = metric_.staleness(change);
@@ -453,6 +463,8 @@ private:
         ++result_.components_deleted;
     }
 
+    // As long as it takes, about, with the tests and without the pairs around it.
+    static constexpr std::uint64_t evaluations_per_collapse = 8;
     static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
     static constexpr double fold_factor = 2;
 

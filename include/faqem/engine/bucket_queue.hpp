@@ -1,0 +1,92 @@
+#pragma once
+/// \file
+/// A queue of buckets: costs that are nearly equal count as equal.
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/queue.hpp"
+
+namespace faqem::engine {
+
+/// Buckets of nearly equal costs, for metrics whose costs are estimates: several times as fast as the heap.
+/// Costs within a sixty-fourth of a power of two of each other come out in the order in which they came in. All calls
+/// take O(1), amortised.
+class BucketQueue {
+public:
+    BucketQueue() : buckets_(bucket_count) {}
+
+    void reserve(std::size_t pairs) {
+        place_.assign(pairs, nowhere);
+        for (Bucket& bucket : buckets_) bucket = {};
+        size_ = 0;
+        lowest_ = bucket_count;
+    }
+
+    bool empty() const { return size_ == 0; }
+    bool contains(Index pair) const { return place_[pair] != nowhere; }
+    bool has_before(double cost) const { return lowest_ < bucket_for(cost); }
+
+    void set(Index pair, double cost) {
+        const std::uint16_t bucket = bucket_for(cost);
+        if (place_[pair] == bucket) return;
+        size_ += place_[pair] == nowhere;
+        place_[pair] = bucket;
+        buckets_[bucket].pairs.push_back(pair);
+        lowest_ = std::min(lowest_, bucket);
+        find_lowest();
+    }
+
+    void erase(Index pair) {
+        if (!contains(pair)) return;
+        place_[pair] = nowhere;
+        --size_;
+        find_lowest();
+    }
+
+    Index pop() {
+        const Index pair = buckets_[lowest_].pairs[buckets_[lowest_].first];
+        erase(pair);
+        return pair;
+    }
+
+private:
+    /// Pairs in order of arrival. One that has left since is still there: place_ tells.
+    struct Bucket {
+        std::vector<Index> pairs;
+        std::size_t first = 0;
+    };
+    /// The bits of a float but the sign, down to six of its fraction.
+    static constexpr std::uint16_t bucket_count = 1 << 14, nowhere = 1 << 15;
+    static constexpr double dearest = std::numeric_limits<float>::max();
+
+    static std::uint16_t bucket_for(double cost) {
+        return static_cast<std::uint16_t>(
+            std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, dearest))) >> 17);
+    }
+
+    /// To the first pair that is still where it was put.
+    void find_lowest() {
+        if (size_ == 0) lowest_ = bucket_count;
+        for (; lowest_ < bucket_count; ++lowest_) {
+            Bucket& bucket = buckets_[lowest_];
+            while (bucket.first < bucket.pairs.size() && place_[bucket.pairs[bucket.first]] != lowest_)
+                ++bucket.first;
+            if (bucket.first < bucket.pairs.size()) return;
+            bucket.pairs.clear();
+            bucket.first = 0;
+        }
+    }
+
+    std::vector<Bucket> buckets_;
+    std::uint16_t lowest_ = bucket_count;  // all buckets below are empty
+    std::vector<std::uint16_t> place_;     // the bucket of each pair
+    std::size_t size_ = 0;
+};
+
+}  // namespace faqem::engine
