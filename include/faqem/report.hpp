@@ -33,7 +33,7 @@ enum class Refusal {
     seam,         ///< a kept UV seam would be torn
     group,        ///< a kept border between groups would be damaged
     zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
-    last_faces,   ///< nothing at all would be left
+    last_faces,   ///< nothing at all would be left, or nothing with an area
 };
 inline constexpr std::size_t refusal_kinds = 9;
 

@@ -185,6 +185,19 @@ TEST_CASE("the last faces are not collapsed away") {
     CHECK(refused(result, Refusal::last_faces) > 0);
 }
 
+TEST_CASE("the last face with an area is not collapsed away while others have none") {
+    Script script;
+    script.offers = {{{1, 2}, {4, 0, 0}}, {{3, 4}, {2, 0, 0}}};
+    // Two faces without area hang on the edge 0 1.
+    Play<Script> play(test::make({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {2, 0, 0}, {1, 0, 0}},
+                                 {{0, 1, 2}, {1, 0, 3}, {3, 0, 4}}),
+                      script);
+    const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(refused(result, Refusal::last_faces) == 1);
+    CHECK(play.complex.alive(0));
+}
+
 TEST_CASE("the end of a border waits for its distance to the next one") {
     // A ring between a triangle of side 4 and a hole 3 4 5 of side 1; squares beside it cost 0, 1 and 2.
     //

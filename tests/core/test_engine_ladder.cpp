@@ -187,3 +187,13 @@ TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as
         });
     }
 }
+
+TEST_CASE("components without area are deleted first, however long they are") {
+    const TriangleMesh line = test::make({{0, 0, 1}, {100, 0, 1}, {50, 0, 1}}, {{0, 1, 2}});
+    Play<Script> play(test::both(line, test::quad()), Script());
+    const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(result.components_deleted == 1);
+    CHECK(taken(result, Rung::tiny_components) == 1);
+    CHECK_FALSE(play.complex.alive(0));
+}

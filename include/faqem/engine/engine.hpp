@@ -23,6 +23,7 @@
 #include "faqem/engine/border_loops.hpp"
 #include "faqem/engine/complex.hpp"
 #include "faqem/engine/components.hpp"
+#include "faqem/engine/degenerate.hpp"
 #include "faqem/engine/double_faces.hpp"
 #include "faqem/engine/group_curves.hpp"
 #include "faqem/engine/legality.hpp"
@@ -103,6 +104,7 @@ public:
         ask_as(options);
         if (options.progress) poll_ = Poll(asker_);
         return unless_cancelled([&] {
+            degenerate_ = DegenerateFaces(complex_, poll_);
             if (distance_weight_ > 0) borders_.emplace(complex_, pairs_, options.first_context, poll_);
             queue_.reserve(pairs_.size());
             if constexpr (AimingQueue<Queue>) queue_.aim(pairs_left(options.target_faces), poll_);
@@ -247,7 +249,8 @@ private:
         if (!found) return false;
         found->cost += border_cost(pair);
         if (postpone(pair, found->cost)) return true;
-        if (pairs_.face_count(pair) >= complex_.face_count()) return refuse(Refusal::last_faces), false;
+        if (degenerate_.are_all_others(complex_, pairs_, pair, poll_))
+            return refuse(Refusal::last_faces), false;
         if (const auto refusal = legality_.check(complex_, pairs_, u, v, pair, found->point, rules(pair))) {
             refuse(*refusal);
             const bool may_lift = is_lifted_by_size(*refusal);
@@ -326,6 +329,7 @@ private:
         recorder_.collapsing(complex_, survivor, gone, to);
         metric_.collapsing(complex_, pairs_, survivor, gone, p);
         wedges_.collapsing(complex_, survivor, gone, p);
+        degenerate_.collapsing(complex_, pairs_, pair);
         if (curves_) curves_->collapsing(survivor, gone);
         if (borders_) borders_->collapsing(pairs_, survivor, gone, pair);
         complex_.collapse(survivor, gone, p);
@@ -425,9 +429,14 @@ private:
     }
 
     // Deletes whole components without locked vertices, smallest box first, down to the target; never the
-    // largest.
+    // largest. What has no area will not be missed: it has no size.
     bool delete_components(const LoopOptions& options, double largest_diagonal) {
         std::vector<Component> all = components(complex_, poll_);
+        for (Component& c : all) {
+            const bool is_line = std::all_of(c.faces.begin(), c.faces.end(),
+                                             [&](Index f) { return is_degenerate(complex_, f); });
+            if (is_line) c.box = Eigen::AlignedBox3d(c.box.min());
+        }
         const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
         std::stable_sort(all.begin(), all.end(),
                          [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
@@ -476,6 +485,7 @@ private:
     Recorder& recorder_;
     GroupCurves* curves_;
     Legality legality_;
+    DegenerateFaces degenerate_;
     std::optional<BorderLoops> borders_;
     double distance_weight_ = 0;
     Queue queue_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/degenerate.hpp"
 #include "faqem/engine/folds.hpp"
 #include "faqem/engine/pairs.hpp"
 #include "faqem/report.hpp"
@@ -24,9 +25,6 @@ struct Rules {
     /// Edges whose faces have a cosine below this are folds, of which there may not be more; -1: no test.
     double least_fold = -1;
 };
-
-/// Height over longest edge below which a face counts as degenerate.
-inline constexpr double degenerate_aspect = 1e-9;
 
 /// Tests collapses; holds scratch memory only.
 class Legality {
@@ -64,7 +62,7 @@ private:
             const double along = complex.normal(f).dot(area_vector);
             if (least_turn > -1 && complex.area(f) > 0 && !(along >= least_turn * length)) {
                 refusal = Refusal::flip;
-            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(complex, moved, f, a, b)) {
+            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(complex, f)) {
                 refusal = Refusal::degenerate;
             }
             const double scale = length > 0 ? 1 / length : 0;
@@ -72,20 +70,6 @@ private:
             return !refusal;
         });
         return refusal;
-    }
-
-    // \param to_a, to_b  sides of a triangle
-    static bool is_degenerate(double doubled_area, const Vector3& to_a, const Vector3& to_b) {
-        const double a = to_a.squaredNorm(), b = to_b.squaredNorm();
-        // The third side squared is at most twice their sum: few triangles are worth a closer look.
-        if (doubled_area > 2 * degenerate_aspect * (a + b)) return false;
-        const double longest = std::max({a, b, (to_b - to_a).squaredNorm()});
-        return !(doubled_area > degenerate_aspect * longest);
-    }
-
-    static bool is_degenerate(const Complex& complex, Index v, Index f, Index a, Index b) {
-        const Vector3& p = complex.position(v);
-        return is_degenerate(2 * complex.area(f), complex.position(a) - p, complex.position(b) - p);
     }
 
     // Where (u, v) is an edge and all edges at u and v have at most two faces: the link condition for
