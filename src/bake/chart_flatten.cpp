@@ -318,9 +318,10 @@ Chart chart_of(Patch& patch, const std::vector<Complex>& z, double stretch) {
 
 Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
                    engine::Poll poll) {
+    Flattening result;
+    if (faces.size() > most_faces_per_chart) return result;
     poll(faces.size());
     Patch patch(all, std::move(faces));
-    Flattening result;
     if (patch.size() == 1) {
         const Local& local = patch.local(0);
         result.chart = {patch.faces(), {local.at}, 1, local.area};

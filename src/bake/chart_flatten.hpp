@@ -2,6 +2,7 @@
 /// \file
 /// From faces on a surface to flat ones.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,10 +26,15 @@ struct Flattening {
 
 inline constexpr std::uint64_t flatten_work = 256;
 
+/// More faces are not laid flat in one piece: the time between two questions to the poll grows with them to
+/// the power 1.5, and that for so many is 25 ms.
+inline constexpr std::size_t most_faces_per_chart = 8192;
+
 /// Lays connected faces flat with little stretch. Begins with the projection along their mean normal if that
 /// turns none over, else with a least squares conformal map (Lévy et al. 2002), and goes on with rounds of
 /// as-rigid-as-possible parametrisation (Liu et al. 2008), of which the best is taken. One face alone is
-/// always flat, and exact. Faces with less height than a thousandth of their longest side get that much.
+/// always flat, and exact. Faces with less height than a thousandth of their longest side get that much. More
+/// than `most_faces_per_chart` are not tried: the outcome is `overlaps`.
 /// \param all    of the page
 /// \param faces  into `all`, ascending, connected over `across`
 /// \param work   as in apart(); a flattening itself counts as `flatten_work` comparisons a face

@@ -132,6 +132,16 @@ TEST_CASE("soup, doubles and faces without area pass") {
     check_charts(faces, make_charts(faces, 1));
 }
 
+TEST_CASE("a plane of more faces than are laid flat at once is cut in pieces of that size") {
+    const auto faces = test::chart_faces(test::grid(70), 1);
+    REQUIRE(faces.size() > most_faces_per_chart);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(charts.given_up == 0);
+    CHECK(charts.charts.size() < 8);
+    for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= most_faces_per_chart);
+}
+
 TEST_CASE("densities that differ by more than a factor of two keep charts apart") {
     auto faces = test::chart_faces(test::grid(8), 10);
     for (std::size_t f = 0; f < faces.size(); ++f) {

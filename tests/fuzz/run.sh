@@ -22,7 +22,7 @@ for target in "$@"; do
     [ ! -f "$words" ] || dictionary="-dict=$words"
     echo "== $target, $seconds seconds"
     # shellcheck disable=SC2086  # no dictionary is no argument
-    "$build/tests/fuzz/fuzz_$target" $dictionary -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 \
+    "$build/tests/fuzz/fuzz_$target" $dictionary -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=120 \
         -max_len=8192 -print_funcs=0 -print_final_stats=1 -artifact_prefix="$build/found/$target-" \
         "$build/corpus/$target" "$build/seeds/$target"
 done

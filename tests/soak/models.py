@@ -1,0 +1,124 @@
+"""Models of a folder, each with every preset at several ratios, and baked once: crashes and wrong results are failures.
+
+Usage: models.py TOOL FOLDER [--seconds N] [--only NAME...]; meant for the tool of the preset `sanitize`. The smallest
+files come first. Interrupted, it prints the table of what it has done.
+"""
+
+import argparse
+import collections
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+KINDS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
+PRESETS = ("qem", "paper", "stmw", "fast", "balanced", "best")
+RATIOS = (0.1, 0.01, 0.001, 1)
+BAKED = "--ratio 0.1 --texture-size 256"
+COLUMNS = ("tried", "refused", "on target", "stopped above", "repaired", "not finished", "failed")
+REFUSED = (3, 4)  # exit codes: bad input, unsupported input
+
+
+def run(*words, seconds):
+    """Standard output, standard error and the exit code, None where the time was up."""
+    suppressions = pathlib.Path(__file__).resolve().parent.parent / "lsan-suppressions.txt"
+    environment = {**os.environ, "LSAN_OPTIONS": f"suppressions={suppressions}:print_suppressions=0"}
+    try:
+        done = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=seconds, env=environment,
+                              errors="replace")
+    except subprocess.TimeoutExpired:
+        return "", "", None
+    return done.stdout, done.stderr, done.returncode
+
+
+def fault(arguments, report, out, ratio):
+    """What is wrong with a result; empty if nothing is."""
+    if (report["faces_out"] <= report["target_faces"]) != (report["stop_reason"] == "reached_target"):
+        return "the reason to stop does not fit the faces"
+    if report["faces_out"] == 0:
+        return "nothing is left"
+    if ratio == 1 and report["collapses"] > 0:
+        return "something was collapsed"
+    if report["faces_dropped"] > 0 and not report["warnings"]:
+        return "no warning"
+    text, errors, code = run(arguments.tool, "info", out, "--json", seconds=arguments.seconds)
+    if code != 0:
+        return f"cannot be read again: {last_line(errors)}"
+    faces = json.loads(text)["total"]["faces"]
+    return "" if faces >= report["faces_out"] else f"has {faces} faces, the report {report['faces_out']}"
+
+
+def last_line(errors):
+    lines = [line for line in errors.splitlines() if line.strip()]
+    told = [line for line in lines if line.startswith(("SUMMARY:", "faqem:")) or "runtime error" in line]
+    return (told or lines or ["nothing is said"])[0]
+
+
+def judge(arguments, file, options, ratio, row):
+    """Counts one run. Returns what is wrong; empty if nothing is."""
+    with tempfile.TemporaryDirectory() as folder:
+        out, report = pathlib.Path(folder) / "out.glb", pathlib.Path(folder) / "report.json"
+        _, errors, code = run(arguments.tool, "simplify", file, out, *options.split(), "--report", report, "--quiet",
+                              seconds=arguments.seconds)
+        row["tried"] += 1
+        if code is None:
+            row["not finished"] += 1
+            return ""
+        if code in REFUSED and errors.startswith(f"faqem: {file}: "):
+            row["refused"] += 1
+            return ""
+        if code != 0:
+            return f"exit code {code}: {last_line(errors)}"
+        told = json.loads(report.read_text(encoding="utf-8"))
+        row["on target" if told["stop_reason"] == "reached_target" else "stopped above"] += 1
+        row["repaired"] += told["faces_dropped"] > 0
+        return fault(arguments, told, out, ratio)
+
+
+def models(folder):
+    """The smallest first."""
+    found = [file for file in pathlib.Path(folder).rglob("*") if file.suffix.lower() in KINDS and file.is_file()]
+    return sorted(found, key=lambda file: (file.stat().st_size, file))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("tool")
+    parser.add_argument("folder")
+    parser.add_argument("--seconds", type=float, default=120, help="for one run (default 120)")
+    parser.add_argument("--only", nargs="+", help="names of files")
+    arguments = parser.parse_args()
+    work = [(preset, ratio, f"--preset {preset} --ratio {ratio} --bake none") for ratio in RATIOS for preset in PRESETS]
+    work.append(("balanced, baked", 0.1, BAKED))
+    rows = collections.defaultdict(collections.Counter)
+    refused = {}
+    is_good = True
+    try:
+        for file in models(arguments.folder):
+            if arguments.only and file.name not in arguments.only:
+                continue
+            for name, ratio, options in work:
+                row = rows[name]
+                before = row["refused"], row["not finished"]
+                found = judge(arguments, file, options, ratio, row)
+                if found:
+                    row["failed"] += 1
+                    is_good = False
+                    print(f"{file} {options}: {found}", flush=True)
+                if row["not finished"] > before[1]:
+                    print(f"{file} {options}: not finished", flush=True)
+                if row["refused"] > before[0]:
+                    refused[file.name] = True
+    except KeyboardInterrupt:
+        print("interrupted", flush=True)
+    print(f"refused: {', '.join(refused) or 'none'}")
+    print("| preset |", " | ".join(COLUMNS), "|")
+    print("|---" * (len(COLUMNS) + 1) + "|")
+    for name, row in rows.items():
+        print(f"| {name} |", " | ".join(str(row[column]) for column in COLUMNS), "|")
+    return 0 if is_good else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
