@@ -86,10 +86,11 @@ public:
         while (!queue_.empty() && work > 0) {
             const Join join = queue_.top();
             queue_.pop();
-            if (charts_[join.a].faces.empty() || charts_[join.b].faces.empty()) continue;
+            const std::vector<Index>&a = charts_[join.a].faces, &b = charts_[join.b].faces;
+            poll_();
+            if (a.empty() || b.empty() || a.size() + b.size() > most_faces_per_chart) continue;
             std::vector<Index> faces;
-            std::merge(charts_[join.a].faces.begin(), charts_[join.a].faces.end(),
-                       charts_[join.b].faces.begin(), charts_[join.b].faces.end(), std::back_inserter(faces));
+            std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(faces));
             Flattening flattening = flatten(all_, std::move(faces), work, poll_);
             if (!good(flattening, longest_)) continue;
             charts_[join.a] = charts_[join.b] = {};
