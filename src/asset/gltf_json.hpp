@@ -37,7 +37,7 @@ std::string step(const std::string& where, const std::string& key);
 /// A float as the shortest decimal that reads back as the same float: 0.1f gives 0.1, not 0.10000000149.
 double shortest(float value);
 
-/// A texture info inside an extension: an object under a key that ends with Texture, with an index.
+/// A texture info, of an extension or of nobody knows whom: an object under a key that ends with Texture, with an index.
 bool is_texture_info(const std::string& key, const Json& value);
 
 /// Calls visit(name, value) for every extension in `value` and below; extras are skipped.

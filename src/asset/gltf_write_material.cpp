@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -88,23 +89,47 @@ void write_alpha(Json& json, const Material& now, const Material& was) {
                     shortest(now.alpha_cutoff));
 }
 
-/// Textures in extensions: followed, or removed where the UVs are new.
+/// Texture infos in `holder`, but for those that are `known`: followed, or removed where the UVs are new.
+/// \return the names of those that were removed
+std::vector<std::string> write_other_textures(GltfWriter& writer, const Material& material, Json& holder,
+                                              std::initializer_list<std::string_view> known = {}) {
+    std::vector<std::string> infos;
+    for (const auto& [key, value] : holder.items()) {
+        if (is_texture_info(key, value) && std::find(known.begin(), known.end(), key) == known.end())
+            infos.push_back(key);
+    }
+    for (const std::string& key : infos) {
+        if (material.rebaked)
+            holder.erase(key);
+        else
+            holder[key]["index"] = copy_texture(writer, index_of(holder[key], "index"));
+    }
+    return material.rebaked ? infos : std::vector<std::string>();
+}
+
+void warn_of_removed(GltfWriter& writer, const Material& material, const std::string& what) {
+    writer.warnings.push_back("material '" + material.name + "': the textures of " + what +
+                              " do not fit the new texture coordinates and were left out");
+}
+
 void write_extension_textures(GltfWriter& writer, const Material& material, Json& json) {
     if (!json.contains("extensions")) return;
     for (auto& [name, extension] : json["extensions"].items()) {
-        std::vector<std::string> infos;
-        for (const auto& [key, value] : extension.items())
-            if (is_texture_info(key, value)) infos.push_back(key);
-        for (const std::string& key : infos) {
-            if (material.rebaked)
-                extension.erase(key);
-            else
-                extension[key]["index"] = copy_texture(writer, index_of(extension[key], "index"));
-        }
-        if (material.rebaked && !infos.empty())
-            writer.warnings.push_back("material '" + material.name + "': the textures of " + name +
-                                      " do not fit the new texture coordinates and were left out");
+        if (!write_other_textures(writer, material, extension).empty())
+            warn_of_removed(writer, material, name);
     }
+}
+
+/// Textures of members that glTF does not have.
+void write_foreign_textures(GltfWriter& writer, const Material& material, Json& json) {
+    std::vector<std::string> removed = write_other_textures(
+        writer, material, json, {"normalTexture", "occlusionTexture", "emissiveTexture"});
+    if (json.contains("pbrMetallicRoughness")) {
+        const std::vector<std::string> more = write_other_textures(
+            writer, material, json["pbrMetallicRoughness"], {"baseColorTexture", "metallicRoughnessTexture"});
+        removed.insert(removed.end(), more.begin(), more.end());
+    }
+    for (const std::string& name : removed) warn_of_removed(writer, material, name);
 }
 
 void write_unlit(Json& json, bool unlit) {
@@ -133,6 +158,7 @@ Json material_json(GltfWriter& writer, const Material& material) {
                 factors(material.emissive));
     write_alpha(json, material, was);
     set_changed(json, "doubleSided", material.double_sided, was.double_sided, false, material.double_sided);
+    write_foreign_textures(writer, material, json);
     write_extension_textures(writer, material, json);
     write_unlit(json, material.unlit);
     return json;

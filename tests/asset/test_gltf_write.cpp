@@ -263,6 +263,28 @@ TEST_CASE("an untouched material keeps its digits, extras and extensions, and th
     CHECK(json["extensionsUsed"] == Json({"KHR_materials_clearcoat", "KHR_texture_transform"}));
 }
 
+TEST_CASE("textures of members nobody knows are followed, and go with a warning when the texture is new") {
+    GltfBuilder builder = square_gltf();
+    for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
+    builder.json["materials"] = Json::parse(R"([{"name":"m","teapotTexture":{"index":2,"lid":true},
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":1},"spoutTexture":{"index":2}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Json expected = builder.json["materials"][0];
+    expected["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    expected["pbrMetallicRoughness"]["spoutTexture"]["index"] = expected["teapotTexture"]["index"] = 1;
+    CHECK(through(builder)["materials"][0] == expected);
+
+    Asset asset = load_glb(builder);
+    asset.materials[0].rebaked = true;
+    const TemporaryFolder folder;
+    const std::vector<std::string> warnings = save(asset, folder / "out.glb");
+    CHECK(any_contains(warnings, "material 'm': the textures of teapotTexture do not fit"));
+    CHECK(any_contains(warnings, "material 'm': the textures of spoutTexture do not fit"));
+    const Json json = json_of(get(folder / "out.glb"));
+    CHECK_FALSE(json["materials"][0].contains("teapotTexture"));
+    CHECK_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("spoutTexture"));
+}
+
 TEST_CASE("a rebaked material has its new texture and loses those of its extensions, with a warning") {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 1);

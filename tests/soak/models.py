@@ -9,6 +9,7 @@ import collections
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 
@@ -76,10 +77,16 @@ def judge(arguments, file, options, ratio, row):
         return fault(arguments, told, out, ratio)
 
 
+def size(file):
+    """Bytes of the geometry: a .gltf has it in buffers beside it."""
+    buffers = file.parent.rglob("*.bin") if file.suffix.lower() == ".gltf" else ()
+    return sum(part.stat().st_size for part in (file, *buffers))
+
+
 def models(folder):
     """The smallest first."""
     found = [file for file in pathlib.Path(folder).rglob("*") if file.suffix.lower() in KINDS and file.is_file()]
-    return sorted(found, key=lambda file: (file.stat().st_size, file))
+    return sorted(found, key=lambda file: (size(file), file))
 
 
 def main():
@@ -89,6 +96,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=120, help="for one run (default 120)")
     parser.add_argument("--only", nargs="+", help="names of files")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     work = [(preset, ratio, f"--preset {preset} --ratio {ratio} --bake none") for ratio in RATIOS for preset in PRESETS]
     work.append(("balanced, baked", 0.1, BAKED))
     rows = collections.defaultdict(collections.Counter)
@@ -100,15 +108,15 @@ def main():
                 continue
             for name, ratio, options in work:
                 row = rows[name]
-                before = row["refused"], row["not finished"]
+                before = row.copy()
                 found = judge(arguments, file, options, ratio, row)
+                row["failed"] += found != ""
+                is_good = is_good and not found
+                if row["not finished"] > before["not finished"]:
+                    found = "not finished"
                 if found:
-                    row["failed"] += 1
-                    is_good = False
                     print(f"{file} {options}: {found}", flush=True)
-                if row["not finished"] > before[1]:
-                    print(f"{file} {options}: not finished", flush=True)
-                if row["refused"] > before[0]:
+                if row["refused"] > before["refused"]:
                     refused[file.name] = True
     except KeyboardInterrupt:
         print("interrupted", flush=True)
