@@ -20,11 +20,16 @@ constexpr double sheet_penalty = 1.0;
 // Of faces that the settling looks at in vain: where others lie between a point and its sheet, it would go
 // through all of them for every sample.
 constexpr std::size_t most_refused = 512;
+// Of faces, of a sheet that is searched face by face: fins are sheets of one face each, with hundreds of others
+// closer by.
+constexpr std::size_t small_sheet = 32;
 // Of faces that a walk looks at, about ten times what is usual: a vertex that swallowed a whole plain, one
 // vertex after the other, was in a patch for each of them.
 constexpr std::uint64_t most_walked = 2048;
 // Of the mean edge of a patch: so close a point lies on the face at hand.
 constexpr double on_it = 1e-6;
+// Of a small face's longest edge: so close to it the closest face around is beyond doubt.
+constexpr double close_by = 0.25;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_squared(const Vector3& p, const Bound& bound) {
@@ -164,10 +169,33 @@ bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
     });
 }
 
+// The closest face of those that pass the tests and the filter.
+template <class Filter>
+Bvh::Hit ProjectionWalk::closest_that(const Query& query, double distance_squared, Filter&& filter) const {
+    const std::span<const Index> sheet = sheets_.of(query.sheet);
+    if (sheet.size() > small_sheet) {
+        return tree_.closest_if(
+            to_array(query.p0), [&](Index f) { return filter(f) && passes(f, query); }, distance_squared,
+            most_refused);
+    }
+    Bvh::Hit best;
+    best.distance_squared = distance_squared;
+    for (const Index f : sheet) {  // in ascending order: of two as close the first stays
+        const ClosestPoint hit = on_original(f, query.p0);
+        const bool nearer = hit.distance_squared < best.distance_squared ||
+                            (hit.distance_squared == best.distance_squared && best.face == no_index);
+        if (!nearer || !filter(f) || !passes(f, query)) continue;
+        best = {f, to_array(hit.barycentric), to_array(hit.point), hit.distance_squared};
+    }
+    return best;
+}
+
+Bvh::Hit ProjectionWalk::closest_passing(const Query& query, double distance_squared) const {
+    return closest_that(query, distance_squared, [](Index) { return true; });
+}
+
 SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
-    const Bvh::Hit hit = tree_.closest_if(
-        to_array(query.p0), [&](Index f) { return is_around(f, query) && passes(f, query); },
-        distance_squared, most_refused);
+    const Bvh::Hit hit = closest_that(query, distance_squared, [&](Index f) { return is_around(f, query); });
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
@@ -201,8 +229,7 @@ ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const 
     return at;
 }
 
-SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
-    const Query query = start(face, barycentric);
+SurfacePoint ProjectionWalk::by_walk(Index face, const Query& query) const {
     const Best end = walk(face, query);
     if (!end.given_up && passes(end.face, query)) {
         return settle(query, end.face, end.relaxed ? MapStep::relaxed : MapStep::history);
@@ -210,8 +237,7 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     const ClosestPoint here = on_original(end.face, query.p0);
     const double far = std::sqrt(here.distance_squared) + query.longest_edge;
     if (end.given_up) {
-        const Bvh::Hit hit = tree_.closest_if(
-            to_array(query.p0), [&](Index f) { return passes(f, query); }, far * far, most_refused);
+        const Bvh::Hit hit = closest_passing(query, far * far);
         if (hit.face != no_index) return {hit.face, hit.barycentric, MapStep::closest};
     }
     const SurfacePoint closest = closest_around(query, far * far);
@@ -219,16 +245,25 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     return {end.face, to_array(here.barycentric), MapStep::relaxed};
 }
 
+// Wherever a walk ends, settling takes the closest face that passes if it is around and no farther than the
+// longest edge: most samples need no walk.
+SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
+    const Query query = start(face, barycentric);
+    const double close = close_by * query.longest_edge;
+    const Bvh::Hit hit = closest_passing(query, close * close);
+    if (hit.face == no_index || !is_around(hit.face, query)) return by_walk(face, query);
+    return {hit.face, hit.barycentric, MapStep::history};
+}
+
 SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     const Query query = start(face, barycentric);
     if (!passes(near.face, query)) return map(face, barycentric);
     const ClosestPoint here = on_original(near.face, query.p0);
-    const Bvh::Hit hit = tree_.closest_if(
-        to_array(query.p0), [&](Index f) { return passes(f, query); }, here.distance_squared, most_refused);
+    const Bvh::Hit hit = closest_passing(query, here.distance_squared);
     if (hit.face == no_index) return {near.face, to_array(here.barycentric), near.step};
     // On flat ground most faces are not around: `near` would hold on to the sample for the rest of its row.
     return is_around(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
-                                      : map(face, barycentric);
+                                      : by_walk(face, query);
 }
 
 }  // namespace faqem::detail

@@ -28,7 +28,8 @@ namespace faqem::detail {
 ///
 /// The faces that a walk moves over are those that were there at the time: where they were far from the
 /// original, neighbouring samples part ways. So in the end the closest point is taken, of all original faces
-/// around the small one that pass the same tests.
+/// around the small one that pass the same tests. Where that one is close by and no face is closer that passes,
+/// around or not, the walk could not change the answer and is left out.
 class ProjectionWalk {
 public:
     /// \param unwelded  as in find_sheets()
@@ -54,7 +55,11 @@ private:
     Best best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& walked) const;
     void consider(std::uint64_t entry, Patch& patch) const;
     Best walk(Index face, const Query& query) const;
+    SurfacePoint by_walk(Index face, const Query& query) const;
     SurfacePoint settle(const Query& query, Index face, MapStep step) const;
+    template <class Filter>
+    Bvh::Hit closest_that(const Query& query, double distance_squared, Filter&& filter) const;
+    Bvh::Hit closest_passing(const Query& query, double distance_squared) const;
     SurfacePoint closest_around(const Query& query, double distance_squared) const;
     bool is_around(Index original_face, const Query& query) const;
     ClosestPoint on_original(Index face, const engine::Vector3& p0) const;

@@ -12,11 +12,20 @@
 namespace faqem::detail {
 
 /// Components over edges with exactly two faces. Edges with more faces divide sheets, so that the two sides
-/// of a thin wall that touch in a fin stay apart; but two faces that had such an edge to themselves before
-/// vertices were joined stay together. So two boxes that touch in a full side stay whole.
+/// of a thin wall that touch in a fin stay apart. But two faces stay together that had such an edge to
+/// themselves before vertices were joined: so two boxes that touch in a full side stay whole. And so do two of
+/// which one continues the other (within 30 degrees), where no third face comes near to (within 60): so a
+/// sheet goes on under a fin, and two that cross stay two.
 struct Sheets {
-    std::vector<Index> sheet;       ///< per face; no_index for faces with a corner no_index
-    std::vector<std::int8_t> sign;  ///< per face: -1 where it is wound against most of its sheet (by area)
+    std::vector<Index> sheet;        ///< per face; no_index for faces with a corner no_index
+    std::vector<std::int8_t> sign;   ///< per face: -1 where it is wound against most of its sheet (by area)
+    std::vector<Index> faces;        ///< sheet by sheet, ascending within each
+    std::vector<Index> begin = {0};  ///< per sheet: of its own in `faces`; and their end
+
+    /// The faces of a sheet.
+    std::span<const Index> of(Index s) const {
+        return std::span(faces).subspan(begin[s], begin[s + 1] - begin[s]);
+    }
 };
 
 /// \param positions  one per vertex

@@ -147,10 +147,11 @@ TEST_CASE("walks that get too long end at the closest point of their sheet") {
         faces.push_back({i, i + 1, 0});
         faces.push_back({i + 1, i, 1});
     }
-    double bump = 0;
+    double bump = 0, waves = 20;
     SECTION("in a plane") {}
     SECTION("on a bent sheet") { bump = 0.01; }
-    for (Vec3& p : positions) p[2] = bump * std::sin(20 * p[0]);
+    SECTION("far below a hill") { bump = 2, waves = 3; }
+    for (Vec3& p : positions) p[2] = bump * std::sin(waves * p[0]);
     HandHistory hand(positions, faces);
     Index last = 2;
     for (Index i = 3; i < n + 2; ++i) last = hand.collapse(last, i, positions[2]);
@@ -168,7 +169,50 @@ TEST_CASE("walks that get too long end at the closest point of their sheet") {
             CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
         }
     }
-    if (bump > 0) CHECK(given_up > 0);
+    CHECK((given_up > 0) == (bump > 0.1));  // close by, no walk is needed
+}
+
+// Three faces on each edge: no two of them had it to themselves, but those of the sheet continue each other.
+TEST_CASE("samples stay on a sheet with a fin on every edge, and on their fin") {
+    constexpr Index n = 6;
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    std::vector<Triangle> faces = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    const Index sheet = static_cast<Index>(faces.size());
+    for (Index f = 0; f < sheet; f += 2) {  // every inner edge has one of these on one side
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index a = faces[f][c], b = faces[f][(c + 1) % 3];
+            const Vec3 &p = positions[a], &q = positions[b];
+            faces.push_back({a, b, static_cast<Index>(positions.size())});
+            positions.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, 0.2});
+        }
+    }
+    HandHistory hand(positions, faces);
+    Index last = 8;
+    for (const Index v : {9u, 10u, 17u, 16u, 15u, 22u, 23u, 24u}) last = hand.collapse(last, v, {2, 2, 0});
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < faces.size());
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Index original = history.kept_faces[f];
+        SurfacePoint before = map.map(f, {0.98, 0.01, 0.01});
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
+            before = map.map_near(f, w, before);
+            for (const SurfacePoint& q : {before, map.map(f, w)}) {
+                if (original >= sheet) {
+                    CHECK(q.face == original);
+                } else {
+                    CHECK(q.face < sheet);
+                    CHECK(q.step == MapStep::history);
+                    CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
+                }
+            }
+        }
+    }
 }
 
 // On flat ground most original faces in a small face have no corner that collapsed into one of its corners.
