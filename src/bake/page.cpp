@@ -7,6 +7,7 @@
 #include "bake/directions.hpp"
 #include "bake/fill.hpp"
 #include "bake/normals.hpp"
+#include "bake/trail.hpp"
 #include "faqem/engine/vector.hpp"
 
 namespace faqem::detail {
@@ -130,34 +131,6 @@ private:
         double x = 0, y = 0;  // on the page
     };
 
-    // The last sample on a face and the first one of its row: the next one may start from there if it is
-    // close by.
-    struct Trail {
-        struct Mark {
-            SurfacePoint point;
-            std::uint32_t x = 0, y = 0;
-
-            bool is_near(std::uint32_t to_x, std::uint32_t to_y) const {
-                constexpr std::uint32_t steps = 4;  // a row may begin far from where the one above did
-                return to_y - y <= 1 && to_x + steps - x <= 2 * steps;
-            }
-        };
-        Mark last, row;
-        bool started = false;
-
-        // Null where there is none.
-        const SurfacePoint* to(std::uint32_t x, std::uint32_t y) const {
-            if (!started) return nullptr;
-            if (last.y == y && x - last.x <= 1) return &last.point;
-            return row.is_near(x, y) ? &row.point : nullptr;
-        }
-        void add(const SurfacePoint& point, std::uint32_t x, std::uint32_t y) {
-            last = {point, x, y};
-            if (!started || row.y != y) row = last;
-            started = true;
-        }
-    };
-
     // A triangle, its neighbours, and where its last samples were.
     struct Painter {
         Painter(const Page& page, Index triangle)
@@ -194,7 +167,7 @@ private:
         Vector3 bent_normal(const SourceSurface& surface, const SmallPoint& at) const {
             const TangentFrame here = blend_frames(frames, own_weights(at));
             const Vector3 side = face_side(part, normals_of_part, at.face);
-            const Vector3 normal = surface.normal(face.part, trails[at.trail].last.point, spacing, side);
+            const Vector3 normal = surface.normal(face.part, trails[at.trail].last(), spacing, side);
             if (at.trail == 0) return here.from_mesh(normal);
             Vector3 there = Vector3::Zero();
             for (std::size_t i = 0; i < 3; ++i) {
