@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces of different materials at one place.
+/// Faces at one place that do not look the same.
 
 #include <vector>
 
@@ -8,12 +8,13 @@
 
 namespace faqem::detail {
 
-/// Materials of one group share a page, and the engine drops all but one of the faces of a group that have
-/// the same corners and winding. Two of different materials do not show the same: such are the sides of two
-/// boxes that touch, where one is wound the wrong way.
+/// The engine drops all but one of the faces of a group that have the same corners and winding. Materials of
+/// one group share a page, and normals may turn a face round: then two such faces do not show the same. They
+/// are the sides of two boxes that touch, or of a sheet, where one is wound the wrong way.
 /// \param groups  of the part's faces, or empty: one for all
 /// \return `groups`; a face with the corners (by place) and winding of an earlier one of its group, but
-///         another material, has a group that it shares with others of its material at most. O(n log n)
-std::vector<Index> set_materials_apart(const Part& part, std::vector<Index> groups);
+///         another material, or normals on the other side, has a group that it shares with others of its kind
+///         at most. O(n log n)
+std::vector<Index> set_looks_apart(const Part& part, std::vector<Index> groups);
 
 }  // namespace faqem::detail

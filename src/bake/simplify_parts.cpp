@@ -70,7 +70,7 @@ void add(Report& sum, const Report& part, const std::string& title) {
 }
 
 // A part as the engine takes it. Where materials are baked into one page they are one group, so that borders
-// between them cost no faces and samples may cross them, but for doubles of another material; elsewhere, and
+// between them cost no faces and samples may cross them, but for doubles of another look; elsewhere, and
 // where such borders are to be kept, they are the materials themselves.
 struct PartInput {
     std::vector<Index> groups;
@@ -79,7 +79,7 @@ struct PartInput {
 
     PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake)
         : groups(face_groups(part, material_groups)) {
-        if (material_groups) groups = detail::set_materials_apart(part, std::move(groups));
+        if (material_groups) groups = detail::set_looks_apart(part, std::move(groups));
         if (bake == Bake::keep) attributes = corner_attributes(part);
         view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {}};
     }

@@ -341,3 +341,48 @@ TEST_CASE("faces at one place with different materials both stay, though they sh
     CHECK(small.parts[0].history.face_groups == std::vector<Index>{0, 0, 0, 0, 1});
     CHECK(small.parts[0].mesh.face_groups == std::vector<Index>{0, 0, 0, 1});
 }
+
+// One material, vertices of their own, red outside and blue inside.
+TEST_CASE("of two layers at one place that look opposite ways both stay, however they are wound") {
+    Asset asset = textured_square(paint(64, 64, [](std::uint32_t x, std::uint32_t) {
+        return x < 32 ? Rgba{255, 0, 0, 255} : Rgba{0, 0, 255, 255};
+    }));
+    const bool wound_alike = GENERATE(false, true);
+    CAPTURE(wound_alike);
+    const TriangleMesh sphere = icosphere(3);
+    const auto count = static_cast<Index>(sphere.positions.size());
+    Part part;
+    part.triangles = sphere.triangles;
+    for (const auto& [a, b, c] : sphere.triangles) {
+        part.triangles.push_back(wound_alike ? Triangle{a + count, b + count, c + count}
+                                             : Triangle{a + count, c + count, b + count});
+    }
+    part.uvs.resize(1);
+    for (const float side : {1.0f, -1.0f}) {
+        for (const Vec3& p : sphere.positions) {
+            part.positions.push_back(p);
+            part.uvs[0].push_back({side > 0 ? 0.2f : 0.8f, 0.5f});
+            part.normals.push_back({side * float(p[0]), side * float(p[1]), side * float(p[2])});
+        }
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    asset.parts = {part};
+    Options options;
+    options.target = ratio(0.25);
+    const LightAsset light = simplify(asset, options);
+    CHECK(light.report.faces_dropped == 0);
+    const Part& out = light.asset.parts[0];
+    CHECK(out.triangles.size() <= part.triangles.size() / 4);
+    const Pixels atlas = decode(light.asset.images[0]);
+    std::size_t outside = 0;
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        const Vec3& p = out.positions[out.triangles[f][0]];
+        const Vec3f& n = out.normals[out.triangles[f][0]];
+        const bool is_outside = p[0] * n[0] + p[1] * n[1] + p[2] * n[2] > 0;
+        outside += is_outside;
+        const auto color = look(out, atlas, f, {0.3, 0.3, 0.4});
+        CHECK(color[0] == Approx(is_outside ? 255 : 0).margin(2));
+        CHECK(color[2] == Approx(is_outside ? 0 : 255).margin(2));
+    }
+    CHECK(outside == out.triangles.size() / 2);
+}
