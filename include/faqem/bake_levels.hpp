@@ -24,6 +24,12 @@ struct LightLevel {
     double error = 0;     ///< as SmallPartsLevel
 };
 
+/// Which images the levels have.
+enum class LevelTextures {
+    each,    ///< every level its own
+    shared,  ///< all the same, baked for the finest level, whose UVs the others keep
+};
+
 /// As simplify_levels(), for the parts of an asset. Counts are those of the whole asset; each is spread over
 /// the parts as Options::budget says, but no part gets more faces than in the level before. Distances are in
 /// units of the scene.
@@ -34,11 +40,17 @@ FAQEM_EXPORT std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& sou
                                                                 const std::vector<Level>& levels,
                                                                 const Options& options = {});
 
-/// Both stages for all levels; each has images of its own.
+/// Both stages for all levels.
+/// \param textures  with `shared` the finest level gets an atlas of charts, and the others are made of it, with
+///                  its UVs and seams: their collapses know the finest level, their errors are measured
+///                  against the original. Pages and correspondence are in the first result alone.
 /// \return one per level; where progress cancelled, the last one's stop says so, and those after it are
 ///         missing
+/// \throws OptionError  with `shared`: no atlas of charts is baked, a history or kept groups are asked for, or
+///                      nothing is to be welded
 /// \throws as simplify_parts_levels() and bake()
 FAQEM_EXPORT std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
-                                                     const Options& options = {});
+                                                     const Options& options = {},
+                                                     LevelTextures textures = LevelTextures::each);
 
 }  // namespace faqem

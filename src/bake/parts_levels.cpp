@@ -3,6 +3,7 @@
 #include "bake/check_asset.hpp"
 #include "bake/parts_run.hpp"
 #include "bake/parts_within_error.hpp"
+#include "bake/shared_texture.hpp"
 #include "chain.hpp"
 #include "faqem/bake_levels.hpp"
 
@@ -30,8 +31,30 @@ std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const st
     return none;
 }
 
+namespace {
+
+std::vector<LightLevel> with_shared_texture(const Asset& source, const std::vector<Level>& levels,
+                                            const Options& options) try {
+    validate(options);
+    detail::check_shared_texture(options);
+    detail::check_asset(source);
+    const detail::AskMeanwhile meanwhile(options, 0);
+    const detail::MeasuredParts measured(source, options, meanwhile.poll());
+    const std::vector<detail::Goal> goals =
+        detail::goals(levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
+    if (goals.empty()) return {};
+    return detail::levels_with_shared_texture(source, measured, goals, options);
+} catch (const engine::Cancelled&) {
+    std::vector<LightLevel> none(1);
+    none.front().result.report.stop = StopReason::cancelled;
+    return none;
+}
+
+}  // namespace
+
 std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
-                                        const Options& options) {
+                                        const Options& options, LevelTextures textures) {
+    if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
     std::vector<LightLevel> out;
     for (SmallPartsLevel& level : simplify_parts_levels(source, levels, options)) {
         SmallParts small = std::move(level.result);

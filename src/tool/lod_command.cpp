@@ -29,12 +29,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments : SimplifyArguments {
-    std::string in, out, history, format = "glb";
+    std::string in, out, history, format = "glb", textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     Viewing viewing;
     bool without_original = false, one_file = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+    LevelTextures level_textures() const {
+        return textures == "shared" ? LevelTextures::shared : LevelTextures::each;
+    }
 };
 
 /// The files that will be there: a model for each level, the original first, and the manifest. With
@@ -56,6 +59,8 @@ struct Outputs {
 };
 
 void check(const Arguments& a, const Outputs& outputs) {
+    if (a.level_textures() == LevelTextures::shared && !a.history.empty())
+        throw OptionError("--history: with --textures shared only the finest level comes from the original");
     for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
     check_output(outputs.manifest, {a.in}, a.overwrite());
     if (a.history.empty()) return;
@@ -99,8 +104,7 @@ double diagonal_of(const std::vector<Vec3>& points) {
     return std::sqrt(square);
 }
 
-/// Bakes and saves one level after the other, so that the images of one are there at a time;
-/// with --one-file they are saved together.
+/// Makes the levels and saves them, one after the other; with --one-file together.
 class Chain {
 public:
     Chain(const Arguments& arguments, const Outputs& outputs, const Asset& source,
@@ -109,32 +113,16 @@ public:
 
     ExitCode operator()() {
         size_ = detail::scene_size(source_);
-        std::vector<SmallPartsLevel> levels =
-            naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
-        if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
-        for (const SmallPartsLevel& level : levels) {
-            const ExitCode refusal = why_refused(level.result.report, arguments_.strict_target);
-            if (refusal == exit_ok) continue;
-            std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
-            return refusal;
-        }
-        if (!arguments_.history.empty()) write_histories(arguments_, levels);
-        reports_.reserve(levels.size());  // they are pointed to
-        std::vector<std::string> warnings = source_.warnings;
-        if (!arguments_.without_original) append(warnings, write(Asset(source_), 0, 0, nullptr));
-        for (SmallPartsLevel& level : levels) {
-            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, options_); });
-            level.result = {};
-            if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
-            Report& report = reports_.emplace_back(std::move(light.report));
-            append(report.warnings, write(std::move(light.asset), level.distance, level.error, &report));
-        }
+        warnings_ = source_.warnings;
+        const ExitCode code =
+            arguments_.level_textures() == LevelTextures::shared ? shared_texture() : textures_of_their_own();
+        if (code != exit_ok) return code;
         if (arguments_.one_file) {
             const Unattended unattended;
-            append(warnings, save_levels(std::move(saved_), outputs_.models[0], arguments_.overwrite()));
+            append(warnings_, save_levels(std::move(saved_), outputs_.models[0], arguments_.overwrite()));
         }
         Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.viewing, written_);
-        manifest["warnings"] = warnings;
+        manifest["warnings"] = warnings_;
         write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                      arguments_.overwrite());
         return exit_ok;
@@ -143,6 +131,57 @@ public:
     const std::vector<WrittenLevel>& written() const { return written_; }
 
 private:
+    /// The images of one level are there at a time.
+    ExitCode textures_of_their_own() {
+        std::vector<SmallPartsLevel> levels =
+            naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
+        const ExitCode refusal = begin(levels);
+        if (refusal != exit_ok) return refusal;
+        if (!arguments_.history.empty()) write_histories(arguments_, levels);
+        write_original();
+        for (SmallPartsLevel& level : levels) {
+            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, options_); });
+            level.result = {};
+            if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
+            write_level(std::move(light), level.distance, level.error);
+        }
+        return exit_ok;
+    }
+
+    ExitCode shared_texture() {
+        std::vector<LightLevel> levels = naming(arguments_.in, [&] {
+            return simplify_levels(source_, levels_, options_, LevelTextures::shared);
+        });
+        const ExitCode refusal = begin(levels);
+        if (refusal != exit_ok) return refusal;
+        write_original();
+        for (LightLevel& level : levels) write_level(std::move(level.result), level.distance, level.error);
+        return exit_ok;
+    }
+
+    /// May the levels be written?
+    template <class AnyLevel>
+    ExitCode begin(const std::vector<AnyLevel>& levels) {
+        if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
+        for (const AnyLevel& level : levels) {
+            const ExitCode refusal = why_refused(level.result.report, arguments_.strict_target);
+            if (refusal == exit_ok) continue;
+            std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
+            return refusal;
+        }
+        reports_.reserve(levels.size());  // they are pointed to
+        return exit_ok;
+    }
+
+    void write_original() {
+        if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0, nullptr));
+    }
+
+    void write_level(LightAsset light, double distance, double error) {
+        Report& report = reports_.emplace_back(std::move(light.report));
+        append(report.warnings, write(std::move(light.asset), distance, error, &report));
+    }
+
     static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
         all.insert(all.end(), more.begin(), more.end());
     }
@@ -178,6 +217,7 @@ private:
     const std::vector<Level>& levels_;
     const Options& options_;
     std::vector<Report> reports_;
+    std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
     std::vector<SavedLevel> saved_;  // with --one-file
     detail::SceneSize size_;
@@ -242,6 +282,11 @@ void add_lod_command(CLI::App& app, Action& action) {
                       "The first level is LOD0; else the original is, as it was read");
     command->add_flag("--one-file", arguments->one_file,
                       "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod");
+    command
+        ->add_option("--textures", arguments->textures,
+                     "New textures: each (every level its own; default), shared (one for all, baked for the "
+                     "finest level)")
+        ->check(CLI::IsMember({"each", "shared"}));
     command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
     command->add_option("--history", arguments->history,
                         "Write the collapse history to this file, for faqem cut");

@@ -197,3 +197,28 @@ TEST_CASE("levels that keep the texture share it in one file") {
     CHECK(document["images"].size() == 1);
     CHECK(document["meshes"].size() == 3);
 }
+
+TEST_CASE("levels may share a new texture, which one file stores once") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const std::string options = " --levels 0.5,0.1 --textures shared --texture-size 128 --quiet";
+    REQUIRE(run(folder, "lod a.glb one --without-original --one-file" + options).code == 0);
+    const std::string bytes = read(folder / "one/a_LOD.glb");
+    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    CHECK(document["images"].size() == 1);
+    CHECK(document["meshes"].size() == 2);
+
+    REQUIRE(run(folder, "lod a.glb many" + options).code == 0);
+    const auto image = [&](const char* name) { return faqem::load(folder / name).images.at(0).encoded; };
+    CHECK(image("many/a_LOD1.glb") == image("many/a_LOD2.glb"));
+    CHECK(image("many/a_LOD0.glb") != image("many/a_LOD1.glb"));
+    const Json json = manifest(folder, "many/a_LOD.json");
+    CHECK(json["levels"][2]["report"]["faces_in"] == 800);
+    CHECK(json["levels"][2]["error"] > json["levels"][1]["error"]);
+
+    for (const char* wrong : {"--textures both", "--history a.history", "--bake keep", "--keep-groups"}) {
+        CAPTURE(wrong);
+        CHECK(run(folder, "lod a.glb out" + options + " " + wrong).code == 2);
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD1.glb"));
+    }
+}
