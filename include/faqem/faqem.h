@@ -144,6 +144,12 @@ typedef struct faqem_mesh {
     /** Null, or corner_width numbers for each of the 3 * face_count corners, such as UVs: they are carried along. */
     const float* corner_values;
     uint32_t corner_width;
+    /**
+     * Bytes from a vertex or face to the next one, and from x to y to z, or from corner to corner; 0: side by side.
+     * sizeof(struct vertex) is the stride of positions among other data; of a matrix that lies column by column the
+     * stride is sizeof(float), and the step sizeof(float) * vertex_count.
+     */
+    size_t position_stride, position_step, triangle_stride, triangle_step;
 } faqem_mesh;
 
 /** A small mesh, where it came from, and the report. Nothing in it changes. */

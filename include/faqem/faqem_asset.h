@@ -6,7 +6,7 @@
  * was built with FAQEM_BUILD_ASSET, which is the default. faqem/faqem.h says how objects and errors are handled.
  */
 
-#include "faqem/faqem.h"
+#include "faqem/faqem_levels.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -78,6 +78,24 @@ FAQEM_API faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** 
 FAQEM_API faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
                                             faqem_asset** light, faqem_error* error);
 
+/** Whose images the levels of a model have, see faqem::LevelTextures. */
+typedef enum faqem_level_textures FAQEM_ENUM {
+    FAQEM_LEVEL_TEXTURES_EACH = 0,  /**< every level its own */
+    FAQEM_LEVEL_TEXTURES_SHARED = 1 /**< all those that were baked for the finest level */
+} faqem_level_textures;
+
+/**
+ * As faqem_simplify_levels(), for a model; distances are in the units of its scene.
+ * \param results  gets level_count new objects, which have reports; none where the call fails
+ */
+FAQEM_API faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_options* options,
+                                                   const faqem_level* levels, size_t level_count,
+                                                   faqem_level_textures textures, faqem_asset** results,
+                                                   faqem_error* error);
+
+/** As faqem_result_level_error(), in units of the scene; NaN where the asset is no level. */
+FAQEM_API double faqem_asset_level_error(const faqem_asset* asset);
+
 /**
  * Saves as .glb, .gltf, .obj, .ply or .stl, by name. Each file is complete or not there at all.
  * What the format could not hold is added to the warnings of the asset.
@@ -99,9 +117,9 @@ FAQEM_API const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t
 FAQEM_API size_t faqem_asset_warning_count(const faqem_asset* asset);
 FAQEM_API const char* faqem_asset_warning(const faqem_asset* asset, size_t index);
 
-/** \return FAQEM_ERROR_OPTION where an argument is null or the asset was not made by faqem_asset_simplify() */
+/** \return FAQEM_ERROR_OPTION where an argument is null or the asset was not made by simplifying one */
 FAQEM_API faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report);
-/** null where the asset was not made by faqem_asset_simplify(). */
+/** null where the asset was not made by simplifying one. */
 FAQEM_API const char* faqem_asset_report_json(const faqem_asset* asset);
 
 #ifdef __cplusplus

@@ -16,12 +16,18 @@ def _shaped(array, width, name):
     return array
 
 
+def _readable(array, kind):
+    """The array itself where the C door can read it as it lies, else a copy."""
+    array = numpy.asarray(array, dtype=kind)
+    return array if all(step > 0 for step in array.strides) else numpy.ascontiguousarray(array)
+
+
 def _positions(vertices):
     array = numpy.asarray(vertices)
     kind = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
     if array.size == 0:
         array = array.reshape(0, 3)
-    return _shaped(numpy.ascontiguousarray(array, dtype=kind), 3, "vertices")
+    return _shaped(_readable(array, kind), 3, "vertices")
 
 
 def _indices(values, name):
@@ -30,7 +36,7 @@ def _indices(values, name):
         raise InputError(f"{name}: {array.dtype} are no whole numbers")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
         raise InputError(f"{name}: below 0, or above what 32-bit indices can count")
-    return numpy.ascontiguousarray(array, dtype=numpy.uint32)
+    return _readable(array, numpy.uint32)
 
 
 def _per_element(values, count, kind, name):
@@ -41,7 +47,7 @@ def _per_element(values, count, kind, name):
 
 
 class MeshArrays:
-    """A mesh for the C door. `mesh` is valid as long as this object is. Arrays of the right type are not copied."""
+    """A mesh for the C door. `mesh` is valid as long as this object is. What has the right type is not copied."""
 
     def __init__(self, vertices, triangles, groups=None, locks=None, weights=None, uvs=None):
         positions = _positions(vertices)
@@ -52,6 +58,8 @@ class MeshArrays:
         name = "positions" if positions.dtype == numpy.float32 else "double_positions"
         self._point(name, positions)
         self._point("triangles", corners)
+        self.mesh.position_stride, self.mesh.position_step = positions.strides
+        self.mesh.triangle_stride, self.mesh.triangle_step = corners.strides
         if groups is not None:
             groups = _per_element(_indices(groups, "groups"), len(corners), numpy.uint32, "groups")
             self._point("face_groups", groups)

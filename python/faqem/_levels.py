@@ -24,6 +24,11 @@ def _level(level):
     return Level(_faces, whole(level, "levels", 53))
 
 
+def wanted_levels(levels):
+    """An array of faqem_level."""
+    return (Level * len(levels))(*map(_level, levels))
+
+
 def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
     """Simplifies a triangle soup to one level after the other, and measures each against the original.
 
@@ -35,7 +40,7 @@ def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, 
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    wanted = (Level * len(levels))(*map(_level, levels))
+    wanted = wanted_levels(levels)
     made = (ctypes.c_void_p * len(levels))()
     chosen.run(lambda: call(library.faqem_simplify_levels, reference(arrays), chosen.object, wanted, len(levels), made))
     return [Simplified(ctypes.c_void_p(one)) for one in made]

@@ -23,6 +23,10 @@ class Mesh(ctypes.Structure):
         ("vertex_weights", POINTER(c_float)),
         ("corner_values", POINTER(c_float)),
         ("corner_width", c_uint32),
+        ("position_stride", c_size_t),
+        ("position_step", c_size_t),
+        ("triangle_stride", c_size_t),
+        ("triangle_step", c_size_t),
     ]
 
 
@@ -90,6 +94,11 @@ _declarations = {
     "faqem_asset_load": (c_int, [c_char_p, POINTER(_object), POINTER(_Error)]),
     "faqem_asset_create": (c_int, [POINTER(Mesh), POINTER(_object), POINTER(_Error)]),
     "faqem_asset_simplify": (c_int, [_object, _object, POINTER(_object), POINTER(_Error)]),
+    "faqem_asset_simplify_levels": (
+        c_int,
+        [_object, _object, POINTER(Level), c_size_t, c_int, POINTER(_object), POINTER(_Error)],
+    ),
+    "faqem_asset_level_error": (c_double, [_object]),
     "faqem_asset_save": (c_int, [_object, c_char_p, c_int, POINTER(_Error)]),
     "faqem_asset_destroy": (None, [_object]),
     "faqem_asset_part_count": (c_size_t, [_object]),

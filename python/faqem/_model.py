@@ -1,16 +1,21 @@
 """Textured models: load, bake, save."""
 
+import ctypes
 import dataclasses
 import json
+import math
 import os
 import weakref
 
 import numpy
 
 from ._arrays import MeshArrays, copied, reference
+from ._levels import wanted_levels
 from ._library import call, create, library
 from ._options import Options
-from .errors import InputError
+from .errors import InputError, OptionError
+
+_level_textures = {"each": 0, "shared": 1}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,6 +58,12 @@ class Model:
         text = library.faqem_asset_report_json(self._object)
         return None if text is None else json.loads(text)
 
+    @property
+    def error(self):
+        """Of a level: no point is farther from the original, in units of the scene; None of other models."""
+        error = library.faqem_asset_level_error(self._object)
+        return None if math.isnan(error) else error
+
     def _part(self, part):
         v = library.faqem_asset_vertex_count(self._object, part)
         f = library.faqem_asset_face_count(self._object, part)
@@ -84,6 +95,25 @@ def bake(model, /, **options):
     """
     chosen = Options(**options)
     return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._object, chosen.object)))
+
+
+def bake_levels(model, levels, /, *, textures="each", **options):
+    """Simplifies a model to one level after the other, each with a new look; the model is left as it is.
+
+    levels    as of simplify_levels(); distances are in units of the scene
+    textures  "each": every level its own; "shared": all those that were baked for the finest level
+    options   those of bake(), without ratio, faces and max_error
+
+    Returns a list of Model, whose `error` ascends. Raises what bake() raises.
+    """
+    if textures not in _level_textures:
+        raise OptionError(f"textures: {textures!r} is neither 'each' nor 'shared'")
+    chosen = Options(**options)
+    wanted = wanted_levels(levels)
+    made = (ctypes.c_void_p * len(levels))()
+    chosen.run(lambda: call(library.faqem_asset_simplify_levels, model._object, chosen.object, wanted, len(levels),
+                            _level_textures[textures], made))
+    return [Model(ctypes.c_void_p(one)) for one in made]
 
 
 def save(model, path, *, overwrite=False):

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "c/guard.hpp"
+#include "c/level.hpp"
 #include "c/mesh.hpp"
 #include "c/result.hpp"
 #include "faqem/faqem_levels.h"
@@ -36,6 +37,12 @@ Level level_of(const faqem_level& level, std::size_t index) {
 
 }  // namespace
 
+std::vector<Level> c::levels_of(const faqem_level* levels, std::size_t count) {
+    std::vector<Level> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(level_of(levels[i], i));
+    return result;
+}
+
 faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* options,
                                    const faqem_level* levels, size_t level_count, faqem_result** results,
                                    faqem_error* error) {
@@ -43,8 +50,7 @@ faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* 
         c::require_argument(mesh, "mesh");
         c::require_argument(levels, "levels");
         c::require_argument(results, "results");
-        std::vector<Level> wanted;
-        for (std::size_t i = 0; i < level_count; ++i) wanted.push_back(level_of(levels[i], i));
+        const std::vector<Level> wanted = c::levels_of(levels, level_count);
         const c::MeshArrays arrays(*mesh);
         std::vector<std::unique_ptr<faqem_result>> made;
         for (SimplifiedLevel& level : simplify_levels(arrays.view, wanted, c::options_or_defaults(options)))

@@ -16,13 +16,21 @@ void require_array(const void* array, std::size_t count, const char* name) {
                          "the array is null, but " + std::to_string(count) + " elements are announced");
 }
 
+/// Triples; a stride or step of 0 means that they lie side by side.
+template <class View, class Number>
+View view_of(const Number* first, std::size_t count, std::size_t stride, std::size_t step) {
+    return View(first, count, stride > 0 ? stride : 3 * sizeof(Number), step > 0 ? step : sizeof(Number));
+}
+
 PositionView positions_of(const faqem_mesh& mesh) {
     if (mesh.positions && mesh.double_positions)
         throw InputError("", "positions", "given both as float and as double");
     const void* given = mesh.positions ? static_cast<const void*>(mesh.positions) : mesh.double_positions;
     require_array(given, mesh.vertex_count, "positions");
-    if (mesh.positions) return std::span(mesh.positions, 3 * mesh.vertex_count);
-    return std::span(mesh.double_positions, 3 * mesh.vertex_count);
+    return mesh.positions ? view_of<PositionView>(mesh.positions, mesh.vertex_count, mesh.position_stride,
+                                                  mesh.position_step)
+                          : view_of<PositionView>(mesh.double_positions, mesh.vertex_count,
+                                                  mesh.position_stride, mesh.position_step);
 }
 
 template <class Value>
@@ -35,7 +43,8 @@ std::span<const Value> optional_array(const Value* array, std::size_t count) {
 MeshArrays::MeshArrays(const faqem_mesh& mesh) {
     view.positions = positions_of(mesh);
     require_array(mesh.triangles, mesh.face_count, "triangles");
-    view.triangles = std::span(mesh.triangles, 3 * mesh.face_count);
+    view.triangles =
+        view_of<TriangleView>(mesh.triangles, mesh.face_count, mesh.triangle_stride, mesh.triangle_step);
     view.face_groups = optional_array(mesh.face_groups, mesh.face_count);
     view.vertex_locks = optional_array(mesh.vertex_locks, mesh.vertex_count);
     view.vertex_weights = optional_array(mesh.vertex_weights, mesh.vertex_count);

@@ -44,6 +44,40 @@ static void a_flat_square_stays_one(faqem_mesh mesh) {
     faqem_options_destroy(options);
 }
 
+/* Positions in vertices that hold more, triangles in faces that do, and both column by column. */
+static void arrays_may_lie_anyhow(void) {
+    enum { vertices = 441, faces = 800 };
+    static struct { float normal[3], at[3], weight; } vertex[vertices];
+    static struct { uint32_t corners[3], material; } face[faces];
+    static double columns[3 * vertices];
+    static uint32_t corner_columns[3 * faces];
+    const faqem_mesh packed = flat_grid(20);
+    CHECK(packed.vertex_count == vertices && packed.face_count == faces);
+    for (size_t v = 0; v < vertices; ++v) {
+        vertex[v].normal[0] = vertex[v].weight = NAN;
+        for (size_t k = 0; k < 3; ++k) columns[k * vertices + v] = vertex[v].at[k] = packed.positions[3 * v + k];
+    }
+    for (size_t f = 0; f < faces; ++f) {
+        face[f].material = UINT32_MAX;
+        for (size_t k = 0; k < 3; ++k)
+            corner_columns[k * faces + f] = face[f].corners[k] = packed.triangles[3 * f + k];
+    }
+    faqem_mesh mesh = packed;
+    mesh.positions = vertex[0].at;
+    mesh.position_stride = sizeof vertex[0];
+    mesh.triangles = face[0].corners;
+    mesh.triangle_stride = sizeof face[0];
+    a_flat_square_stays_one(mesh);
+    mesh.positions = NULL;
+    mesh.double_positions = columns;
+    mesh.position_stride = sizeof columns[0];
+    mesh.position_step = vertices * sizeof columns[0];
+    mesh.triangles = corner_columns;
+    mesh.triangle_stride = sizeof corner_columns[0];
+    mesh.triangle_step = faces * sizeof corner_columns[0];
+    a_flat_square_stays_one(mesh);
+}
+
 static void groups_locks_and_weights_are_used(void) {
     faqem_mesh mesh = flat_grid(8);
     uint32_t groups[128];
@@ -155,6 +189,7 @@ static void nothing_gives_nothing(void) {
 void test_simplify(void) {
     a_flat_square_stays_one(flat_grid(20));
     a_flat_square_stays_one(flat_grid_of_doubles(20));
+    arrays_may_lie_anyhow();
     groups_locks_and_weights_are_used();
     the_distance_is_reported();
     bad_arrays_are_named();

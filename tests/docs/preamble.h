@@ -5,3 +5,4 @@
 static faqem_options* options;
 static faqem_error error;
 static faqem_mesh mesh;
+static faqem_asset* source;

@@ -1,10 +1,12 @@
 """faqem.simplify: numpy arrays in and out."""
 
+import ctypes
 import os
 import unittest
 
 import faqem
 import numpy
+from faqem._arrays import MeshArrays
 from numpy.testing import assert_array_equal
 
 
@@ -48,11 +50,25 @@ class Arrays(unittest.TestCase):
         out = faqem.simplify(vertices, triangles, faces=40)
         for v, t in [
             (numpy.repeat(vertices, 2, axis=0)[::2], numpy.asfortranarray(triangles)),
+            (numpy.concatenate([vertices, vertices + 7], axis=1)[:, :3], numpy.asfortranarray(triangles, numpy.uint32)),
+            (numpy.asfortranarray(vertices, numpy.float32), numpy.repeat(triangles, 2, axis=1)[:, ::2]),
+            (vertices[::-1].copy()[::-1], triangles[::-1].copy()[::-1]),
+            (vertices.astype(">f8"), triangles.astype(">u4")),
             (vertices.tolist(), triangles.tolist()),
         ]:
             again = faqem.simplify(v, t, faces=40)
             assert_array_equal(again.vertices, out.vertices)
             assert_array_equal(again.triangles, out.triangles)
+
+    def test_what_has_the_right_type_is_not_copied(self):
+        vertices, triangles = flat_grid(10)
+        wide = numpy.concatenate([vertices, vertices], axis=1)
+        corners = numpy.asfortranarray(triangles, numpy.uint32)
+        mesh = MeshArrays(wide[:, 3:], corners).mesh
+        self.assertEqual(ctypes.addressof(mesh.double_positions.contents), wide[:, 3:].ctypes.data)
+        self.assertEqual((mesh.position_stride, mesh.position_step), (48, 8))
+        self.assertEqual(ctypes.addressof(mesh.triangles.contents), corners.ctypes.data)
+        self.assertEqual((mesh.triangle_stride, mesh.triangle_step), (4, 4 * len(corners)))
 
     def test_origins_lead_back(self):
         vertices, triangles = flat_grid(8)

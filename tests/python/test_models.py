@@ -43,6 +43,21 @@ class Models(unittest.TestCase):
         faqem.save(light, self.folder / "light.glb")
         self.assertEqual(len(faqem.load(self.folder / "light.glb").parts), 1)
 
+    def test_a_model_has_levels_with_textures_of_their_own_or_one(self):
+        source = faqem.load(self.painted())
+        self.assertIsNone(source.error)
+        for textures in ("each", "shared"):
+            levels = faqem.bake_levels(source, [0.5, 40], textures=textures, texture_size=64)
+            self.assertEqual(len(levels), 2)
+            for level, most in zip(levels, (144, 40)):
+                self.assertLessEqual(len(level.parts[0].triangles), most)
+                self.assertEqual(level.report["faces_in"], 288)
+            self.assertGreaterEqual(levels[1].error, levels[0].error)
+            self.assertEqual(bool(levels[1].report["pages"]), textures == "each")
+        for wrong in ({"textures": "both"}, {"textures": "shared", "bake": "keep"}, {"ratio": 0.5}):
+            with self.assertRaises(faqem.OptionError):
+                faqem.bake_levels(source, [0.5, 40], **wrong)
+
     def test_files_are_kept_unless_told_otherwise(self):
         model = faqem.Model.from_arrays(*flat_grid(2))
         file = self.folder / "kept.glb"
