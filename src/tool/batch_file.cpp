@@ -52,7 +52,7 @@ Result cancelled() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}
 Result make(const BatchFile& file, const BatchWork& work, BatchEntry entry, Overwrite overwrite) {
     Asset source = load_model(file.in, work.strictness);
     Options options = work.options;
-    options.bake.kind = bake_for(options.bake.kind, source, file.out);
+    options.bake = bake_for(options.bake, source, file.out);
     LightAsset light = simplify_model(source, file.in, options);
     const Report& report = light.report;
     if (report.stop == StopReason::cancelled) return cancelled();

@@ -96,7 +96,7 @@ void check_source(const Asset& source, const SmallParts& small) {
 Asset with_look(const Arguments& arguments, const SmallParts& small, const Options& options) {
     const Asset source = load_model(arguments.source, arguments.strictness());
     Options as_baked = options;
-    as_baked.bake.kind = bake_for(options.bake.kind, source, arguments.out);
+    as_baked.bake = bake_for(options.bake, source, arguments.out);
     return naming(arguments.source, [&] {
         check_source(source, small);
         return bake(source, small, as_baked).asset;

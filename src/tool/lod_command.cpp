@@ -242,7 +242,7 @@ int run(const Arguments& arguments) {
         };
         bar.show(Phase::load, 0);
         source = load_model(arguments.in, arguments.strictness());
-        options.bake.kind = bake_for(options.bake.kind, source, outputs.models[0]);
+        options.bake = bake_for(options.bake, source, outputs.models[0]);
         code = chain();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";

@@ -157,7 +157,7 @@ int run(const Arguments& arguments) {
         const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
         require_memory(arguments.in, loading_peak(arguments.in), allowed);
         const Asset source = load_input(arguments, seconds);
-        options.bake.kind = bake_for(options.bake.kind, source, arguments.out);
+        options.bake = bake_for(options.bake, source, arguments.out);
         require_memory(arguments.in, predicted_peak(source, options), allowed);
         light = simplify_model(source, arguments.in, options, byte_budget(arguments));
         light.report.seconds.load = seconds.load;

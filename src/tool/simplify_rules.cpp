@@ -19,16 +19,24 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     return asset;
 }
 
-Bake bake_for(Bake kind, const Asset& source, const std::filesystem::path& out) {
-    if (kind != Bake::automatic) return kind;
+BakeOptions bake_for(BakeOptions asked, const Asset& source, const std::filesystem::path& out) {
+    if (asked.kind != Bake::automatic) return asked;
     std::string ending = out.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool bare = source.materials.empty() && std::all_of(source.parts.begin(), source.parts.end(),
-                                                              [](const Part& p) { return p.colors.empty(); });
-    if (ending == ".stl") return Bake::none;
-    if (ending == ".ply") return bare ? Bake::none : Bake::vertex;
-    return ending == ".obj" && bare ? Bake::none : kind;
+    const auto no_part_has = [&](auto values) {
+        return std::all_of(source.parts.begin(), source.parts.end(),
+                           [&](const Part& p) { return (p.*values).empty(); });
+    };
+    const bool bare = source.materials.empty() && no_part_has(&Part::colors);
+    if (ending == ".stl") {
+        asked.kind = Bake::none;
+        // Nothing is asked of the original then. Where it has normals, save() says that STL has none.
+        asked.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
+    }
+    if (ending == ".ply") asked.kind = bare ? Bake::none : Bake::vertex;
+    if (ending == ".obj" && bare) asked.kind = Bake::none;
+    return asked;
 }
 
 LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,

@@ -87,6 +87,8 @@ TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY take
     CHECK(pages("bare.ply bare.glb --normal-map on") == 1);
     CHECK(pages("bare.ply out.ply --normal-map on") == 0);
     CHECK(pages("bare.ply out.stl --normal-map on") == 0);
+    // No normals were made to be left out.
+    CHECK(read(folder / "r.json").find("cannot hold vertex normals") == std::string::npos);
     CHECK(pages("bare.ply out.obj --normal-map on") == 0);
     CHECK(pages("painted.glb out.obj") == 1);
     CHECK(pages("painted.glb painted.ply") == 0);
