@@ -170,3 +170,21 @@ TEST_CASE("fast says that weights do not apply to it") {
     CHECK_THAT(with.report.warnings[0], Catch::Contains("preset fast has none of their terms"));
     CHECK(simplify(mesh.view(), {.target = ratio(0.5), .preset = Preset::fast}).report.warnings.empty());
 }
+
+TEST_CASE("no vertex goes far outside, where planes are parallel but for noise") {
+    // The minimum of one pair's quadric is eight lengths of the tube away.
+    TriangleMesh mesh = test::cylinder(10, 10, 10);
+    for (Vec3& p : mesh.positions) p[0] *= 0.1;
+    mesh = test::shaken(mesh, 1e-4, 2);
+    const Complex complex = test::complex_of(mesh);
+    const PairTable pairs(complex, {});
+    MemorylessMetric metric;
+    metric.initialise(complex, pairs);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : mesh.positions) box.extend(to_eigen(p));
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        const auto found = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
+        REQUIRE(found);
+        CHECK(room_around(box).contains(found->point));
+    }
+}

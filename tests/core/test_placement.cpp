@@ -59,3 +59,9 @@ TEST_CASE("a minimum outside of the room there is counts as none") {
     CHECK(place(q, a, b, Freedom::anywhere, &wide) == Vector3(7, 0, 0));
     CHECK(place(q, a, b, Freedom::anywhere, &narrow) == b);
 }
+
+TEST_CASE("the room around a surface is its box and a tenth of the diagonal on all sides") {
+    const Eigen::AlignedBox3d room = room_around({Vector3(0, 0, 1), Vector3(3, 4, 1)});
+    CHECK(room.min() == Vector3(-0.5, -0.5, 0.5));
+    CHECK(room.max() == Vector3(3.5, 4.5, 1.5));
+}

@@ -45,10 +45,13 @@ public:
             poll();
             if (complex.alive(f)) add_face(complex, f, no_index, no_index, 1);
         }
+        Eigen::AlignedBox3d box;
         for (Index v = 0; v < rings_.size(); ++v) {
             poll();
             find_edges(complex, pairs, v);
+            if (complex.degree(v) > 0) box.extend(complex.position(v));
         }
+        room_ = room_around(box);
     }
 
     /// The sum of both rings less half of what they share: a shared face counts one and a half times.
@@ -68,7 +71,8 @@ public:
         sum.add(shared, -0.5);
         const Vector3 moment = at_v.apply(d);
         const Quadric q = {sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz, -moment, d.dot(moment)};
-        const Vector3 p = place(q, Vector3::Zero(), d, freedom);
+        const Eigen::AlignedBox3d room(room_.min() - origin, room_.max() - origin);
+        const Vector3 p = place(q, Vector3::Zero(), d, freedom, &room);
         double cost = std::max(q(p), 0.0);
         if (faces > 0 && complex.degree(u) == faces && complex.degree(v) == faces)
             cost += cost_of_part(complex, u);
@@ -294,6 +298,7 @@ private:
 
     MemorylessWeights weights_;
     const GroupCurves* curves_;
+    Eigen::AlignedBox3d room_;  // for new vertices
     std::vector<Ring> rings_;
     std::vector<Planes> edges_;                      // of each vertex: planes along its edges
     std::map<Index, std::vector<Index>> hub_edges_;  // of hubs with such edges: their other ends, ascending

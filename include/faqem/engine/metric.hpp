@@ -127,10 +127,7 @@ public:
             poll();
             add_vertex_terms(complex, pairs, v);
         }
-        // Planes that are nearly parallel meet anywhere: noise put vertices six diagonals away.
-        const double margin = 0.1 * room_.diagonal().norm();
-        room_.extend(Vector3(room_.max().array() + margin));
-        room_.extend(Vector3(room_.min().array() - margin));
+        room_ = room_around(room_);
     }
 
     std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,

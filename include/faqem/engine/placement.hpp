@@ -28,6 +28,13 @@ struct Candidate {
     double cost = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The room for new vertices around a surface: its box, and a tenth of the diagonal on all sides. Planes that
+/// are parallel but for noise meet anywhere.
+inline Eigen::AlignedBox3d room_around(const Eigen::AlignedBox3d& box) {
+    const Vector3 margin = Vector3::Constant(0.1 * box.diagonal().norm());
+    return {box.min() - margin, box.max() + margin};
+}
+
 /// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
 /// taken (paper, Sec. 3.1). \pre freedom is not `nowhere`
 /// \param room  a minimum outside of it counts as ill conditioned; null: there is room everywhere
