@@ -46,6 +46,7 @@ constexpr std::array value_names = {
     Pair{"--size", "N"},
     Pair{"--source", "FILE"},
     Pair{"--texture-size", "N"},
+    Pair{"--textures", "each|shared"},
     Pair{"--threads", "N"},
     Pair{"--tolerance", "T"},
     Pair{"--views", "N"},

@@ -2,11 +2,12 @@
 // What the tests of the file formats share.
 
 #include <unistd.h>
-#include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,10 +21,9 @@ namespace faqem::testing {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        static std::atomic<int> count{0};
-        path_ = std::filesystem::temp_directory_path() /
-                ("faqem-formats-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directory(path_);
+        std::string path = (std::filesystem::temp_directory_path() / "faqem-formats-XXXXXX").string();
+        if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
+        path_ = path;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
