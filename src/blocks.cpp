@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "faqem/engine/engine.hpp"
 #include "faqem/engine/memoryless.hpp"
 #include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"

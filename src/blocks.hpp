@@ -8,7 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/engine.hpp"
+#include "faqem/engine/loop.hpp"
+#include "faqem/engine/poll.hpp"
 #include "faqem/engine/original.hpp"
 #include "faqem/options.hpp"
 #include "parallel.hpp"

@@ -7,7 +7,9 @@
 
 #include "arrange.hpp"
 #include "better_edges.hpp"
-#include "faqem/engine/engine.hpp"
+#include "faqem/engine/complex.hpp"
+#include "faqem/engine/loop.hpp"
+#include "faqem/engine/poll.hpp"
 #include "faqem/engine/wedges.hpp"
 #include "faqem/simplify.hpp"
 #include "presets.hpp"

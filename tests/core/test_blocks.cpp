@@ -8,6 +8,7 @@
 
 #include "arrange.hpp"
 #include "core/original.hpp"
+#include "faqem/engine/engine.hpp"
 #include "faqem/engine/round_queue.hpp"
 #include "faqem/engine/tracked.hpp"
 

@@ -1,6 +1,8 @@
 #include "faqem/engine/components.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
+#include <vector>
 
 #include "core/meshes.hpp"
 
@@ -36,4 +38,39 @@ TEST_CASE("dead faces join nothing") {
     complex.remove_face(0);
     complex.remove_face(1);
     CHECK(components(complex).empty());
+}
+
+TEST_CASE("expendable are the small components: not the largest, none with a locked vertex, smallest first") {
+    // Four quads, of sizes 3, 1, 4, 2; vertices 0-3, 4-7, 8-11, 12-15.
+    const auto quad_of = [](double size, double at) {
+        return test::moved(test::scaled(test::quad(), size), {at, 0, 0});
+    };
+    const Complex complex = test::complex_of(
+        test::both(test::both(quad_of(3, 0), quad_of(1, 10)), test::both(quad_of(4, 20), quad_of(2, 30))));
+    std::vector<std::uint8_t> locked(complex.vertex_slots(), 0);
+    const auto first_faces = [&](double largest_diagonal) {
+        std::vector<Index> faces;
+        for (const Component& c : expendable_components(complex, locked, largest_diagonal))
+            faces.push_back(c.faces[0]);
+        return faces;
+    };
+    CHECK(first_faces(100) == std::vector<Index>{2, 6, 0});
+    CHECK(first_faces(3) == std::vector<Index>{2, 6});  // the diagonals are 1.4, 2.8, 4.2
+    CHECK(first_faces(std::numeric_limits<double>::quiet_NaN()).empty());
+    locked[14] = 1;
+    CHECK(first_faces(100) == std::vector<Index>{2, 0});
+}
+
+TEST_CASE("a long component without area is the most expendable") {
+    // A line of length 100 beside quads of sizes 1 and 2.
+    TriangleMesh line;
+    line.positions = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
+    line.triangles = {{0, 1, 2}};
+    const Complex complex = test::complex_of(
+        test::both(test::both(test::quad(), line), test::moved(test::scaled(test::quad(), 2), {0, 5, 0})));
+    const std::vector<std::uint8_t> locked(complex.vertex_slots(), 0);
+    const auto found = expendable_components(complex, locked, 100);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].faces == std::vector<Index>{2});
+    CHECK(found[1].faces == std::vector<Index>{0, 1});
 }

@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "faqem/engine/complex.hpp"
+#include "faqem/engine/degenerate.hpp"
 
 namespace faqem::engine {
 
@@ -46,6 +48,34 @@ inline std::vector<Component> components(const Complex& complex, Poll poll = {})
         found.push_back(std::move(component));
     }
     return found;
+}
+
+/// Components that may be deleted, smallest box first: all but the largest, without those that hold a locked
+/// vertex or are larger than asked for. What has no area will not be missed: it has no size. O(faces)
+/// \param locked            one per vertex slot: nonzero must stay
+/// \param largest_diagonal  of the boxes; engine units
+/// \throws what the poll throws
+inline std::vector<Component> expendable_components(const Complex& complex,
+                                                    std::span<const std::uint8_t> locked,
+                                                    double largest_diagonal, Poll poll = {}) {
+    std::vector<Component> all = components(complex, poll);
+    for (Component& c : all) {
+        const bool is_line =
+            std::all_of(c.faces.begin(), c.faces.end(), [&](Index f) { return is_degenerate(complex, f); });
+        if (is_line) c.box = Eigen::AlignedBox3d(c.box.min());
+    }
+    const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
+    if (!all.empty()) all.pop_back();
+    const auto has_locked = [&](Index f) {
+        const Triangle& t = complex.triangle(f);
+        return locked[t[0]] || locked[t[1]] || locked[t[2]];
+    };
+    std::erase_if(all, [&](const Component& c) {
+        return !(diagonal(c) <= largest_diagonal) || std::any_of(c.faces.begin(), c.faces.end(), has_locked);
+    });
+    return all;
 }
 
 }  // namespace faqem::engine

@@ -26,7 +26,9 @@
 #include "faqem/engine/degenerate.hpp"
 #include "faqem/engine/double_faces.hpp"
 #include "faqem/engine/group_curves.hpp"
+#include "faqem/engine/ladder.hpp"
 #include "faqem/engine/legality.hpp"
+#include "faqem/engine/loop.hpp"
 #include "faqem/engine/metric.hpp"
 #include "faqem/engine/pairs.hpp"
 #include "faqem/engine/queue.hpp"
@@ -35,39 +37,6 @@
 #include "faqem/report.hpp"
 
 namespace faqem::engine {
-
-/// What the loop does where no collapse is legal above the target.
-enum class Ladder {
-    climb,  ///< looks at all pairs again, then relaxes one rule after the other
-    stay,   ///< stops
-};
-
-/// What the loop needs besides the complex, the metric and the recorder.
-struct LoopOptions {
-    std::size_t target_faces = 4;
-    Rules rules = {};
-    Ladder ladder = Ladder::climb;
-    /// Vertices from here on are there for their faces with others; what else lies around them is not known.
-    /// They must be locked, and so must their neighbours.
-    Index first_context = no_index;
-    /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
-    /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
-    double distance_weight = 0;
-    /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
-    double tiny_component = 0;
-    /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
-    /// or cancels, the complex stays whole.
-    std::function<Continue(double)> progress = {};
-};
-
-/// What the loop did.
-struct LoopResult {
-    StopReason stop = StopReason::reached_target;
-    std::uint64_t collapses = 0;
-    std::array<std::uint64_t, refusal_kinds> refusals = {};
-    std::array<std::uint64_t, rung_kinds> rungs = {};
-    std::uint64_t components_deleted = 0;
-};
 
 /// Collapses pairs of one complex. run() is called once, go_on() as often as wanted.
 /// \tparam Metric    what a collapse costs and where it goes
@@ -376,31 +345,14 @@ private:
         switch (rung) {
             case Rung::tiny_components:
                 return delete_components(options, options.tiny_component);
-            case Rung::without_link:
-                if (rules_.link != LinkCondition::on && rules_.link != LinkCondition::by_size) return false;
-                rules_.link = LinkCondition::off;
-                return true;
-            case Rung::fold:
-                return std::exchange(rules_.least_fold, -1) > -1;
-            case Rung::flip_zero:
-                return relax_turn(0);
-            case Rung::flip_half:
-                return !keeps_groups() && relax_turn(-0.5);
-            case Rung::flip_any:
-                // Faces that turn over would cover another group's ground.
-                if (keeps_groups()) return false;
-                rules_.least_length = 0;
-                return relax_turn(-1);
             case Rung::any_component:
                 // Kept seams and groups are a wish of the user's, like locks: a large part is not given up
                 // for them.
                 return wedges_.empty() && !keeps_groups() &&
                        delete_components(options, std::numeric_limits<double>::infinity());
-            case Rung::reseed:
-            case Rung::double_faces:
-                break;
+            default:
+                return relax(rules_, rung, keeps_groups() ? Groups::kept : Groups::free);
         }
-        return false;
     }
 
     // Down to the target. No surface is lost, but perhaps a group.
@@ -422,40 +374,15 @@ private:
 
     bool keeps_groups() const { return curves_ && !curves_->empty(); }
 
-    bool relax_turn(double limit) {
-        if (!(rules_.least_turn > limit)) return false;
-        rules_.least_turn = limit;
-        return true;
-    }
-
-    // Deletes whole components without locked vertices, smallest box first, down to the target; never the
-    // largest. What has no area will not be missed: it has no size.
+    // Down to the target; never the largest.
     bool delete_components(const LoopOptions& options, double largest_diagonal) {
-        std::vector<Component> all = components(complex_, poll_);
-        for (Component& c : all) {
-            const bool is_line = std::all_of(c.faces.begin(), c.faces.end(),
-                                             [&](Index f) { return is_degenerate(complex_, f); });
-            if (is_line) c.box = Eigen::AlignedBox3d(c.box.min());
-        }
-        const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
-        std::stable_sort(all.begin(), all.end(),
-                         [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
-        if (!all.empty()) all.pop_back();
         bool any = false;
-        for (const Component& component : all) {
+        for (const Component& component : expendable_components(complex_, locked_, largest_diagonal, poll_)) {
             if (complex_.face_count() <= options.target_faces) break;
-            if (!(diagonal(component) <= largest_diagonal) || has_locked(component)) continue;
             delete_component(component);
             any = true;
         }
         return any;
-    }
-
-    bool has_locked(const Component& component) const {
-        return std::any_of(component.faces.begin(), component.faces.end(), [&](Index f) {
-            const Triangle& t = complex_.triangle(f);
-            return locked_[t[0]] || locked_[t[1]] || locked_[t[2]];
-        });
     }
 
     void delete_component(const Component& component) {
