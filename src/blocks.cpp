@@ -84,6 +84,9 @@ public:
         }
         std::sort(others_.begin(), others_.end());
         others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+        positions.reserve(own_ + others_.size());
+        locked.reserve(own_ + others_.size());
+        triangles.reserve(faces.size());
         for (Index v = 0; v < own_ + others_.size(); ++v) {
             positions.push_back(input.positions[slot(v)]);
             locked.push_back(v >= own_ || input.locked[slot(v)]);
@@ -100,6 +103,12 @@ public:
     Index own() const { return own_; }
     /// Of the whole.
     Index slot(Index v) const { return v < own_ ? first_ + v : others_[v - own_]; }
+
+    /// Gives back the memory of what a complex has copied.
+    void forget_surface() {
+        std::vector<Vector3>().swap(positions);
+        std::vector<Triangle>().swap(triangles);
+    }
 
     std::span<const Index> faces;  ///< of the whole
     std::vector<Vector3> positions;
@@ -134,8 +143,13 @@ struct Done {
 
 class StepRecorder {
 public:
-    StepRecorder(const Block& block, Recording patches, Done& done)
-        : block_(block), patches_(patches), done_(done) {}
+    /// \param faces  that will go; two with each step, mostly
+    StepRecorder(const Block& block, Recording patches, std::size_t faces, Done& done)
+        : block_(block), patches_(patches), done_(done) {
+        done.steps.reserve(faces / 2);
+        done.costs.reserve(faces / 2);
+        done.removed.reserve(faces / 2);
+    }
 
     void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
         if (done_.steps.empty()) before_ = complex.face_count();
@@ -245,12 +259,13 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
                     Recording patches, SharedProgress& progress, Poll poll) {
     Done done;
     Complex complex(block.positions, block.triangles, poll);
+    block.forget_surface();
     engine::PairTable pairs(complex, {}, poll);
     engine::Wedges wedges;
-    StepRecorder recorder(block, patches, done);
     engine::LoopOptions options = block_options(loop, complex.face_count(), block.between, share);
     options.first_context = block.own();
     const std::size_t to_remove = complex.face_count() - std::min(options.target_faces, complex.face_count());
+    StepRecorder recorder(block, patches, to_remove, done);
     std::size_t known = 0;
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
@@ -374,6 +389,9 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);
+    std::size_t steps = 0;
+    for (const Done& block : done) steps += kept.steps(block);
+    result.steps.reserve(steps);
     for (Done& block : done) {
         take(block, kept.steps(block), patches, result);
         block = {};

@@ -1,6 +1,6 @@
 #include "ground.hpp"
 
-#include <numeric>
+#include <cassert>
 #include <utility>
 
 namespace faqem::detail {
@@ -20,11 +20,7 @@ std::vector<T> taken(const std::vector<T>& of, const std::vector<Index>& slots) 
 
 Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
                engine::Poll poll)
-    : now_(arrange(prepared, poll)),
-      into_(now_.positions.size()),
-      places_(now_.vertex),
-      locked_(taken(locked, now_.vertex)) {
-    std::iota(into_.begin(), into_.end(), Index{0});
+    : now_(arrange(prepared, poll)), places_(now_.vertex), locked_(taken(locked, now_.vertex)) {
     if (border != Border::locked) return;
     for (const auto& [a, b] : engine::find_open_edges(now_.triangles, now_.positions.size(), poll))
         locked_[a] = locked_[b] = 1;
@@ -37,14 +33,17 @@ void Ground::take(Reduced&& reduced) {
     Arranged less{taken(now_.vertex, reduced.vertices), taken(now_.face, reduced.faces),
                   std::move(reduced.positions), std::move(reduced.triangles)};
     std::swap(now_, less);
-    if (whole_.positions.empty()) whole_ = std::move(less);
+    if (!keeps_whole_ || !whole_positions_.empty()) return;
+    whole_positions_ = std::move(less.positions);
+    whole_triangles_ = std::move(less.triangles);
 }
 
 std::vector<Index> Ground::places_of(const std::vector<Index>& slots) const { return taken(places_, slots); }
 
 Patchwork Ground::whole() const {
-    const Arranged& whole = whole_.positions.empty() ? now_ : whole_;
-    return {whole.positions, whole.triangles};
+    assert(keeps_whole_);
+    if (whole_positions_.empty()) return {now_.positions, now_.triangles};
+    return {whole_positions_, whole_triangles_};
 }
 
 double Ground::area() const {

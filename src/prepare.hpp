@@ -28,6 +28,10 @@ struct Prepared {
     std::vector<engine::Vector3> engine_positions(engine::Poll poll = {}) const;
     /// Back to model units.
     Vec3 to_model(const engine::Vector3& p) const;
+
+    /// Give back the memory of what is not needed any more. O(1)
+    void forget_triangles() { std::vector<Triangle>().swap(triangles); }
+    void forget_welded() { std::vector<Index>().swap(welded); }
 };
 
 /// \throws InputError  see simplify(); and what the poll throws

@@ -159,6 +159,9 @@ private:
         ground_ = detail::Ground(prepared_,
                                  detail::locks_of_welded(mesh_, prepared_.welded, prepared_.positions.size()),
                                  options_.topology.border, poll_);
+        if (options_.history == Recording::off) prepared_.forget_triangles();
+        if (mesh_.vertex_weights.empty()) prepared_.forget_welded();
+        if (settings_.relax) ground_.keep_whole();
         if (settings_.carry == detail::Settings::Carry::tracked) ground_.remember_original(poll_);
         area_ = ground_.area();
         loop_.rules = {settings_.link, settings_.least_turn, least_length(), settings_.least_fold};

@@ -89,7 +89,7 @@ std::vector<std::uint8_t> GltfBinary::finish(Json& document) {
         if (group.use == AccessorUse::vertices) view["byteStride"] = group.stride;
         if (group.use == AccessorUse::vertices) view["target"] = array_buffer;
         if (group.use == AccessorUse::indices) view["target"] = element_array_buffer;
-        group.bytes = {};
+        std::vector<std::uint8_t>().swap(group.bytes);
     }
     for (const auto& bytes : views_) append(bytes);
     for (Added& added : added_) {

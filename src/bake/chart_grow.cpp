@@ -160,7 +160,7 @@ private:
         }
         std::erase_if(a.neighbours, [&](const Shared& s) { return s.region == j; });
         tidy(a.neighbours);
-        b.neighbours = {};
+        std::vector<Shared>().swap(b.neighbours);
         for (const Shared& s : a.neighbours) offer(i, s.region);
     }
 

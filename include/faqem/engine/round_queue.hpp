@@ -140,8 +140,8 @@ private:
             poll_();
             if (costs_[i] != absent) buckets_.set(static_cast<Index>(i), static_cast<double>(costs_[i]));
         }
-        costs_ = {};
-        rounds_ = {};
+        std::vector<float>().swap(costs_);
+        std::vector<std::uint8_t>().swap(rounds_);
     }
 
     static constexpr std::size_t samples = 4096;
