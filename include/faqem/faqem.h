@@ -136,7 +136,9 @@ typedef struct faqem_mesh {
     const float* positions;         /**< 3 * vertex_count, finite; or null, and double_positions is given */
     const double* double_positions; /**< 3 * vertex_count, finite; or null */
     size_t vertex_count;
-    const uint32_t* triangles; /**< 3 * face_count vertices, counter-clockwise seen from outside */
+    /** 3 * face_count vertices, counter-clockwise seen from outside; or null, and short_triangles is given. */
+    const uint32_t* triangles;
+    const uint16_t* short_triangles; /**< the same in 16 bits; or null */
     size_t face_count;
     const uint32_t* face_groups;  /**< null, or face_count groups (materials) */
     const uint8_t* vertex_locks;  /**< null, or vertex_count; nonzero: stays where it is */

@@ -31,12 +31,13 @@ def _positions(vertices):
 
 
 def _indices(values, name):
+    """As uint32; uint16 stays what it is."""
     array = numpy.asarray(values)
     if array.size and not numpy.issubdtype(array.dtype, numpy.integer):
         raise InputError(f"{name}: {array.dtype} are no whole numbers")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
         raise InputError(f"{name}: below 0, or above what 32-bit indices can count")
-    return _readable(array, numpy.uint32)
+    return _readable(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
 
 
 def _per_element(values, count, kind, name):
@@ -57,7 +58,7 @@ class MeshArrays:
         self._kept = []
         name = "positions" if positions.dtype == numpy.float32 else "double_positions"
         self._point(name, positions)
-        self._point("triangles", corners)
+        self._point("short_triangles" if corners.dtype == numpy.uint16 else "triangles", corners)
         self.mesh.position_stride, self.mesh.position_step = positions.strides
         self.mesh.triangle_stride, self.mesh.triangle_step = corners.strides
         if groups is not None:

@@ -2,7 +2,7 @@
 
 import ctypes
 import pathlib
-from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
 
 from . import errors
 
@@ -17,6 +17,7 @@ class Mesh(ctypes.Structure):
         ("double_positions", POINTER(c_double)),
         ("vertex_count", c_size_t),
         ("triangles", POINTER(c_uint32)),
+        ("short_triangles", POINTER(c_uint16)),
         ("face_count", c_size_t),
         ("face_groups", POINTER(c_uint32)),
         ("vertex_locks", POINTER(c_uint8)),

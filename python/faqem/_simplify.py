@@ -71,7 +71,7 @@ def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, u
     """Simplifies a triangle soup.
 
     vertices   (v, 3) numbers; float32 and float64 are used without a copy
-    triangles  (f, 3) whole numbers below v; uint32 without a copy
+    triangles  (f, 3) whole numbers below v; uint32 and uint16 without a copy
     groups     (f,) whole numbers, for group_borders="kept"
     locks      (v,) truth values: these stay where they are
     weights    (v,) numbers in [1e-6, 1e6]: errors there count so many times

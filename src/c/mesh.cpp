@@ -33,6 +33,17 @@ PositionView positions_of(const faqem_mesh& mesh) {
                                                   mesh.position_stride, mesh.position_step);
 }
 
+TriangleView triangles_of(const faqem_mesh& mesh) {
+    if (mesh.triangles && mesh.short_triangles)
+        throw InputError("", "triangles", "given both in 32 and in 16 bits");
+    const void* given = mesh.triangles ? static_cast<const void*>(mesh.triangles) : mesh.short_triangles;
+    require_array(given, mesh.face_count, "triangles");
+    return mesh.triangles ? view_of<TriangleView>(mesh.triangles, mesh.face_count, mesh.triangle_stride,
+                                                  mesh.triangle_step)
+                          : view_of<TriangleView>(mesh.short_triangles, mesh.face_count,
+                                                  mesh.triangle_stride, mesh.triangle_step);
+}
+
 template <class Value>
 std::span<const Value> optional_array(const Value* array, std::size_t count) {
     return array ? std::span(array, count) : std::span<const Value>();
@@ -42,9 +53,7 @@ std::span<const Value> optional_array(const Value* array, std::size_t count) {
 
 MeshArrays::MeshArrays(const faqem_mesh& mesh) {
     view.positions = positions_of(mesh);
-    require_array(mesh.triangles, mesh.face_count, "triangles");
-    view.triangles =
-        view_of<TriangleView>(mesh.triangles, mesh.face_count, mesh.triangle_stride, mesh.triangle_step);
+    view.triangles = triangles_of(mesh);
     view.face_groups = optional_array(mesh.face_groups, mesh.face_count);
     view.vertex_locks = optional_array(mesh.vertex_locks, mesh.vertex_count);
     view.vertex_weights = optional_array(mesh.vertex_weights, mesh.vertex_count);

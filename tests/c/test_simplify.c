@@ -78,6 +78,45 @@ static void arrays_may_lie_anyhow(void) {
     a_flat_square_stays_one(mesh);
 }
 
+/* Side by side, in faces that hold more, and column by column: what is read is the same as of 32 bits. */
+static void indices_of_16_bits_are_read_where_they_are(void) {
+    enum { faces = 800 };
+    static uint16_t corners[3 * faces], columns[3 * faces];
+    static struct { uint8_t flags[2]; uint16_t corners[3]; } face[faces];
+    const faqem_mesh wide = flat_grid(20);
+    CHECK(wide.face_count == faces);
+    memset(face, 0xff, sizeof face);
+    for (size_t f = 0; f < faces; ++f)
+        for (size_t k = 0; k < 3; ++k)
+            corners[3 * f + k] = face[f].corners[k] = columns[k * faces + f] = (uint16_t)wide.triangles[3 * f + k];
+    faqem_mesh mesh = wide;
+    mesh.triangles = NULL;
+    mesh.short_triangles = corners;
+    a_flat_square_stays_one(mesh);
+    faqem_result *short_result = NULL, *wide_result = NULL;
+    CHECK(faqem_simplify(&mesh, NULL, &short_result, NULL) == FAQEM_OK);
+    CHECK(faqem_simplify(&wide, NULL, &wide_result, NULL) == FAQEM_OK);
+    CHECK(faqem_result_face_count(short_result) == faqem_result_face_count(wide_result));
+    CHECK(memcmp(faqem_result_triangles(short_result), faqem_result_triangles(wide_result),
+                 3 * faqem_result_face_count(wide_result) * sizeof(uint32_t)) == 0);
+    faqem_result_destroy(short_result);
+    faqem_result_destroy(wide_result);
+
+    mesh.short_triangles = face[0].corners;
+    mesh.triangle_stride = sizeof face[0];
+    a_flat_square_stays_one(mesh);
+    mesh.short_triangles = columns;
+    mesh.triangle_stride = sizeof columns[0];
+    mesh.triangle_step = faces * sizeof columns[0];
+    a_flat_square_stays_one(mesh);
+
+    faqem_result* none = NULL;
+    faqem_error error;
+    mesh.triangles = wide.triangles;
+    CHECK(faqem_simplify(&mesh, NULL, &none, &error) == FAQEM_ERROR_INPUT);
+    CHECK(none == NULL && strstr(error.message, "16 bits") != NULL);
+}
+
 static void groups_locks_and_weights_are_used(void) {
     faqem_mesh mesh = flat_grid(8);
     uint32_t groups[128];
@@ -190,6 +229,7 @@ void test_simplify(void) {
     a_flat_square_stays_one(flat_grid(20));
     a_flat_square_stays_one(flat_grid_of_doubles(20));
     arrays_may_lie_anyhow();
+    indices_of_16_bits_are_read_where_they_are();
     groups_locks_and_weights_are_used();
     the_distance_is_reported();
     bad_arrays_are_named();

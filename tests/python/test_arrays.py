@@ -69,6 +69,12 @@ class Arrays(unittest.TestCase):
         self.assertEqual((mesh.position_stride, mesh.position_step), (48, 8))
         self.assertEqual(ctypes.addressof(mesh.triangles.contents), corners.ctypes.data)
         self.assertEqual((mesh.triangle_stride, mesh.triangle_step), (4, 4 * len(corners)))
+        self.assertFalse(mesh.short_triangles)
+        short = triangles.astype(numpy.uint16)
+        mesh = MeshArrays(vertices, short).mesh
+        self.assertEqual(ctypes.addressof(mesh.short_triangles.contents), short.ctypes.data)
+        self.assertEqual((mesh.triangle_stride, mesh.triangle_step), (6, 2))
+        self.assertFalse(mesh.triangles)
 
     def test_origins_lead_back(self):
         vertices, triangles = flat_grid(8)
