@@ -97,6 +97,34 @@ FAQEM_API faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, con
 FAQEM_API double faqem_asset_level_error(const faqem_asset* asset);
 
 /**
+ * Saves levels in one .glb or .gltf with the extension MSFT_lod, see docs/levels.md.
+ * \param levels       level_count, from fine to coarse, with the same parts; the first one may be the original. What
+ *                     the format could not hold is added to its warnings
+ * \param error_share  of the screen's height that the error of a level may cover, finite and > 0: 1.0 / 1080 is a
+ *                     pixel of 1080. How large each level may be seen follows from it
+ */
+FAQEM_API faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double error_share,
+                                               const char* path, faqem_overwrite overwrite, faqem_error* error);
+
+/**
+ * The history of a run, made with faqem_options_set_history(); of FAQEM_LEVEL_TEXTURES_SHARED there is none.
+ * \param levels   level_count of one faqem_asset_simplify_levels(), in its order; or one of faqem_asset_simplify()
+ * \param history  gets a new object; the levels are not needed any more
+ */
+FAQEM_API faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t level_count,
+                                                  faqem_history** history, faqem_error* error);
+
+/**
+ * The model when no more than `faces` were left, without another run, with a look baked anew. As many as a level has
+ * give that level; where even the last level has more, that level.
+ * \param source   the model that was simplified
+ * \param options  of the look, as the run had them; null: the defaults. FAQEM_BAKE_KEEP is refused
+ * \param light    gets a new object, which has a report
+ */
+FAQEM_API faqem_status faqem_asset_cut(const faqem_asset* source, const faqem_history* history, uint64_t faces,
+                                       const faqem_options* options, faqem_asset** light, faqem_error* error);
+
+/**
  * Saves as .glb, .gltf, .obj, .ply or .stl, by name. Each file is complete or not there at all.
  * What the format could not hold is added to the warnings of the asset.
  */

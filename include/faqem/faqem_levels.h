@@ -56,13 +56,15 @@ typedef struct faqem_history faqem_history;
  */
 FAQEM_API faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
                                             faqem_history** history, faqem_error* error);
-/** From the bytes of faqem_history_bytes(), or of a file that the command wrote for a model of one mesh. */
+/** From the bytes of faqem_history_bytes(), or of a file that the command wrote. */
 FAQEM_API faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history** history,
                                           faqem_error* error);
 FAQEM_API void faqem_history_destroy(faqem_history* history);
 
 /** In the format of docs/history-format.md. \param size  gets their number */
 FAQEM_API const uint8_t* faqem_history_bytes(const faqem_history* history, size_t* size);
+/** Meshes that it is of: 1, or the parts of a model. 0 where `history` is null. */
+FAQEM_API size_t faqem_history_part_count(const faqem_history* history);
 /** 0 where `history` is null. */
 FAQEM_API size_t faqem_history_level_count(const faqem_history* history);
 
@@ -70,9 +72,16 @@ FAQEM_API size_t faqem_history_level_count(const faqem_history* history);
  * The mesh when no more than `faces` were left, without another run; as many as a level has give that level. Where
  * even the last level has more, that level. See cut_to() in faqem/cut.hpp.
  * \param result  gets a new object, without what is not in a history: corner values and vertex origins
+ * \return FAQEM_ERROR_OPTION also where the history is of several meshes
  */
 FAQEM_API faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
                                          faqem_error* error);
+/**
+ * The same for all meshes of a history together; `faces` counts for all. With a new look: faqem_asset_cut().
+ * \param results  gets faqem_history_part_count() new objects, in the order of the parts; none where the call fails
+ */
+FAQEM_API faqem_status faqem_history_cut_parts(const faqem_history* history, uint64_t faces, faqem_result** results,
+                                               faqem_error* error);
 
 /* ---- The way back ---- */
 

@@ -46,6 +46,11 @@ def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, 
     return [Simplified(ctypes.c_void_p(one)) for one in made]
 
 
+def objects_of(levels):
+    """The objects of the C door that Simplified or Model have."""
+    return (ctypes.c_void_p * len(levels))(*(level._object.value for level in levels))
+
+
 class History:
     """How the original became one level after the other. Comes from History.of() or History.load()."""
 
@@ -55,13 +60,15 @@ class History:
 
     @classmethod
     def of(cls, levels):
-        """Of what simplify_levels(), or a list of one simplify(), gave with history=True."""
-        objects = (ctypes.c_void_p * len(levels))(*(level._object.value for level in levels))
-        return cls(create(library.faqem_history_create, objects, len(levels)))
+        """Of what simplify_levels() or bake_levels(), or a list of one simplify() or bake(), gave with history=True."""
+        objects = objects_of(levels)
+        of_arrays = all(isinstance(level, Simplified) for level in levels)
+        make = library.faqem_history_create if of_arrays else library.faqem_asset_history_create
+        return cls(create(make, objects, len(levels)))
 
     @classmethod
     def load(cls, path):
-        """From a file of save(), or of the command for a model of one mesh. Raises InputError, OSError."""
+        """From a file of save(), or of the command. Raises InputError, OSError."""
         with open(path, "rb") as file:
             content = file.read()
         return cls(create(library.faqem_history_read, content, len(content)))
@@ -77,6 +84,22 @@ class History:
         """Number of levels."""
         return library.faqem_history_level_count(self._object)
 
+    @property
+    def part_count(self):
+        """Meshes that it is of: 1, or the parts of a model."""
+        return library.faqem_history_part_count(self._object)
+
     def cut(self, faces):
-        """The mesh when no more than so many triangles were left, as a Simplified; see docs/levels.md."""
+        """The mesh when no more than so many triangles were left, as a Simplified; see docs/levels.md.
+
+        Raises OptionError, also where it is of several meshes: cut_parts() is for them, and bake_cut() for models.
+        """
+        if self.part_count > 1:
+            raise OptionError(f"the history is of {self.part_count} meshes: cut_parts() cuts them")
         return Simplified(create(library.faqem_history_cut, self._object, whole(faces, "faces", 53)))
+
+    def cut_parts(self, faces):
+        """The same for all meshes together: a list of Simplified, one for each part of the model."""
+        made = (ctypes.c_void_p * self.part_count)()
+        call(library.faqem_history_cut_parts, self._object, whole(faces, "faces", 53), made)
+        return [Simplified(ctypes.c_void_p(one)) for one in made]

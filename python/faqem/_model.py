@@ -10,9 +10,9 @@ import weakref
 import numpy
 
 from ._arrays import MeshArrays, copied, reference
-from ._levels import wanted_levels
+from ._levels import objects_of, wanted_levels
 from ._library import call, create, library
-from ._options import Options
+from ._options import Options, whole
 from .errors import InputError, OptionError
 
 _level_textures = {"each": 0, "shared": 1}
@@ -114,6 +114,37 @@ def bake_levels(model, levels, /, *, textures="each", **options):
     chosen.run(lambda: call(library.faqem_asset_simplify_levels, model._object, chosen.object, wanted, len(levels),
                             _level_textures[textures], made))
     return [Model(ctypes.c_void_p(one)) for one in made]
+
+
+def bake_cut(model, history, faces, /, **options):
+    """The model when no more than so many triangles were left, with a look baked anew, without another run.
+
+    model    the one that was simplified
+    history  History.of() of its levels, or from a file
+    faces    for all meshes together; as many as a level has give that level
+    options  those of the look that the run had; see docs/python.md
+
+    Returns a Model. Raises what bake() raises, and InputError where the history is of another model.
+    """
+    chosen = Options(**options)
+    count = whole(faces, "faces", 53)
+    return Model(chosen.run(lambda: create(library.faqem_asset_cut, model._object, history._object, count,
+                                           chosen.object)))
+
+
+def save_levels(levels, path, /, *, pixel_error=1, screen_height=1080, overwrite=False):
+    """Saves levels in one .glb or .gltf with the extension MSFT_lod; see docs/levels.md.
+
+    levels         Models from fine to coarse, of one source; the first one may be the source itself
+    pixel_error    pixels that a level may be off where it is shown,
+    screen_height  on a screen with so many
+
+    What the format cannot hold is added to the warnings of the first level. Raises what save() raises.
+    """
+    if not (pixel_error > 0 and screen_height > 0):
+        raise OptionError("pixel_error and screen_height: must be above 0")
+    share = float(pixel_error) / float(screen_height)
+    call(library.faqem_asset_save_levels, objects_of(levels), len(levels), share, _path(path), 1 if overwrite else 0)
 
 
 def save(model, path, *, overwrite=False):

@@ -1,24 +1,11 @@
-#include "faqem/asset.hpp"
+#include "c/asset.hpp"
 
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "c/guard.hpp"
-#include "c/level.hpp"
 #include "c/mesh.hpp"
-#include "c/objects.hpp"
-#include "faqem/bake_levels.hpp"
-#include "faqem/faqem_asset.h"
-
-struct faqem_asset {
-    faqem::Asset asset;
-    std::optional<faqem::c::KeptReport> kept = {};  ///< of what was made of another
-    double level_error = std::numeric_limits<double>::quiet_NaN();
-};
 
 namespace {
 
@@ -59,7 +46,7 @@ faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error
     return c::guarded(error, [&] {
         c::require_argument(path, "path");
         c::require_argument(asset, "asset");
-        *asset = new faqem_asset{load(path)};
+        *asset = new faqem_asset(load(path));
     });
 }
 
@@ -71,7 +58,7 @@ faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faq
         check(part);
         Asset whole;
         whole.parts.push_back(std::move(part));
-        *asset = new faqem_asset{std::move(whole)};
+        *asset = new faqem_asset(std::move(whole));
     });
 }
 
@@ -80,37 +67,8 @@ faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options*
     return c::guarded(error, [&] {
         c::require_argument(asset, "asset");
         c::require_argument(light, "light");
-        LightAsset out = simplify(asset->asset, c::options_or_defaults(options));
-        if (out.report.stop == StopReason::cancelled) throw c::CancelledError();
-        *light = new faqem_asset{std::move(out.asset), c::KeptReport(out.report)};
+        *light = new faqem_asset(simplify(asset->asset, c::options_or_defaults(options)));
     });
-}
-
-faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_options* options,
-                                         const faqem_level* levels, size_t level_count,
-                                         faqem_level_textures textures, faqem_asset** results,
-                                         faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(asset, "asset");
-        c::require_argument(levels, "levels");
-        c::require_argument(results, "results");
-        if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
-            throw OptionError("textures: no such enumerator");
-        std::vector<LightLevel> light = simplify_levels(
-            asset->asset, c::levels_of(levels, level_count), c::options_or_defaults(options),
-            textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
-        std::vector<std::unique_ptr<faqem_asset>> made;
-        for (LightLevel& level : light) {
-            if (level.result.report.stop == StopReason::cancelled) throw c::CancelledError();
-            made.emplace_back(new faqem_asset{std::move(level.result.asset),
-                                              c::KeptReport(level.result.report), level.error});
-        }
-        for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();
-    });
-}
-
-double faqem_asset_level_error(const faqem_asset* asset) {
-    return asset ? asset->level_error : std::numeric_limits<double>::quiet_NaN();
 }
 
 faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwrite overwrite,
@@ -118,10 +76,7 @@ faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwr
     return c::guarded(error, [&] {
         c::require_argument(asset, "asset");
         c::require_argument(path, "path");
-        if (overwrite != FAQEM_OVERWRITE_NO && overwrite != FAQEM_OVERWRITE_YES)
-            throw OptionError("overwrite: no such enumerator");
-        const auto notes =
-            save(asset->asset, path, overwrite == FAQEM_OVERWRITE_YES ? Overwrite::yes : Overwrite::no);
+        const auto notes = save(asset->asset, path, c::overwrite_of(overwrite));
         auto& warnings = asset->asset.warnings;
         warnings.insert(warnings.end(), notes.begin(), notes.end());
     });

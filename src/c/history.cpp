@@ -1,5 +1,6 @@
-#include "faqem/history.hpp"
+#include "c/history.hpp"
 
+#include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -8,20 +9,7 @@
 #include "c/guard.hpp"
 #include "c/result.hpp"
 #include "c/setter.hpp"
-#include "faqem/cut.hpp"
-#include "faqem/faqem_levels.h"
 #include "faqem/surface_map.hpp"
-
-struct faqem_history {
-    explicit faqem_history(faqem::ChainHistory history) : chain(std::move(history)) {
-        std::ostringstream out;
-        write(chain, out);
-        bytes = std::move(out).str();
-    }
-
-    faqem::ChainHistory chain;
-    std::string bytes;  ///< made at once: getters only read
-};
 
 namespace {
 
@@ -50,6 +38,18 @@ void check_point(const CollapseHistory& history, Index face, const Vec3& weights
 
 }  // namespace
 
+faqem_history::faqem_history(std::vector<ChainHistory> histories) : parts(std::move(histories)) {
+    std::ostringstream out;
+    for (const ChainHistory& part : parts) write(part, out);
+    bytes = std::move(out).str();
+}
+
+std::vector<CollapseHistory> c::cut_parts(const faqem_history* history, std::uint64_t faces) {
+    c::require_argument(history, "history");
+    if (faces == 0) throw OptionError("faces must be at least 1");
+    return cut_to(history->parts, faces);
+}
+
 faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
                                   faqem_history** history, faqem_error* error) {
     return c::guarded(error, [&] {
@@ -58,7 +58,7 @@ faqem_status faqem_history_create(const faqem_result* const* results, size_t res
         if (result_count == 0) throw OptionError("there are no results");
         std::vector<CollapseHistory> levels;
         for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
-        *history = new faqem_history(join(levels));
+        *history = new faqem_history(std::vector<ChainHistory>{join(levels)});
     });
 }
 
@@ -68,10 +68,10 @@ faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history
         c::require_argument(bytes, "bytes");
         c::require_argument(history, "history");
         std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
-        ChainHistory chain = read_chain_history(in);
-        if (in.peek() != std::istringstream::traits_type::eof())
-            throw InputError("", "", "there is more behind the history: it is of several meshes");
-        *history = new faqem_history(std::move(chain));
+        std::vector<ChainHistory> parts;
+        do parts.push_back(read_chain_history(in));
+        while (in.peek() != std::istringstream::traits_type::eof());
+        *history = new faqem_history(std::move(parts));
     });
 }
 
@@ -82,17 +82,32 @@ const uint8_t* faqem_history_bytes(const faqem_history* history, size_t* size) {
     return history ? reinterpret_cast<const uint8_t*>(history->bytes.data()) : nullptr;
 }
 
+size_t faqem_history_part_count(const faqem_history* history) { return history ? history->parts.size() : 0; }
+
 size_t faqem_history_level_count(const faqem_history* history) {
-    return history ? history->chain.level_count() : 0;
+    return history ? history->parts.front().level_count() : 0;
 }
 
 faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
                                faqem_error* error) {
     return c::guarded(error, [&] {
-        c::require_argument(history, "history");
         c::require_argument(result, "result");
-        if (faces == 0) throw OptionError("faces must be at least 1");
-        *result = new faqem_result(restore(cut_to(history->chain, faces)));
+        std::vector<CollapseHistory> cuts = c::cut_parts(history, faces);
+        if (cuts.size() > 1)
+            throw OptionError("the history is of " + std::to_string(cuts.size()) +
+                              " meshes: they are cut by faqem_history_cut_parts()");
+        *result = new faqem_result(restore(std::move(cuts.front())));
+    });
+}
+
+faqem_status faqem_history_cut_parts(const faqem_history* history, uint64_t faces, faqem_result** results,
+                                     faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(results, "results");
+        std::vector<std::unique_ptr<faqem_result>> made;
+        for (CollapseHistory& cut : c::cut_parts(history, faces))
+            made.push_back(std::make_unique<faqem_result>(restore(std::move(cut))));
+        for (std::size_t p = 0; p < made.size(); ++p) results[p] = made[p].release();
     });
 }
 

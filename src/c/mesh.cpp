@@ -40,8 +40,8 @@ TriangleView triangles_of(const faqem_mesh& mesh) {
     require_array(given, mesh.face_count, "triangles");
     return mesh.triangles ? view_of<TriangleView>(mesh.triangles, mesh.face_count, mesh.triangle_stride,
                                                   mesh.triangle_step)
-                          : view_of<TriangleView>(mesh.short_triangles, mesh.face_count,
-                                                  mesh.triangle_stride, mesh.triangle_step);
+                          : view_of<TriangleView>(mesh.short_triangles, mesh.face_count, mesh.triangle_stride,
+                                                  mesh.triangle_step);
 }
 
 template <class Value>

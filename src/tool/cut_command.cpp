@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -8,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bake/restored.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"
@@ -40,19 +39,6 @@ std::vector<ChainHistory> read_histories(const std::string& file) {
     return histories;
 }
 
-SmallParts restored(std::vector<CollapseHistory> cuts) {
-    SmallParts small;
-    for (CollapseHistory& cut : cuts) {
-        const Report& report = small.parts.emplace_back(restore(std::move(cut))).report;
-        small.report.faces_in += report.faces_in;
-        small.report.faces_out += report.faces_out;
-        small.report.vertices_in += report.vertices_in;
-        small.report.vertices_out += report.vertices_out;
-        small.report.collapses += report.collapses;
-    }
-    return small;
-}
-
 /// All that a history holds: parts without name, material or place in a scene.
 Asset geometry(const SmallParts& small) {
     Asset original;
@@ -71,34 +57,12 @@ Asset geometry(const SmallParts& small) {
     return bake(original, small, bare).asset;
 }
 
-/// Are the corners of the faces where the history says, but for welding? \throws InputError
-void check_source(const Asset& source, const SmallParts& small) {
-    if (source.parts.size() != small.parts.size())
-        throw InputError("", "", "has another number of meshes than the history");
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const Part& part = source.parts[p];
-        const CollapseHistory& history = small.parts[p].history;
-        bool fits = history.triangles.size() == part.triangles.size();
-        double most = 0;
-        for (const Vec3& at : part.positions)
-            most = std::max({most, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
-        for (std::size_t f = 0; fits && f < part.triangles.size(); ++f) {
-            for (std::size_t k = 0; k < 3 && history.triangles[f][0] != no_index; ++k) {
-                const Vec3 &a = part.positions[part.triangles[f][k]],
-                           &b = history.positions[history.triangles[f][k]];
-                for (std::size_t i = 0; i < 3; ++i) fits = fits && std::abs(a[i] - b[i]) <= 0.01 * most;
-            }
-        }
-        if (!fits) throw InputError("", "mesh " + std::to_string(p), "is not the one of the history");
-    }
-}
-
 Asset with_look(const Arguments& arguments, const SmallParts& small, const Options& options) {
     const Asset source = load_model(arguments.source, arguments.strictness());
     Options as_baked = options;
     as_baked.bake = bake_for(options.bake, source, arguments.out);
     return naming(arguments.source, [&] {
-        check_source(source, small);
+        detail::check_source(source, small);
         return bake(source, small, as_baked).asset;
     });
 }
@@ -111,7 +75,7 @@ int run(const Arguments& arguments) {
     std::vector<std::filesystem::path> inputs = {arguments.history};
     if (!arguments.source.empty()) inputs.emplace_back(arguments.source);
     check_output(arguments.out, inputs, arguments.overwrite());
-    const SmallParts small = restored(cut_to(read_histories(arguments.history), arguments.faces));
+    const SmallParts small = detail::restored(cut_to(read_histories(arguments.history), arguments.faces));
     if (small.report.faces_out > arguments.faces) {
         std::cerr << "faqem: target missed: " << arguments.history << " ends with " << small.report.faces_out
                   << " faces, " << arguments.faces << " wanted; " << arguments.out << " was not written\n";

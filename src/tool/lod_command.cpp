@@ -1,12 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
 
+#include "bake/level_coverage.hpp"
 #include "bake/scene_size.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/cut.hpp"
@@ -58,9 +57,19 @@ struct Outputs {
     fs::path manifest;
 };
 
-void check(const Arguments& a, const Outputs& outputs) {
-    if (a.level_textures() == LevelTextures::shared && !a.history.empty())
+/// What the library refuses, too, in the words of the command.
+void check_shared(const Arguments& a, const Options& options) {
+    if (a.level_textures() != LevelTextures::shared) return;
+    if (!a.history.empty())
         throw OptionError("--history: with --textures shared only the finest level comes from the original");
+    const Bake kind = options.bake.kind;
+    if (kind != Bake::automatic && kind != Bake::atlas)
+        throw OptionError("--textures shared: needs an atlas of charts, --bake atlas or auto");
+    if (a.keep_groups)
+        throw OptionError("--keep-groups: with --textures shared the new atlas may join their materials");
+}
+
+void check(const Arguments& a, const Outputs& outputs) {
     for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
     check_output(outputs.manifest, {a.in}, a.overwrite());
     if (a.history.empty()) return;
@@ -92,16 +101,6 @@ void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) 
             << ", from distance " << switch_distance(level.error, a.viewing) << "\n";
     }
     std::cout << out.str();
-}
-
-double diagonal_of(const std::vector<Vec3>& points) {
-    double square = 0;
-    for (std::size_t i = 0; i < 3 && !points.empty(); ++i) {
-        const auto [low, high] = std::minmax_element(
-            points.begin(), points.end(), [i](const Vec3& a, const Vec3& b) { return a[i] < b[i]; });
-        square += ((*high)[i] - (*low)[i]) * ((*high)[i] - (*low)[i]);
-    }
-    return std::sqrt(square);
 }
 
 /// Makes the levels and saves them, one after the other; with --one-file together.
@@ -203,12 +202,8 @@ private:
 
     /// By part, as the scene shows it at its largest.
     std::vector<double> coverage(double error) const {
-        std::vector<double> result;
-        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
-            const double diagonal = size_.scales[p].most * diagonal_of(source_.parts[p].positions);
-            result.push_back(screen_coverage(diagonal, error, arguments_.viewing));
-        }
-        return result;
+        const Viewing& viewing = arguments_.viewing;
+        return detail::level_coverage(source_, size_, error, viewing.pixel_error / viewing.screen_height);
     }
 
     const Arguments& arguments_;
@@ -227,6 +222,7 @@ int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels) levels.push_back(lod_level(text, arguments.viewing));
+    check_shared(arguments, options);
     const Outputs outputs(arguments);
     make_folder(arguments.out);
     check(arguments, outputs);

@@ -23,3 +23,4 @@ void test_simplify(void);
 void test_options(void);
 void test_levels(void);
 void test_asset(void);
+void test_asset_levels(void);

@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     if (!*wanted || strcmp(wanted, "levels") == 0) ++ran, test_levels();
 #ifdef FAQEM_HAS_ASSET
     if (!*wanted || strcmp(wanted, "asset") == 0) ++ran, test_asset();
+    if (!*wanted || strcmp(wanted, "asset_levels") == 0) ++ran, test_asset_levels();
 #endif
     CHECK(ran > 0);
     return 0;

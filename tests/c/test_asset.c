@@ -79,57 +79,6 @@ static void errors_tell_file_and_kind(void) {
     CHECK(strstr(error.message, "9") != NULL);
 }
 
-static void levels_of_a_model_have_textures_of_their_own_or_one(void) {
-    FILE* painted = fopen("test_c.obj", "w");
-    CHECK(painted != NULL);
-    const faqem_mesh mesh = flat_grid(12);
-    for (size_t v = 0; v < mesh.vertex_count; ++v) {
-        const float* at = mesh.positions + 3 * v;
-        CHECK(fprintf(painted, "v %d %d %d 1 %d 0\n", (int)at[0], (int)at[1], (int)at[0] / 7,
-                      (int)at[0] / 7) > 0);
-    }
-    for (size_t f = 0; f < mesh.face_count; ++f) {
-        const uint32_t* t = mesh.triangles + 3 * f;
-        CHECK(fprintf(painted, "f %u %u %u\n", t[0] + 1, t[1] + 1, t[2] + 1) > 0);
-    }
-    CHECK(fclose(painted) == 0);
-    faqem_asset* source = NULL;
-    CHECK(faqem_asset_load("test_c.obj", &source, NULL) == FAQEM_OK);
-    CHECK(faqem_asset_level_error(source) != faqem_asset_level_error(source));
-    faqem_options* options = faqem_options_create();
-    CHECK(faqem_options_set_texture_size(options, 64) == FAQEM_OK);
-    const faqem_level wanted[2] = {{FAQEM_LEVEL_RATIO, 0.5}, {FAQEM_LEVEL_FACES, 40}};
-    faqem_error error;
-    for (int textures = FAQEM_LEVEL_TEXTURES_EACH; textures <= FAQEM_LEVEL_TEXTURES_SHARED; ++textures) {
-        faqem_asset* levels[2] = {NULL, NULL};
-        CHECK(faqem_asset_simplify_levels(source, options, wanted, 2, (faqem_level_textures)textures, levels,
-                                          &error) == FAQEM_OK);
-        faqem_report report;
-        for (int i = 0; i < 2; ++i) {
-            CHECK(faqem_asset_report(levels[i], &report) == FAQEM_OK);
-            CHECK(report.faces_in == 288 && report.faces_out == faqem_asset_face_count(levels[i], 0));
-            CHECK(report.faces_out <= (i == 0 ? 144 : 40));
-        }
-        CHECK(faqem_asset_level_error(levels[0]) >= 0);
-        CHECK(faqem_asset_level_error(levels[1]) >= faqem_asset_level_error(levels[0]));
-        /* Only the finest level has a page where the texture is shared. */
-        const int has_pages = strstr(faqem_asset_report_json(levels[1]), "\"charts\"") != NULL;
-        CHECK(has_pages == (textures == FAQEM_LEVEL_TEXTURES_EACH));
-        faqem_asset_destroy(levels[0]);
-        faqem_asset_destroy(levels[1]);
-    }
-    faqem_asset* none[2] = {NULL, NULL};
-    CHECK(faqem_asset_simplify_levels(source, options, wanted, 2, (faqem_level_textures)7, none, &error) ==
-          FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_faces(options, 10) == FAQEM_OK);
-    CHECK(faqem_asset_simplify_levels(source, options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, none, &error) ==
-          FAQEM_ERROR_OPTION);
-    CHECK(none[0] == NULL && none[1] == NULL);
-    faqem_options_destroy(options);
-    faqem_asset_destroy(source);
-    CHECK(remove("test_c.obj") == 0);
-}
-
 static void what_the_format_cannot_hold_is_a_warning(void) {
     const faqem_mesh mesh = flat_grid_of_doubles(2);
     faqem_asset* asset = NULL;
@@ -163,7 +112,6 @@ static void null_is_nothing(void) {
 void test_asset(void) {
     a_model_is_saved_loaded_and_simplified();
     errors_tell_file_and_kind();
-    levels_of_a_model_have_textures_of_their_own_or_one();
     what_the_format_cannot_hold_is_a_warning();
     null_is_nothing();
 }

@@ -58,6 +58,39 @@ class Models(unittest.TestCase):
             with self.assertRaises(faqem.OptionError):
                 faqem.bake_levels(source, [0.5, 40], **wrong)
 
+    def test_levels_go_into_one_file_and_histories_are_of_several_meshes(self):
+        painted = faqem.load(self.painted())
+        chain = self.folder / "chain.glb"
+        faqem.save_levels([painted, *faqem.bake_levels(painted, [0.5], texture_size=64)], chain)
+        self.assertIn(b"MSFT_lod", chain.read_bytes())
+        with self.assertRaises(faqem.WriteError):
+            faqem.save_levels([painted], chain)
+        for wrong in ({"pixel_error": 0}, {"screen_height": -1}, {"pixel_error": float("nan")}):
+            with self.assertRaises(faqem.OptionError):
+                faqem.save_levels([painted], chain, overwrite=True, **wrong)
+
+        both = faqem.load(chain)
+        look = {"texture_size": 64}
+        levels = faqem.bake_levels(both, [200, 40], history=True, **look)
+        file = self.folder / "both.history"
+        faqem.History.of(levels).save(file)
+        history = faqem.History.load(file)
+        self.assertEqual((history.part_count, len(history)), (2, 2))
+        for level, faces in zip(levels, (200, 40)):
+            cut = faqem.bake_cut(both, history, faces, **look)
+            for a, b in zip(cut.parts, level.parts):
+                assert_array_equal(a.vertices, b.vertices)
+                assert_array_equal(a.triangles, b.triangles)
+        parts = history.cut_parts(100)
+        self.assertEqual(len(parts), 2)
+        self.assertLessEqual(sum(len(part.triangles) for part in parts), 100)
+        with self.assertRaisesRegex(faqem.OptionError, "cut_parts"):
+            history.cut(100)
+        with self.assertRaises(faqem.InputError):
+            faqem.bake_cut(painted, history, 100)
+        with self.assertRaises(faqem.OptionError):
+            faqem.History.of(faqem.bake_levels(both, [200], **look))
+
     def test_files_are_kept_unless_told_otherwise(self):
         model = faqem.Model.from_arrays(*flat_grid(2))
         file = self.folder / "kept.glb"
