@@ -6,3 +6,4 @@ static faqem_options* options;
 static faqem_error error;
 static faqem_mesh mesh;
 static faqem_asset* source;
+static faqem_asset* chain[2];
