@@ -55,7 +55,7 @@ void validate(const Options& options) {
     require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
     require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
     require(bake.normals != Normals::none || bake.kind == Bake::none,
-            "normals can be left out only where nothing is baked (Bake::none)");
+            "normals can be left out only where nothing is baked: bake must be none");
     require(bake.crease_angle >= 0 && bake.crease_angle <= 180, "crease_angle must be in [0, 180] degrees");
 }
 

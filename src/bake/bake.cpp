@@ -90,7 +90,7 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
     check_asset(source);
     check(source, small);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
-        throw OptionError("correspondence needs a new atlas (Bake::atlas, per_triangle or automatic)");
+        throw OptionError("correspondence needs a new atlas: bake must not be vertex, keep or none");
     }
     BakeJob job(source, options);
     job.result.report = small.report;

@@ -53,16 +53,13 @@ void count_from_original(SmallParts& small, const SmallParts& finest, const Repo
 void check_shared_texture(const Options& options) {
     const Bake kind = options.bake.kind;
     if (kind != Bake::automatic && kind != Bake::atlas)
-        throw OptionError("LevelTextures::shared: needs an atlas of charts (Bake::atlas or automatic)");
+        throw OptionError("shared textures: need an atlas of charts, so bake must be atlas or automatic");
     if (options.history == Recording::on)
-        throw OptionError(
-            "LevelTextures::shared: only the finest level has a history that leads to the original");
+        throw OptionError("shared textures: only the finest level has a history that leads to the original");
     if (options.topology.weld == Weld::none)
-        throw OptionError(
-            "LevelTextures::shared: without welding the seams of the new atlas would be borders");
+        throw OptionError("shared textures: without welding the seams of the new atlas would be borders");
     if (options.topology.group_borders == GroupBorders::kept)
-        throw OptionError(
-            "LevelTextures::shared: groups cannot be kept, the new atlas may join their materials");
+        throw OptionError("shared textures: groups cannot be kept, the new atlas may join their materials");
 }
 
 std::vector<LightLevel> levels_with_shared_texture(const Asset& source, const MeasuredParts& measured,

@@ -12,6 +12,7 @@
 #include "tool/interrupt.hpp"
 #include "tool/machine_memory.hpp"
 #include "tool/output.hpp"
+#include "tool/positive.hpp"
 #include "tool/profile.hpp"
 #include "tool/simplify_options.hpp"
 
@@ -83,7 +84,7 @@ void add_batch_command(CLI::App& app, Action& action) {
             "Start no model that may bring the memory above this, as 8GB or 500MB; one too large for "
             "it runs alone (default: three quarters of the machine's)")
         ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command->add_flag("--resume", arguments->resume,
                       "Skip what is done and unchanged, redo what is out of date");
     add_simplify_options(*command, *arguments);

@@ -13,6 +13,7 @@
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"
 #include "tool/output.hpp"
+#include "tool/positive.hpp"
 #include "tool/simplify_options.hpp"
 
 namespace faqem::tool {
@@ -101,7 +102,7 @@ void add_cut_command(CLI::App& app, Action& action) {
     command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
     command->add_option("--faces", arguments->faces, "Number of faces to keep")
         ->required()
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command->add_option("--source", arguments->source,
                         "The model that was simplified: gives the result its look, with the options below. "
                         "Without it: geometry alone");

@@ -17,6 +17,7 @@
 #include "tool/lod_level.hpp"
 #include "tool/lod_manifest.hpp"
 #include "tool/output.hpp"
+#include "tool/positive.hpp"
 #include "tool/profile.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/simplify_options.hpp"
@@ -248,7 +249,7 @@ int run(const Arguments& arguments) {
 
 void add_viewing_options(CLI::App& command, Viewing& viewing) {
     command.add_option("--pixel-error", viewing.pixel_error, "Pixels that a level may be off (default 1)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command
         .add_option("--fov", viewing.fov,
                     "Vertical angle of view in degrees for switch distances (default 60)")

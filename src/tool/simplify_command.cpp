@@ -18,6 +18,7 @@
 #include "tool/machine_memory.hpp"
 #include "tool/memory_limit.hpp"
 #include "tool/output.hpp"
+#include "tool/positive.hpp"
 #include "tool/profile.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/simplify_options.hpp"
@@ -185,7 +186,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
             "Largest size of all files of the result together, as 2MB or 500KB: fewer faces and smaller "
             "images until it fits")
         ->transform(CLI::AsSizeValue(true))
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->excludes("--max-error");
     command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
         ->check(CLI::Range(0, 1024));
@@ -194,7 +195,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
                     "Refuse a model that may bring the memory above this, as 8GB or 500MB (default: the "
                     "machine's)")
         ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
     command.add_option("--correspondence", a.correspondence,

@@ -10,6 +10,7 @@
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
 #include "tool/json.hpp"
+#include "tool/positive.hpp"
 
 namespace faqem::tool {
 
@@ -98,7 +99,7 @@ void add_target_options(CLI::App& command, SimplifyArguments& a) {
     auto* ratio =
         command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
     auto* faces =
-        command.add_option("--faces", a.faces, "Number of faces to keep")->check(CLI::PositiveNumber);
+        command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive());
     ratio->excludes(faces);
     command.add_option("--max-error", a.max_error,
                        "Largest distance from the original, in model units or with % of the diagonal: the "
@@ -175,6 +176,36 @@ void add_level_options(CLI::App& command, SimplifyArguments& a) {
                      "Exit with 5, and write no model, when the target is missed");
 }
 
+namespace {
+
+/// What the library calls an option that begins its sentence, and what the command calls it.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> option_names = {
+    {{"target ratio", "--ratio"},
+     {"max_error", "--max-error"},
+     {"weights.area", "--w-area"},
+     {"weights.boundary", "--w-boundary"},
+     {"weights.normal", "--w-normal"},
+     {"weights.uv", "--w-uv"},
+     {"weights.plane_area", "--w-plane-area"},
+     {"weld_distance", "--weld"},
+     {"virtual_edge_distance", "--virtual-edges"},
+     {"prune", "--prune"},
+     {"texture_size", "--texture-size"},
+     {"crease_angle", "--normals: the angle of smooth"},
+     {"normals can be left out", "--normals none: they can be left out"}}};
+
+/// validate() in the words of the command.
+void validate_as_asked(const Options& options) try { validate(options); } catch (const OptionError& error) {
+    const std::string said = error.what();
+    for (const auto& [of_library, of_command] : option_names) {
+        if (said.starts_with(of_library))
+            throw OptionError(std::string(of_command) + said.substr(of_library.size()));
+    }
+    throw;
+}
+
+}  // namespace
+
 Options make_options(const SimplifyArguments& arguments) {
     Options options = arguments.options;
     if (arguments.faces > 0) options.target = faces(arguments.faces);
@@ -197,7 +228,7 @@ Options make_options(const SimplifyArguments& arguments) {
         options.topology.virtual_edges = VirtualEdges::on;
         options.topology.virtual_edge_distance = number(arguments.virtual_edges, "--virtual-edges");
     }
-    validate(options);
+    validate_as_asked(options);
     return options;
 }
 

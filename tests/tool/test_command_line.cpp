@@ -71,6 +71,35 @@ TEST_CASE("a wrong command line ends with 2 and says so on stderr") {
     }
 }
 
+TEST_CASE("what is out of range is called by the option's name") {
+    const Folder folder;
+    faqem::save(sheet(2), folder / "a.glb");
+    const std::pair<const char*, const char*> wrong[] = {{"--ratio", "2"},
+                                                         {"--faces", "0"},
+                                                         {"--max-error", "0"},
+                                                         {"--w-area", "nan"},
+                                                         {"--w-boundary", "-1"},
+                                                         {"--w-normal", "inf"},
+                                                         {"--w-uv", "-1"},
+                                                         {"--w-plane-area", "-1"},
+                                                         {"--weld", "-1"},
+                                                         {"--virtual-edges", "2"},
+                                                         {"--prune", "0"},
+                                                         {"--texture-size", "100"},
+                                                         {"--image-format", "jpeg:0"},
+                                                         {"--normals", "smooth:400"},
+                                                         {"--normals", "none"}};
+    for (const auto& [option, value] : wrong) {
+        CAPTURE(option, value);
+        const Outcome outcome = run(folder, std::string("simplify a.glb b.glb ") + option + "=" + value);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(option) != std::string::npos);
+        CHECK(outcome.err.find('_') == std::string::npos);
+        CHECK(outcome.err.find("::") == std::string::npos);
+        CHECK(outcome.err.size() < 200);
+    }
+}
+
 TEST_CASE("a flag with an optional value does not swallow a file name") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
@@ -161,7 +190,8 @@ TEST_CASE("no colours are written, not even on a terminal") {
     faqem::save(sheet(8), folder / "in.glb");
     for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
         const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                                    " script -qec \"'" FAQEM_TOOL "' simplify in.glb out.glb --force --bake "
+                                    " script -qec \"'" FAQEM_TOOL
+                                    "' simplify in.glb out.glb --force --bake "
                                     "none\" seen >/dev/null </dev/null";
         REQUIRE(std::system(command.c_str()) == 0);
         const std::string seen = read(folder / "seen");

@@ -219,7 +219,10 @@ TEST_CASE("levels may share a new texture, which one file stores once") {
 
     for (const char* wrong : {"--textures both", "--history a.history", "--bake keep", "--keep-groups"}) {
         CAPTURE(wrong);
-        CHECK(run(folder, "lod a.glb out" + options + " " + wrong).code == 2);
+        const Outcome outcome = run(folder, "lod a.glb out" + options + " " + wrong);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("--textures") != std::string::npos);
+        CHECK(outcome.err.find("::") == std::string::npos);
         CHECK_FALSE(fs::exists(folder / "out/a_LOD1.glb"));
     }
 }
