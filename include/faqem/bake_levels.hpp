@@ -40,7 +40,8 @@ FAQEM_EXPORT std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& sou
                                                                 const std::vector<Level>& levels,
                                                                 const Options& options = {});
 
-/// Both stages for all levels.
+/// Both stages for all levels. Progress is told of Phase::simplify, then of Phase::bake, for all levels
+/// together.
 /// \param textures  with `shared` the finest level gets an atlas of charts, and the others are made of it, with
 ///                  its UVs and seams: their collapses know the finest level, their errors are measured
 ///                  against the original. Pages and correspondence are in the first result alone.

@@ -4,6 +4,7 @@
 #include "bake/parts_run.hpp"
 #include "bake/parts_within_error.hpp"
 #include "bake/shared_texture.hpp"
+#include "bake/step_progress.hpp"
 #include "chain.hpp"
 #include "faqem/bake_levels.hpp"
 
@@ -12,16 +13,17 @@ namespace faqem {
 std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
                                                    const Options& options) try {
     validate(options);
+    const Options own = detail::step_of(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
-    const detail::AskMeanwhile meanwhile(options, 0);
-    const detail::MeasuredParts measured(source, options, meanwhile.poll());
+    const detail::AskMeanwhile meanwhile(own, 0);
+    const detail::MeasuredParts measured(source, own, meanwhile.poll());
     const std::vector<detail::Goal> goals =
         detail::goals(levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (goals.empty()) return {};
     return detail::run_chain<SmallPartsLevel>(
-        goals, options, measured.faces(),
-        [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            return detail::run_parts_to(source, targets, own);
+        goals, own, measured.faces(),
+        [&](const std::vector<std::uint64_t>& targets, const Options& tried) {
+            return detail::run_parts_to(source, targets, tried);
         },
         measured);
 } catch (const engine::Cancelled&) {
@@ -56,9 +58,13 @@ std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<L
                                         const Options& options, LevelTextures textures) {
     if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
     std::vector<LightLevel> out;
-    for (SmallPartsLevel& level : simplify_parts_levels(source, levels, options)) {
-        SmallParts small = std::move(level.result);
-        out.push_back({bake(source, small, options), level.distance, level.error});
+    std::vector<SmallPartsLevel> made = simplify_parts_levels(source, levels, options);
+    const auto count = static_cast<double>(made.size());
+    for (SmallPartsLevel& level : made) {
+        const SmallParts small = std::move(level.result);
+        const auto before = static_cast<double>(out.size());
+        const Options step = detail::step_of(options, Phase::bake, before / count, (before + 1) / count);
+        out.push_back({bake(source, small, step), level.distance, level.error});
         if (out.back().result.report.stop == StopReason::cancelled) break;
     }
     return out;

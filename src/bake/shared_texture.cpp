@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bake/parts_run.hpp"
+#include "bake/step_progress.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -64,7 +65,14 @@ void check_shared_texture(const Options& options) {
 
 std::vector<LightLevel> levels_with_shared_texture(const Asset& source, const MeasuredParts& measured,
                                                    std::span<const Goal> goals, const Options& options) {
-    const Options finest_options = of_finest(options), options_of_others = of_others(options);
+    // The finest level is simplified in a phase of its own. What comes then is all told of as baking: that
+    // level, the collapses of the others, and each of them.
+    const double steps = goals.size() == 1 ? 1 : static_cast<double>(goals.size()) + 1;
+    const auto baking = [&](std::size_t before) {
+        const auto done = static_cast<double>(before);
+        return step_of(options, Phase::bake, done / steps, (done + 1) / steps);
+    };
+    const Options finest_options = of_finest(step_of(options, Phase::simplify, 0, 1));
     const std::vector<SmallPartsLevel> made = run_chain<SmallPartsLevel>(
         goals.first(1), finest_options, measured.faces(),
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
@@ -74,12 +82,12 @@ std::vector<LightLevel> levels_with_shared_texture(const Asset& source, const Me
     const SmallPartsLevel& finest = made.front();
     std::vector<LightLevel> out;
     out.reserve(goals.size());  // the first one is referred to
-    out.push_back({bake(source, finest.result, finest_options), finest.distance, finest.error});
+    out.push_back({bake(source, finest.result, of_finest(baking(0))), finest.distance, finest.error});
     const LightAsset& baked = out.front().result;
     if (baked.report.stop == StopReason::cancelled || goals.size() == 1) return out;
 
     std::vector<SmallPartsLevel> others = run_chain<SmallPartsLevel>(
-        goals.subspan(1), options_of_others, finest.result.report.faces_out,
+        goals.subspan(1), of_others(baking(1)), finest.result.report.faces_out,
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
             std::vector<SmallParts> results = run_parts_to(baked.asset, targets, own);
             for (SmallParts& small : results) count_from_original(small, finest.result, baked.report);
@@ -88,7 +96,7 @@ std::vector<LightLevel> levels_with_shared_texture(const Asset& source, const Me
         measured);
     for (SmallPartsLevel& level : others) {
         const SmallParts small = std::move(level.result);
-        out.push_back({bake(baked.asset, small, options_of_others), level.distance,
+        out.push_back({bake(baked.asset, small, of_others(baking(out.size() + 1))), level.distance,
                        std::max(level.error, finest.error)});
         if (out.back().result.report.stop == StopReason::cancelled) break;
     }

@@ -7,6 +7,7 @@
 
 #include "bake/level_coverage.hpp"
 #include "bake/scene_size.hpp"
+#include "bake/step_progress.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"
@@ -140,7 +141,10 @@ private:
         if (!arguments_.history.empty()) write_histories(arguments_, levels);
         write_original();
         for (SmallPartsLevel& level : levels) {
-            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, options_); });
+            const auto before = static_cast<double>(&level - levels.data()),
+                       count = static_cast<double>(levels.size());
+            const Options step = detail::step_of(options_, Phase::bake, before / count, (before + 1) / count);
+            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, step); });
             level.result = {};
             if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
             write_level(std::move(light), level.distance, level.error);

@@ -201,6 +201,36 @@ TEST_CASE("cancelling the levels of an asset says so") {
     }
 }
 
+TEST_CASE("progress of the levels of an asset goes from phase to phase and never back") {
+    Asset asset;
+    asset.parts = {waves(30, 0.2, 0), waves(30, 0.05, 2)};
+    const std::vector<std::vector<Level>> chains = {
+        {ratio(0.3)}, wanted, {ratio(0.5), of_diagonal(0.1), faces(20)}};
+    for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
+        for (const std::vector<Level>& chain : chains) {
+            Options options;
+            options.bake.texture_size = 64;
+            Phase phase = Phase::simplify;
+            double last = 0;
+            bool is_told = false;
+            options.progress = [&](Phase now, double done) {
+                is_told = true;
+                CHECK(static_cast<int>(now) >= static_cast<int>(phase));
+                if (now != phase) last = 0;
+                phase = now;
+                CHECK(done >= last);
+                CHECK(done <= 1);
+                last = done;
+                return Continue::yes;
+            };
+            CHECK(simplify_levels(asset, chain, options, textures).size() == chain.size());
+            CHECK(is_told);
+            CHECK(phase == Phase::bake);
+            CHECK(last == Approx(1));
+        }
+    }
+}
+
 TEST_CASE("levels of an asset are checked like those of a mesh") {
     Asset asset;
     asset.parts = {waves(4, 0.2, 0)};
