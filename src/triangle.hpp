@@ -97,10 +97,9 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
         }
         return on_boundary(p, a, b, c);  // rounding put the query between two regions
     }
-    const ClosestPoint edge = on_boundary(p, a, b, c);
-    if (!(va > 0 && vb > 0 && vc > 0)) return edge;
+    if (!(va > 0 && vb > 0 && vc > 0)) return on_boundary(p, a, b, c);
     const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
-    const ClosestPoint inside = at(p, a + v * ab + w * ac, {va / sum, v, w});
+    const ClosestPoint edge = on_boundary(p, a, b, c), inside = at(p, a + v * ab + w * ac, {va / sum, v, w});
     return inside.distance_squared < edge.distance_squared ? inside : edge;
 }
 
