@@ -1,7 +1,8 @@
 """Models of a folder, each with every preset at several ratios, and baked once: crashes and wrong results are failures.
 
-Usage: models.py TOOL FOLDER [--seconds N] [--only NAME...]; meant for the tool of the preset `sanitize`. The smallest
-files come first. Interrupted, it prints the table of what it has done.
+Usage: models.py TOOL FOLDER [--seconds N] [--only NAME...] [--record FILE]; meant for the tool of the preset `sanitize`
+or `fuzz`. The smallest files come first. Interrupted, it prints the table of what it has done; with --record the next
+run goes on from there.
 """
 
 import argparse
@@ -77,6 +78,27 @@ def judge(arguments, file, options, ratio, row):
         return fault(arguments, told, out, ratio)
 
 
+def load(record):
+    """What earlier runs have come to, by file and options."""
+    if not record or not record.exists():
+        return {}
+    entries = map(json.loads, record.read_text(encoding="utf-8").splitlines())
+    return {(entry["file"], entry["options"]): entry for entry in entries}
+
+
+def try_one(arguments, file, options, ratio):
+    """One run as it is recorded: its counts, and what is to be said of it."""
+    row = collections.Counter()
+    found = judge(arguments, file, options, ratio, row)
+    row["failed"] += found != ""
+    return {
+        "file": str(file.relative_to(arguments.folder)),
+        "options": options,
+        "counts": {column: count for column, count in row.items() if count},
+        "found": "not finished" if row["not finished"] else found,
+    }
+
+
 def size(file):
     """Bytes of the geometry: a .gltf has it in buffers beside it."""
     buffers = file.parent.rglob("*.bin") if file.suffix.lower() == ".gltf" else ()
@@ -92,40 +114,41 @@ def models(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("tool")
-    parser.add_argument("folder")
+    parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--seconds", type=float, default=120, help="for one run (default 120)")
     parser.add_argument("--only", nargs="+", help="names of files")
+    parser.add_argument("--record", type=pathlib.Path, help="a file of what has been done, which is not done again")
     arguments = parser.parse_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     work = [(preset, ratio, f"--preset {preset} --ratio {ratio} --bake none") for ratio in RATIOS for preset in PRESETS]
     work.append(("balanced, baked", 0.1, BAKED))
+    files = [file for file in models(arguments.folder) if not arguments.only or file.name in arguments.only]
+    done = load(arguments.record)
     rows = collections.defaultdict(collections.Counter)
     refused = {}
-    is_good = True
+    seen = {}
     try:
-        for file in models(arguments.folder):
-            if arguments.only and file.name not in arguments.only:
-                continue
-            for name, ratio, options in work:
-                row = rows[name]
-                before = row.copy()
-                found = judge(arguments, file, options, ratio, row)
-                row["failed"] += found != ""
-                is_good = is_good and not found
-                if row["not finished"] > before["not finished"]:
-                    found = "not finished"
-                if found:
-                    print(f"{file} {options}: {found}", flush=True)
-                if row["refused"] > before["refused"]:
-                    refused[file.name] = True
+        for file, (name, ratio, options) in ((file, item) for file in files for item in work):
+            entry = done.get((str(file.relative_to(arguments.folder)), options))
+            if entry is None:
+                entry = try_one(arguments, file, options, ratio)
+                if arguments.record:
+                    with arguments.record.open("a", encoding="utf-8") as out:
+                        out.write(json.dumps(entry) + "\n")
+            rows[name].update(entry["counts"])
+            seen[file] = True
+            if entry["found"]:
+                print(f"{file} {options}: {entry['found']}", flush=True)
+            if "refused" in entry["counts"]:
+                refused[file.name] = True
     except KeyboardInterrupt:
         print("interrupted", flush=True)
-    print(f"refused: {', '.join(refused) or 'none'}")
+    print(f"models: {len(seen)} of {len(files)}, refused: {', '.join(refused) or 'none'}")
     print("| preset |", " | ".join(COLUMNS), "|")
     print("|---" * (len(COLUMNS) + 1) + "|")
     for name, row in rows.items():
         print(f"| {name} |", " | ".join(str(row[column]) for column in COLUMNS), "|")
-    return 0 if is_good else 1
+    return 1 if any(row["failed"] for row in rows.values()) else 0
 
 
 if __name__ == "__main__":
