@@ -22,6 +22,9 @@ namespace faqem::detail {
 /// may come from several threads at once. Depends on nothing but the mesh: same input, same tree.
 class FAQEM_EXPORT Bvh {
 public:
+    /// Of no triangles.
+    Bvh() = default;
+
     /// \param positions  finite
     /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without
     ///                   area count as the segment or point that they are.

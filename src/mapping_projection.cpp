@@ -64,12 +64,19 @@ struct ProjectionWalk::Patch {
 };
 
 ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
-                               engine::Poll poll)
-    : history_(history),
-      tree_(history.positions, history.triangles, poll),
-      sheets_(find_sheets(history.positions, history.triangles, unwelded, poll)),
-      replay_(replay_patches(history, sheets_.sheet, poll)),
-      last_(final_versions(history)) {}
+                               Workers workers)
+    : history_(history), last_(final_versions(history)) {
+    const auto make = [&](std::size_t part, std::size_t, Poll poll) {
+        if (part == 0) {
+            tree_ = Bvh(history.positions, history.triangles, poll);
+        } else {
+            sheets_ = find_sheets(history.positions, history.triangles, unwelded, poll);
+            replay_ = replay_patches(history, poll);
+        }
+    };
+    parallel_blocks(2, 1, workers, make);
+    describe_patches(history, sheets_.sheet, workers, replay_);
+}
 
 ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
     Query query;

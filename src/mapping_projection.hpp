@@ -11,6 +11,7 @@
 #include "faqem/surface_map.hpp"
 #include "mapping_replay.hpp"
 #include "mapping_sheets.hpp"
+#include "parallel.hpp"
 
 namespace faqem::detail {
 
@@ -35,7 +36,7 @@ public:
     /// \param unwelded  as in find_sheets()
     /// \throws what the poll throws
     explicit ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded = {},
-                            engine::Poll poll = {});
+                            Workers workers = {});
 
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
@@ -67,7 +68,7 @@ private:
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
 
     const CollapseHistory& history_;
-    Bvh tree_;  // first: making it takes more for a while than it keeps
+    Bvh tree_;
     Sheets sheets_;
     Replay replay_;
     std::vector<Index> last_;  ///< by version: what became of it in the end

@@ -146,37 +146,44 @@ Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
     return result;
 }
 
-Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets, engine::Poll poll) {
+Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
     const std::size_t entries = history.patch_faces.size();
     Replay result;
     result.positions = version_positions(history);
     result.corners.resize(entries);
-    result.bounds.resize(entries);
     result.previous.resize(entries);
-    result.umbrella.resize(entries);
-    result.mean_edge.reserve(history.patch_count());
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
         replay_forward(history, poll, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
             result.corners[e] = t;
-            result.bounds[e] = bound_of(result.positions, t);
             Index& latest = touched[history.patch_faces[e]];
             result.previous[e] = latest;
             latest = static_cast<Index>(k);
         });
-    Labeller labeller;
-    for (std::size_t k = 0; k < history.patch_count(); ++k) {
-        const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
-        poll(size);
-        const std::span<const Triangle> corners = std::span(result.corners).subspan(begin, size);
-        const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
-        labeller.label(corners, sheet, std::span(result.umbrella).subspan(begin, size));
-        result.mean_edge.push_back(mean_edge_length(result.positions, corners));
-    }
     keep(history, last, poll, result);
     for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
     return result;
+}
+
+void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
+                      Replay& replay) {
+    replay.bounds.resize(replay.corners.size());
+    replay.umbrella.resize(replay.corners.size());
+    replay.mean_edge.resize(history.patch_count());
+    parallel_blocks(history.patch_count(), 1024, workers, [&](std::size_t first, std::size_t last, Poll poll) {
+        Labeller labeller;
+        for (std::size_t k = first; k < last; ++k) {
+            const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
+            poll(size);
+            const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
+            for (std::size_t e = 0; e < size; ++e)
+                replay.bounds[begin + e] = bound_of(replay.positions, corners[e]);
+            const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
+            labeller.label(corners, sheet, std::span(replay.umbrella).subspan(begin, size));
+            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
+        }
+    });
 }
 
 }  // namespace faqem::detail

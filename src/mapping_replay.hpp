@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
 #include "faqem/engine/vector.hpp"
 #include "faqem/history.hpp"
+#include "parallel.hpp"
 
 namespace faqem::detail {
 
@@ -47,8 +47,14 @@ struct Replay {
 /// history) \throws what the poll throws
 Replay replay_vertices(const CollapseHistory& history, engine::Poll poll = {});
 
-/// Everything. O(size of the history) time, 37 bytes per patch face. \throws what the poll throws
+/// Everything but what describe_patches() adds. O(size of the history) time, 37 bytes per patch face with it.
+/// \throws what the poll throws
+Replay replay_patches(const CollapseHistory& history, engine::Poll poll = {});
+
+/// Adds bounds, umbrella and mean_edge. O(size of the history) \throws what the poll throws
 /// \param sheets  of each face of the original
-Replay replay_patches(const CollapseHistory& history, std::span<const Index> sheets, engine::Poll poll = {});
+/// \param replay  of replay_patches(history)
+void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
+                      Replay& replay);
 
 }  // namespace faqem::detail

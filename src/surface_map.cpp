@@ -18,17 +18,17 @@ SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::spa
 SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
-                              std::span<const Triangle> unwelded, const engine::Poll& poll) {
+                              std::span<const Triangle> unwelded, const Workers& workers) {
     auto impl = std::make_unique<SurfaceMap::Impl>();
     switch (mapping) {
         case Mapping::projection:
-            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded, poll);
+            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded, workers);
             break;
         case Mapping::lineage:
-            impl->lineage = std::make_unique<const detail::LineageWalk>(history, poll);
+            impl->lineage = std::make_unique<const detail::LineageWalk>(history, workers.poll);
             break;
         case Mapping::closest:
-            impl->closest = std::make_unique<const detail::ClosestPoints>(history, poll);
+            impl->closest = std::make_unique<const detail::ClosestPoints>(history, workers.poll);
             break;
     }
     return SurfaceMap(std::move(impl));

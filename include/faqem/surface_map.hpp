@@ -13,14 +13,12 @@ namespace faqem {
 
 class SurfaceMap;
 
-namespace engine {
-class Poll;
-}
-
 namespace detail {
-/// A map whose making polls. \throws what the poll throws
+struct Workers;
+
+/// A map that several threads make; the calling one polls. \throws what the poll throws
 FAQEM_EXPORT SurfaceMap polled_map(const CollapseHistory& history, Mapping mapping,
-                                   std::span<const Triangle> unwelded, const engine::Poll& poll);
+                                   std::span<const Triangle> unwelded, const Workers& workers);
 }  // namespace detail
 
 /// How a sample found its place.
@@ -48,7 +46,8 @@ public:
     /// \param unwelded  empty, or the faces of the original as they were before vertices at one place were
     ///                  joined, one per face of the history: surfaces that touch, and share vertices only
     ///                  since then, are told apart by it (projection). Not kept.
-    /// O(size of the history) memory; time as well, and O(n log n) for n faces of the original.
+    /// O(size of the history) memory; time as well, and O(n log n) for n faces of the original, on all threads
+    /// there are.
     SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded = {});
     ~SurfaceMap();
     SurfaceMap(SurfaceMap&&) noexcept;
@@ -68,7 +67,8 @@ private:
     struct Impl;
     explicit SurfaceMap(std::unique_ptr<const Impl> impl);
     friend SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
-                                         std::span<const Triangle> unwelded, const engine::Poll& poll);
+                                         std::span<const Triangle> unwelded,
+                                         const detail::Workers& workers);
 
     std::unique_ptr<const Impl> impl_;
 };

@@ -56,7 +56,7 @@ void map_parts(BakeJob& job, const SmallParts& small) {
         SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
         if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
             part.map = std::make_unique<const SurfaceMap>(polled_map(
-                part.small->history, job.options.bake.mapping, part.source->triangles, job.poll()));
+                part.small->history, job.options.bake.mapping, part.source->triangles, job.workers()));
         }
         job.parts.push_back(std::move(part));
     }

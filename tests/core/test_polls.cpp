@@ -86,8 +86,11 @@ TEST_CASE("every phase asks once for each few thousand operations") {
     options.history = Recording::on;
     const SimplifyResult small = simplify(mesh.view(), options);
     const std::vector<Index> one_sheet(faces, 0);
-    CHECK(questions([&](Poll poll) { detail::replay_patches(small.history, one_sheet, poll); }) >=
-          5 * enough);
+    detail::Replay replay;
+    CHECK(questions([&](Poll poll) { replay = detail::replay_patches(small.history, poll); }) >= 3 * enough);
+    CHECK(questions([&](Poll poll) {
+              detail::describe_patches(small.history, one_sheet, {1, poll}, replay);
+          }) >= 2 * enough);
 
     const detail::Surface from = detail::surface_of(mesh.view()), to = detail::surface_of(light.view());
     const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);
