@@ -1,6 +1,7 @@
 #include "bake/page.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -107,18 +108,15 @@ public:
     }
 
     PageImages finish() {
-        const Poll poll = job_.poll();
         count_samples();
-        if (request_.channels.base) {
-            const bool alpha = images_.base.has_alpha;
-            push_pull(images_.base, alpha ? opaque_ : known_, {0, 3}, poll);
-            if (alpha) push_pull(images_.base, known_, {3, 4}, poll);
-        }
-        if (!images_.occlusion_roughness_metallic.rgba.empty()) {
-            push_pull(images_.occlusion_roughness_metallic, known_, {0, 3}, poll);
-        }
-        if (request_.channels.emissive) push_pull(images_.emissive, known_, {0, 3}, poll);
-        if (request_.channels.normal) push_pull(images_.normal, known_, {0, 3}, poll);
+        const std::array all = {&images_.base, &images_.occlusion_roughness_metallic, &images_.emissive,
+                                &images_.normal};
+        parallel_blocks(all.size(), 1, job_.workers(), [&](std::size_t i, std::size_t, Poll poll) {
+            Pixels& image = *all[i];
+            if (image.rgba.empty()) return;
+            push_pull(image, image.has_alpha ? opaque_ : known_, {0, 3}, poll);
+            if (image.has_alpha) push_pull(image, known_, {3, 4}, poll);
+        });
         return std::move(images_);
     }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "asset/image.hpp"
 
@@ -10,28 +13,44 @@ namespace {
 
 using Slot = TextureRef Material::*;
 
-// Adds images of one page to the result.
+// Adds images of one page to the result: first their places, then what is in them, side by side.
 class ImageWriter {
 public:
     ImageWriter(BakeJob& job, const MaterialGroup& group, std::string name)
         : job_(job), group_(group), name_(std::move(name)) {}
 
-    /// \param from  textures of the source that the image is baked from
+    /// \param pixels  borrowed until write()
+    /// \param from    textures of the source that the image is baked from
     TextureRef add(const Pixels& pixels, const char* suffix, Content content,
-                   std::initializer_list<Slot> from) const {
-        Asset& asset = job_.result.asset;
+                   std::initializer_list<Slot> from) {
+        std::vector<Image>& images = job_.result.asset.images;
         TextureRef ref;
-        ref.image = static_cast<Index>(asset.images.size());
+        ref.image = static_cast<Index>(images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
-        const std::string name = name_ + suffix;
-        asset.images.push_back(
-            as_jpeg(pixels, from)
-                ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, job_.poll())
-                : encode_png(pixels, name, job_.poll()));
+        images.emplace_back();
+        waiting_.push_back({pixels, name_ + suffix, content, as_jpeg(pixels, from), ref.image});
         return ref;
     }
 
+    void write() const {
+        const auto encode = [&](std::size_t i, std::size_t, Poll poll) {
+            const auto& [pixels, name, content, is_jpeg, image] = waiting_[i];
+            job_.result.asset.images[image] =
+                is_jpeg ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, poll)
+                        : encode_png(pixels, name, poll);
+        };
+        parallel_blocks(waiting_.size(), 1, job_.workers(), encode);
+    }
+
 private:
+    struct Waiting {
+        const Pixels& pixels;
+        std::string name;
+        Content content;
+        bool is_jpeg;
+        Index image;
+    };
+
     bool as_jpeg(const Pixels& pixels, std::initializer_list<Slot> from) const {
         if (pixels.has_alpha) return false;
         switch (job_.options.bake.image_format) {
@@ -57,6 +76,7 @@ private:
     BakeJob& job_;
     const MaterialGroup& group_;
     std::string name_;
+    std::vector<Waiting> waiting_;
 };
 
 }  // namespace
@@ -68,7 +88,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
     result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
-    const ImageWriter writer(
+    ImageWriter writer(
         job, group,
         result.name.empty() ? "material" + std::to_string(job.result.asset.materials.size()) : result.name);
     if (channels.base) {
@@ -95,6 +115,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         result.normal_texture =
             writer.add(images.normal, "_normal", Content::data, {&Material::normal_texture});
     }
+    writer.write();
     return result;
 }
 
