@@ -65,19 +65,20 @@ Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p
 }
 
 /// What search_farthest() does, with search(i) for gap i.
-template <class Gap, class Search>
-void search_farthest_of(std::span<const Gap> gaps, double share, Workers workers, Search&& search) {
+/// \param squared   lengths of the gaps
+/// \param is_found  of gap i: it is by a search
+template <class IsFound, class Search>
+void search_farthest_of(std::span<const double> squared, double share, Workers workers, IsFound&& is_found,
+                        Search&& search) {
     while (true) {
         double longest = 0;
-        for (const Gap& gap : gaps) {
-            workers.poll();
-            longest = std::max(longest, gap.gap.squaredNorm());
-        }
+        for (const double length : squared) longest = std::max(longest, length);
+        workers.poll(squared.size() / 16);
         std::vector<std::size_t> far;
-        for (std::size_t i = 0; i < gaps.size(); ++i) {
-            workers.poll();
-            if (!gaps[i].is_found && gaps[i].gap.squaredNorm() > share * share * longest) far.push_back(i);
+        for (std::size_t i = 0; i < squared.size(); ++i) {
+            if (squared[i] > share * share * longest && !is_found(i)) far.push_back(i);
         }
+        workers.poll(squared.size() / 16);
         if (far.empty()) return;
         parallel_blocks(far.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) search(far[i]);
@@ -117,7 +118,9 @@ void GapsThere::move_to(std::span<const Vector3> positions, Workers workers) {
 }
 
 void GapsThere::search_farthest(double share, Workers workers) {
-    search_farthest_of<Gap>(gaps_, share, workers, [&](std::size_t i) { search(i, gaps_[i].face); });
+    search_farthest_of(
+        squared_, share, workers, [&](std::size_t i) { return gaps_[i].is_found; },
+        [&](std::size_t i) { search(i, gaps_[i].face); });
 }
 
 void GapsThere::search(std::size_t i, Index near) {
@@ -131,16 +134,20 @@ void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spo
     for (std::size_t i = 0; i < spots_.size(); ++i) {
         if (faces[spots_[i].face]) continue;
         spots_[kept] = spots_[i];
+        squared_[kept] = squared_[i];
         gaps_[kept++] = gaps_[i];
     }
     spots_.resize(kept);
     gaps_.resize(kept);
+    squared_.resize(kept);
     spots_.insert(spots_.end(), spots.begin(), spots.end());
     gaps_.resize(spots_.size());
+    squared_.resize(spots_.size());
 }
 
 void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
     gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, corner_by(hit.barycentric)};
+    squared_[i] = gaps_[i].gap.squaredNorm();
 }
 
 Vector3 GapsThere::normal(std::size_t i) const {
@@ -159,7 +166,7 @@ void GapsThere::measure_turns(double tolerance, Workers workers) {
             if (!(gap.corner == inside && cosine > surely_alone)) {
                 Bvh::Hit hit;
                 hit.face = gap.face;
-                hit.distance_squared = gap.gap.squaredNorm();
+                hit.distance_squared = squared_[i];
                 const Vector3 p = spots_[i].on(positions_, triangles_);
                 cosine =
                     best_cosine(original_.tree, original_.normals, engine::to_array(p), hit, n, tolerance);
@@ -207,7 +214,9 @@ void GapsBack::start_at(std::span<const Vector3> positions, Workers workers) {
 
 void GapsBack::search_farthest(double share, Workers workers) {
     if (std::exchange(tree_is_behind_, false)) tree_->refit(positions_, triangles_, workers.poll);
-    search_farthest_of<Gap>(gaps_, share, workers, [&](std::size_t i) { search(i, gaps_[i].spot.face); });
+    search_farthest_of(
+        squared_, share, workers, [&](std::size_t i) { return gaps_[i].is_found; },
+        [&](std::size_t i) { search(i, gaps_[i].spot.face); });
 }
 
 void GapsBack::search(std::size_t i, Index near) {
@@ -217,6 +226,7 @@ void GapsBack::search(std::size_t i, Index near) {
 
 void GapsBack::set(std::size_t i, const Bvh::Hit& hit) {
     gaps_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point), false};
+    squared_[i] = gaps_[i].gap.squaredNorm();
 }
 
 }  // namespace faqem::detail

@@ -40,7 +40,11 @@ public:
     /// \param triangles  of the moving mesh; refers to them
     /// \param spots      on these triangles
     GapsThere(const StillSurface& original, std::span<const Triangle> triangles, std::vector<Spot> spots)
-        : original_(original), triangles_(triangles), spots_(std::move(spots)), gaps_(spots_.size()) {}
+        : original_(original),
+          triangles_(triangles),
+          spots_(std::move(spots)),
+          gaps_(spots_.size()),
+          squared_(spots_.size()) {}
 
     /// Measures where the mesh has moved since the last time; all of it at first.
     /// \param workers  the result does not depend on how many
@@ -62,6 +66,8 @@ public:
     const Spot& spot(std::size_t i) const { return spots_[i]; }
     /// From spot i to its closest point.
     const engine::Vector3& gap(std::size_t i) const { return gaps_[i].gap; }
+    /// Its squared length.
+    double squared(std::size_t i) const { return squared_[i]; }
     /// With the normal of the moving face: where the closest face is one of several, its own would be chance.
     Pull pull(std::size_t i) const;
 
@@ -86,6 +92,7 @@ private:
     std::span<const Triangle> triangles_;
     std::vector<Spot> spots_;
     std::vector<Gap> gaps_;
+    std::vector<double> squared_;  ///< lengths of the gaps, apart: the longest is looked for often
     std::vector<engine::Vector3> positions_;
 };
 
@@ -94,7 +101,10 @@ class GapsBack {
 public:
     /// \param triangles  of the moving mesh; refers to them
     GapsBack(std::vector<OrientedPoint> points, std::span<const Triangle> triangles)
-        : triangles_(triangles), points_(std::move(points)), gaps_(points_.size()) {}
+        : triangles_(triangles),
+          points_(std::move(points)),
+          gaps_(points_.size()),
+          squared_(points_.size()) {}
 
     /// As GapsThere::move_to(), of the points whose closest face or a neighbour of it has moved. O(faces)
     /// more. \param swapped  of each triangle, or empty: nonzero has other corners than the last time
@@ -110,6 +120,8 @@ public:
     const Spot& spot(std::size_t i) const { return gaps_[i].spot; }
     /// From there to point i.
     const engine::Vector3& gap(std::size_t i) const { return gaps_[i].gap; }
+    /// Its squared length.
+    double squared(std::size_t i) const { return squared_[i]; }
     Pull pull(std::size_t i) const { return {gaps_[i].spot, gaps_[i].gap, points_[i].normal}; }
 
 private:
@@ -125,6 +137,7 @@ private:
     std::span<const Triangle> triangles_;
     std::vector<OrientedPoint> points_;
     std::vector<Gap> gaps_;
+    std::vector<double> squared_;  ///< lengths of the gaps, apart: the longest is looked for often
     std::vector<engine::Vector3> positions_;
     FacesAround around_;
     std::optional<Bvh> tree_;

@@ -1,7 +1,10 @@
 #include "two_sided.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "parallel.hpp"
 
@@ -24,9 +27,19 @@ constexpr double least_turn_counted = 0.005;
 /// Original faces whose distances differ by less are tied.
 constexpr double tie_tolerance = 1e-9;
 
+/// The original's vertices: the last of the kinds of gaps.
+constexpr std::size_t corner_kind = 3;
+
 std::size_t face_count(std::span<const Triangle> triangles) {
     return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
                                                   [](const Triangle& t) { return t[0] != no_index; }));
+}
+
+/// Those beyond a share of the longest are searched for.
+template <class Gaps>
+void move(Gaps& gaps, std::span<const Vector3> positions, double searched_share, Workers workers) {
+    gaps.move_to(positions, workers);
+    if (searched_share < 1) gaps.search_farthest(searched_share, workers);
 }
 
 }  // namespace
@@ -65,50 +78,57 @@ std::vector<OrientedPoint> TwoSidedGaps::even_points() const {
     return points;
 }
 
-// Those beyond a share of the longest are searched for.
-void TwoSidedGaps::move_to(std::span<const Vector3> positions, double searched_share) {
-    const auto move = [&](auto& gaps) {
-        gaps.move_to(positions, workers_);
-        if (searched_share < 1) gaps.search_farthest(searched_share, workers_);
-    };
-    move(there_), move(*ends_), move(back_);
+// The one with most points first: two threads have about as much to do.
+template <class Visit>
+void TwoSidedGaps::for_each_kind(Visit&& visit) {
+    visit(back_, 0), visit(there_, 1), visit(*ends_, 2), visit(corners_, 3);
+}
+
+// Calls visit(gaps, poll) for the four, side by side.
+template <class Visit>
+void TwoSidedGaps::side_by_side(Visit&& visit) {
+    parallel_blocks(4, 1, workers_, [&](std::size_t wanted, std::size_t, Poll poll) {
+        for_each_kind([&](auto& gaps, std::size_t kind) {
+            if (kind == wanted) visit(gaps, kind, poll);
+        });
+    });
 }
 
 void TwoSidedGaps::measure_pulls(std::span<const Vector3> positions) {
-    move_to(positions, is_coarse_ ? 0 : 1);
+    for_each_kind([&](auto& gaps, std::size_t kind) {
+        if (kind != corner_kind) move(gaps, positions, is_coarse_ ? 0 : 1, workers_);
+    });
 }
 
 std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions) {
-    return measure(positions, is_coarse_ ? 0 : far_share);
+    for_each_kind([&](auto& gaps, std::size_t) {
+        move(gaps, positions, is_coarse_ ? 0 : far_share, workers_);
+    });
+    return fits();
 }
 
 std::vector<Fit> TwoSidedGaps::measure_again(std::span<const Vector3> positions) {
-    return measure(positions, far_share);
+    side_by_side([&](auto& gaps, std::size_t, Poll poll) { move(gaps, positions, far_share, {1, poll}); });
+    return fits();
 }
 
-std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions, double searched_share) {
-    move_to(positions, searched_share);
-    corners_.move_to(positions, workers_);
-    corners_.search_farthest(searched_share, workers_);
-    std::vector<Fit> fits(triangles_.size());
-    for (GapsThere* there : {&there_, &*ends_}) {
-        there->measure_turns(tie_tolerance, workers_);
-        for (std::size_t i = 0; i < there->size(); ++i) {
-            workers_.poll();
-            const double distance = there->gap(i).squaredNorm();
-            fits[there->spot(i).face].add({distance, distance, least_turn_counted + there->turn(i)});
+std::vector<Fit> TwoSidedGaps::fits() {
+    for (GapsThere* there : {&there_, &*ends_}) there->measure_turns(tie_tolerance, workers_);
+    std::array<std::vector<Fit>, 4> of_kind;
+    side_by_side([&](const auto& gaps, std::size_t kind, Poll poll) {
+        of_kind[kind].resize(triangles_.size());
+        for (std::size_t i = 0; i < gaps.size(); ++i) {
+            poll();
+            Fit fit{gaps.squared(i), kind == corner_kind ? 0 : gaps.squared(i), 0};
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(gaps)>, GapsThere>)
+                fit.turn = least_turn_counted + gaps.turn(i);
+            of_kind[kind][gaps.spot(i).face].add(fit);
         }
+    });
+    for (std::size_t kind = 1; kind < of_kind.size(); ++kind) {
+        for (std::size_t f = 0; f < triangles_.size(); ++f) of_kind[0][f].add(of_kind[kind][f]);
     }
-    for (std::size_t i = 0; i < back_.size(); ++i) {
-        workers_.poll();
-        const double distance = back_.gap(i).squaredNorm();
-        fits[back_.spot(i).face].add({distance, distance, 0});
-    }
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        workers_.poll();
-        fits[corners_.spot(i).face].add({corners_.gap(i).squaredNorm(), 0, 0});
-    }
-    return fits;
+    return std::move(of_kind[0]);
 }
 
 std::span<const Pull> TwoSidedGaps::pulls() {

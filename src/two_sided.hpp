@@ -69,8 +69,11 @@ public:
     const GapsBack& corners() const { return corners_; }
 
 private:
-    void move_to(std::span<const engine::Vector3> positions, double searched_share);
-    std::vector<Fit> measure(std::span<const engine::Vector3> positions, double searched_share);
+    template <class Visit>
+    void for_each_kind(Visit&& visit);
+    template <class Visit>
+    void side_by_side(Visit&& visit);
+    std::vector<Fit> fits();
     std::size_t point_count() const;
     std::vector<OrientedPoint> even_points() const;
 
