@@ -21,11 +21,16 @@ namespace faqem::detail {
 /// A surface that stays, with what is asked of it again and again. Refers to its arguments.
 struct StillSurface {
     /// \throws what the poll throws
-    explicit StillSurface(const Patchwork& surface, Poll poll = {})
-        : mesh(surface),
-          tree(surface.positions, surface.triangles, poll),
-          normals(unit_normals(surface, poll)),
-          around(faces_around(surface.positions.size(), surface.triangles, poll)) {}
+    explicit StillSurface(const Patchwork& surface, Workers workers = {}) : mesh(surface) {
+        parallel_blocks(2, 1, workers, [&](std::size_t part, std::size_t, Poll poll) {
+            if (part == 0) {
+                tree = Bvh(surface.positions, surface.triangles, poll);
+            } else {
+                normals = unit_normals(surface, poll);
+                around = faces_around(surface.positions.size(), surface.triangles, poll);
+            }
+        });
+    }
 
     Patchwork mesh;
     Bvh tree;

@@ -55,7 +55,7 @@ public:
                double least_turn, Workers workers)
         : least_turn_(least_turn),
           workers_(workers),
-          original_(original, workers.poll),
+          original_(original, workers),
           triangles_(light.triangles.begin(), light.triangles.end()),
           positions_(light.positions.begin(), light.positions.end()),
           fixed_(on_border(light.triangles, positions_.size(), workers.poll)),

@@ -101,9 +101,8 @@ void TwoSidedGaps::measure_pulls(std::span<const Vector3> positions) {
 }
 
 std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions) {
-    for_each_kind([&](auto& gaps, std::size_t) {
-        move(gaps, positions, is_coarse_ ? 0 : far_share, workers_);
-    });
+    for_each_kind(
+        [&](auto& gaps, std::size_t) { move(gaps, positions, is_coarse_ ? 0 : far_share, workers_); });
     return fits();
 }
 
@@ -132,7 +131,12 @@ std::vector<Fit> TwoSidedGaps::fits() {
 }
 
 std::span<const Pull> TwoSidedGaps::pulls() {
-    pulls_.resize(there_.size() + ends_->size() + back_.size());
+    const std::size_t count = there_.size() + ends_->size() + back_.size();
+    if (count > pulls_.capacity()) {
+        std::vector<Pull>().swap(pulls_);    // they need not be copied,
+        pulls_.reserve(count + count / 16);  // and other edges have some more
+    }
+    pulls_.resize(count);
     std::size_t first = 0;
     const auto add = [&](const auto& gaps) {
         parallel_blocks(gaps.size(), 4096, workers_, [&](std::size_t begin, std::size_t end) {
