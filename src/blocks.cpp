@@ -139,16 +139,25 @@ struct Done {
     std::vector<Index> patch_faces;  ///< of the whole
     std::vector<std::size_t> patch_begin;
     engine::LoopResult result;
+
+    /// In patch_faces, of so many of the steps.
+    std::size_t patch_end(std::size_t count) const {
+        return count < patch_begin.size() ? patch_begin[count] : patch_faces.size();
+    }
 };
 
 class StepRecorder {
 public:
-    /// \param faces  that will go; two with each step, mostly
+    /// \param faces  that will go, about; two with each step, mostly
     StepRecorder(const Block& block, Recording patches, std::size_t faces, Done& done)
         : block_(block), patches_(patches), done_(done) {
-        done.steps.reserve(faces / 2);
-        done.costs.reserve(faces / 2);
-        done.removed.reserve(faces / 2);
+        const std::size_t steps = faces / 2 + faces / 32;  // to grow would take twice the memory
+        done.steps.reserve(steps);
+        done.costs.reserve(steps);
+        done.removed.reserve(steps);
+        if (patches == Recording::off) return;
+        done.patch_begin.reserve(steps);
+        done.patch_faces.reserve(steps * usual_patch);
     }
 
     void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
@@ -168,6 +177,9 @@ public:
     void deleting(Index) {}
 
 private:
+    /// Faces around an edge, and some more.
+    static constexpr std::size_t usual_patch = 10;
+
     const Block& block_;
     Recording patches_;
     Done& done_;
@@ -335,7 +347,7 @@ void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& t
     for (std::size_t i = 0; i < rung_kinds; ++i) to.rungs[i] += block.result.rungs[i];
     if (patches == Recording::off || steps == 0) return;
     const std::size_t first = to.patch_faces.size();
-    const std::size_t end = steps < block.steps.size() ? block.patch_begin[steps] : block.patch_faces.size();
+    const std::size_t end = block.patch_end(steps);
     for (std::size_t i = 0; i < steps; ++i) to.patch_begin.push_back(first + block.patch_begin[i]);
     to.patch_faces.insert(to.patch_faces.end(), block.patch_faces.begin(),
                           block.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
@@ -389,9 +401,14 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);
-    std::size_t steps = 0;
-    for (const Done& block : done) steps += kept.steps(block);
+    std::size_t steps = 0, patch_faces = 0;
+    for (const Done& block : done) {
+        steps += kept.steps(block);
+        if (patches == Recording::on) patch_faces += block.patch_end(kept.steps(block));
+    }
     result.steps.reserve(steps);
+    if (patches == Recording::on) result.patch_begin.reserve(steps);
+    result.patch_faces.reserve(patch_faces);
     for (Done& block : done) {
         take(block, kept.steps(block), patches, result);
         block = {};

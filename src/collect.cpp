@@ -2,32 +2,9 @@
 
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace faqem::detail {
-
-namespace {
-
-// What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
-// whichever level of a chain comes first to ask.
-void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
-    std::vector<engine::Vector3> at = prepared.engine_positions(poll);
-    std::vector<Index> place(at.size());
-    std::iota(place.begin(), place.end(), Index{0});
-    for (Collapse& collapse : collapses) {
-        poll();
-        const engine::Vector3 to = engine::to_eigen(collapse.position);
-        Index original = no_index;
-        if (to == at[collapse.first])
-            original = place[collapse.first];
-        else if (to == at[collapse.second])
-            original = place[collapse.second];
-        collapse.position = original != no_index ? prepared.positions[original] : prepared.to_model(to);
-        at.push_back(to);
-        place.push_back(original);
-    }
-}
-
-}  // namespace
 
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
@@ -80,17 +57,38 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
     return slots;
 }
 
-void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll poll,
-                    SimplifyResult& result) {
+// What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
+// whichever level of a chain comes first to ask.
+void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions(poll);
+    std::vector<Index> place(at.size());
+    std::iota(place.begin(), place.end(), Index{0});
+    at.reserve(at.size() + collapses.size());
+    place.reserve(at.capacity());
+    for (Collapse& collapse : collapses) {
+        poll();
+        const engine::Vector3 to = engine::to_eigen(collapse.position);
+        Index original = no_index;
+        if (to == at[collapse.first])
+            original = place[collapse.first];
+        else if (to == at[collapse.second])
+            original = place[collapse.second];
+        collapse.position = original != no_index ? prepared.positions[original] : prepared.to_model(to);
+        at.push_back(to);
+        place.push_back(original);
+    }
+}
+
+void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
+                    std::vector<Triangle> triangles, SimplifyResult& result) {
     CollapseHistory& history = result.history;
-    to_model_units(prepared, poll, history.collapses);
-    history.positions = prepared.positions;
-    history.triangles = prepared.triangles;
+    history.positions = std::move(positions);
+    history.triangles = std::move(triangles);
     // What was pruned is deleted before the first collapse.
     std::vector<DeletedFace> pruned_faces;
-    for (const PrunedFace& pruned : prepared.pruned.faces) {
-        history.triangles[pruned.face] = pruned.corners;
-        pruned_faces.push_back({0, pruned.face});
+    for (const PrunedFace& face : pruned.faces) {
+        history.triangles[face.face] = face.corners;
+        pruned_faces.push_back({0, face.face});
     }
     history.deleted_faces.insert(history.deleted_faces.begin(), pruned_faces.begin(), pruned_faces.end());
     history.face_groups.assign(mesh.face_groups.begin(), mesh.face_groups.end());

@@ -26,13 +26,18 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
                            const engine::Complex& complex, const engine::Wedges& wedges,
                            std::span<const Index> places, engine::Poll poll, SimplifyResult& result);
 
-/// Fills what the recorder left open in the history of the result, and brings it to model units.
-/// \param result  its mesh not relaxed; of its history the collapses, their patches, the deleted faces and
-/// the
-///                kept versions
+/// Brings what an engine recorded to model units.
 /// \throws what the poll throws. O(n)
-void finish_history(const MeshView& mesh, const Prepared& prepared, engine::Poll poll,
-                    SimplifyResult& result);
+void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses);
+
+/// Fills what the recorder left open in the history of the result.
+/// \param pruned                those of the prepared mesh, as are the next two
+/// \param positions, triangles  taken over
+/// \param result                its mesh not relaxed; of its history the collapses, their patches, the deleted
+///                              faces and the kept versions
+/// O(n)
+void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
+                    std::vector<Triangle> triangles, SimplifyResult& result);
 
 /// Puts vertices of faces that have no area back to where they were, until all have one: moves and roundings
 /// of the relaxation are not to make what collect() has left out.

@@ -252,8 +252,14 @@ private:
         return true;
     }
 
-    static void record(const detail::BlockSteps& blocks, const detail::Reduced& reduced,
-                       engine::HistoryRecorder& recorder) {
+    // Makes room for what is left to do, too: to grow takes twice the memory.
+    void record(const detail::BlockSteps& blocks, const detail::Reduced& reduced,
+                engine::HistoryRecorder& recorder) const {
+        const double faces_to_go = static_cast<double>(ground_.now().triangles.size() - loop_.target_faces);
+        const double wanted = std::max(faces_to_go / 2, static_cast<double>(blocks.steps.size()));
+        const double share = 1.05 * wanted / static_cast<double>(blocks.steps.size());
+        recorder.reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
+                         static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
         for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
             const auto& [survivor, gone, to] = blocks.steps[i];
             const std::size_t begin = blocks.patch_begin[i];
@@ -340,7 +346,11 @@ private:
             const bool is_last = results_.size() + 1 == targets_.size();
             result.history = is_last ? recorder.take() : recorder.so_far();
             for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
-            detail::finish_history(mesh_, prepared_, poll, result);
+            detail::to_model_units(prepared_, poll, result.history.collapses);
+            // The last one may have what nobody needs any more.
+            detail::finish_history(mesh_, prepared_.pruned,
+                                   is_last ? std::move(prepared_.positions) : prepared_.positions,
+                                   is_last ? std::move(prepared_.triangles) : prepared_.triangles, result);
         }
         if (settings_.relax && !is_cancelled) relax(work, slots, result);
         detail::finish_report(options_, settings_, prepared_, result);

@@ -29,7 +29,9 @@ public:
     /// \throws what the poll throws
     PairTable(const Complex& complex, std::span<const std::pair<Index, Index>> virtual_pairs, Poll poll = {})
         : vertices_(complex.vertex_slots()) {
-        pairs_.reserve(complex.face_count() / 2 * 3 + virtual_pairs.size());
+        // Three for two faces, and half a pair more for each open edge: to grow would take twice the memory.
+        const std::size_t few_open = complex.face_count() / 64;
+        pairs_.reserve(complex.face_count() / 2 * 3 + few_open + virtual_pairs.size());
         for (Index v = 0; v < complex.vertex_slots(); ++v) {
             poll();
             add_edges_above(complex, v);

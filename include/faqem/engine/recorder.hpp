@@ -51,6 +51,13 @@ public:
         add(survivor, gone, to.point);
     }
 
+    /// Makes room for more collapses with so many faces around them, together.
+    void reserve(std::size_t collapses, std::size_t faces) {
+        history_.collapses.reserve(history_.collapses.size() + collapses);
+        history_.patch_begin.reserve(history_.patch_begin.size() + collapses);
+        history_.patch_faces.reserve(history_.patch_faces.size() + faces);
+    }
+
     /// Records a collapse whose faces are known.
     /// \param patch  face slots with one of both vertices
     void collapsed(Index survivor, Index gone, const Vector3& to, std::span<const Index> patch) {
