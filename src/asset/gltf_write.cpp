@@ -144,10 +144,9 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
     const auto [entry, is_new] = writer.accessors.try_emplace(accessor, no_index);
     if (!is_new) return entry->second;
     Json description = source_array(writer, "accessors")[accessor];
-    const bool has_data = description.contains("bufferView") || description.contains("sparse");
     for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
-    std::vector<std::uint8_t> dense;
-    if (has_data) dense = dense_bytes(writer.source, accessor);
+    // Zeros without a bufferView, too: of the result's bytes there may be too few to vouch for the count.
+    const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
     if (use == AccessorUse::vertices || string_of(description, "type") == "SCALAR")
         add_missing_bounds(description, dense);
     entry->second = writer.binary.add_accessor(std::move(description), dense, use);

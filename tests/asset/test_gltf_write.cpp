@@ -208,6 +208,23 @@ TEST_CASE("points and lines pass through beside the triangles") {
     CHECK(json["materials"][primitives[1]["material"].get<std::size_t>()]["name"] == "ink");
 }
 
+TEST_CASE("points of zeros without a bufferView can be read again where nothing else has bytes") {
+    GltfBuilder builder = square_gltf();
+    const auto zeros = builder.add("accessors", {{"componentType", f32}, {"type", "VEC3"}, {"count", 4}});
+    builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}, {"mode", 0}});
+    Asset asset = load_glb(builder);
+    asset.parts[0].triangles.clear();
+    asset.parts[0].face_material.clear();
+    const TemporaryFolder folder;
+    save(asset, folder / "out.glb");
+    const Json json = json_of(get(folder / "out.glb"));
+    REQUIRE(json["accessors"].size() == 1);
+    CHECK(json["accessors"][0]["count"] == 4);
+    CHECK(json["accessors"][0]["max"] == Json::parse("[0, 0, 0]"));
+    CHECK(json["buffers"][0]["byteLength"] == 48);
+    CHECK_NOTHROW(load(folder / "out.glb"));
+}
+
 TEST_CASE("a mesh with nothing left goes, with the references to it") {
     GltfBuilder builder = square_gltf();
     builder.mesh({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
