@@ -126,9 +126,19 @@ TEST_CASE("bad input ends with 3, input of an unknown kind with 4") {
         CHECK(run(folder, before + "garbage.glb" + after).code == 3);
         CHECK(run(folder, before + "model.xyz" + after).code == 4);
     }
-    CHECK(run(folder, "simplify empty.obj out.glb").code == 3);
-    CHECK(run(folder, "compare empty.obj empty.obj").code == 3);
-    CHECK(run(folder, "render empty.obj out.png").code == 3);
+    write(folder / "nothing.gltf", R"({"asset":{"version":"2.0"}})");
+    for (const auto& [arguments, message] :
+         {std::pair("simplify empty.obj out.glb", "empty.obj: no faces"),
+          {"compare empty.obj empty.obj", "empty.obj: no faces"},
+          {"render empty.obj out.png", "empty.obj: no faces"},
+          {"simplify nothing.gltf out.glb", "nothing.gltf: has no triangles"},
+          {"compare nothing.gltf nothing.gltf", "nothing.gltf: has no face with area"},
+          {"render nothing.gltf out.png", "nothing.gltf: has no triangles"}}) {
+        CAPTURE(arguments);
+        const Outcome empty = run(folder, arguments);
+        CHECK(empty.code == 3);
+        CHECK(empty.err.find(message) != std::string::npos);
+    }
     CHECK(!fs::exists(folder / "out.glb"));
     CHECK(!fs::exists(folder / "out.png"));
 }
