@@ -62,10 +62,11 @@ struct Bvh::Build {
 
     /// Surface-area heuristic over bins of the longest axis; returns begin where it finds no split.
     std::uint32_t split_by_area(const Range& range, const Box& centres, int axis) {
-        const double low = centres.low[axis], extent = centres.high[axis] - low;
+        // Halved: the difference of the largest doubles is beyond them.
+        const double low = 0.5 * centres.low[axis], extent = 0.5 * centres.high[axis] - low;
         if (!(extent > 0)) return range.begin;
         const auto bin_of = [&](const Item& item) {
-            return std::clamp(static_cast<int>((item.centre[axis] - low) / extent * bins), 0, bins - 1);
+            return std::clamp(static_cast<int>((0.5 * item.centre[axis] - low) / extent * bins), 0, bins - 1);
         };
         std::array<Box, bins> boxes;
         std::array<std::uint32_t, bins> counts = {};

@@ -231,6 +231,23 @@ TEST_CASE("coincident and exponentially spaced faces give a tree of bounded dept
     CHECK(tree.closest({-1, -1, -1}).face < 3000);
 }
 
+TEST_CASE("a tree over nearly the whole range of doubles finds the face that a point is on") {
+    const double far = 1.7e308, side = 1e300;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const double x : {-far, -far / 2, 0.0, far / 2, far}) {
+        const auto first = static_cast<Index>(positions.size());
+        positions.insert(positions.end(), {{x, 0, 0}, {x, side, 0}, {x, 0, side}});
+        triangles.push_back({first, first + 1, first + 2});
+    }
+    const Bvh tree(positions, triangles);
+    for (Index f = 0; f < triangles.size(); ++f) {
+        const auto hit = tree.closest(positions[triangles[f][0]]);
+        CHECK(hit.face == f);
+        CHECK(hit.distance_squared == 0);
+    }
+}
+
 TEST_CASE("a tree whose triangles have moved answers as a new one would") {
     Soup soup(500, 5);
     std::vector<Vector3> positions;
