@@ -123,7 +123,8 @@ private:
 
     std::size_t place(double x, int k) const {
         const double at = (x - low_[k]) / (high_[k] - low_[k]) * static_cast<double>(side_);
-        return at > 0 ? std::min(side_ - 1, static_cast<std::size_t>(at)) : 0;
+        if (!(at > 0)) return 0;
+        return at < static_cast<double>(side_) ? static_cast<std::size_t>(at) : side_ - 1;
     }
     std::size_t cell(const Point& p) const { return place(p[1], 1) * side_ + place(p[0], 0); }
 
