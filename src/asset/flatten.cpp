@@ -84,6 +84,13 @@ void append(Part& flat, const Part& part, const Transform& m, const Layout& layo
     append(flat.face_material, part.face_material, part.triangles.size(), no_index);
 }
 
+std::size_t unseen_parts(const Asset& asset) {
+    std::vector<std::uint8_t> is_unseen;
+    for (const Part& part : asset.parts) is_unseen.push_back(!part.triangles.empty());
+    for (const Instance& instance : instances(asset)) is_unseen[instance.part] = 0;
+    return static_cast<std::size_t>(std::count(is_unseen.begin(), is_unseen.end(), 1));
+}
+
 }  // namespace
 
 Part flatten(const Asset& asset) { return flatten(asset, instances(asset)); }
@@ -117,6 +124,9 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
     if (asset.source)
         losses.push_back(
             cannot + "a scene: all meshes are placed in world space, and everything else of it is left out");
+    if (const std::size_t unseen = unseen_parts(asset))
+        losses.push_back("no node of the scene shows " + std::to_string(unseen) +
+                         (unseen == 1 ? " mesh, which was left out" : " meshes, which were left out"));
     if (any([](const Part& p) { return !p.joints.empty(); }))
         losses.push_back(cannot + "skins: the mesh keeps its rest pose");
     if (any([](const Part& p) { return !p.morph_targets.empty(); }))

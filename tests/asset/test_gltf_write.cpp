@@ -225,6 +225,17 @@ TEST_CASE("points of zeros without a bufferView can be read again where nothing 
     CHECK_NOTHROW(load(folder / "out.glb"));
 }
 
+TEST_CASE("a mesh that the scene does not show is left out where there is no scene, with a warning") {
+    GltfBuilder builder = square_gltf();
+    builder.json["scenes"][0].erase("nodes");
+    const Asset asset = load_glb(builder);
+    const TemporaryFolder folder;
+    CHECK(any_contains(save(asset, folder / "out.ply"),
+                       "no node of the scene shows 1 mesh, which was left out"));
+    CHECK_FALSE(any_contains(save(asset, folder / "out.glb"), "left out"));
+    CHECK_FALSE(any_contains(save(load_glb(square_gltf()), folder / "shown.ply"), "no node"));
+}
+
 TEST_CASE("a mesh with nothing left goes, with the references to it") {
     GltfBuilder builder = square_gltf();
     builder.mesh({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});

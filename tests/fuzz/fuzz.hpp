@@ -210,9 +210,19 @@ inline std::string scratch_file(const std::string& name) {
     return (folder.path / name).string();
 }
 
-/// What can be written can be read. \return the asset read back, or nothing where it cannot be written
+/// Faces that the scene shows.
+inline std::uint64_t shown_faces(const Asset& asset) {
+    std::uint64_t faces = 0;
+    for (const Instance& instance : instances(asset)) faces += asset.parts[instance.part].triangles.size();
+    return faces;
+}
+
+/// What can be written can be read. \return the asset read back, or nothing where it cannot be written, or has
+/// no face for a file that holds no scene
 inline std::optional<Asset> written_and_read(const Asset& asset, const std::string& name) {
     const std::string file = scratch_file(name);
+    const bool holds_scene = name.ends_with(".glb") || name.ends_with(".gltf");
+    if (!holds_scene && shown_faces(asset) == 0) return {};
     try {
         save(asset, file, Overwrite::yes);
     } catch (const WriteError&) {
