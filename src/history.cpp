@@ -1,6 +1,7 @@
 #include "faqem/history.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "edge_swap.hpp"
@@ -32,6 +33,20 @@ void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value
 
 std::string numbered(const char* what, std::size_t i) {
     return std::string(what) + "[" + std::to_string(i) + "]";
+}
+
+void check_position(const Vec3& position, const char* section, std::size_t i) {
+    for (const double x : position) {
+        if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "a position that is not finite");
+    }
+}
+
+void check_positions(const CollapseHistory& h) {
+    for (std::size_t i = 0; i < h.positions.size(); ++i) check_position(h.positions[i], "positions", i);
+    for (std::size_t k = 0; k < h.collapses.size(); ++k)
+        check_position(h.collapses[k].position, "collapses", k);
+    for (std::size_t i = 0; i < h.kept_positions.size(); ++i)
+        check_position(h.kept_positions[i], "kept_positions", i);
 }
 
 void check_faces(const CollapseHistory& h) {
@@ -143,6 +158,7 @@ void validate(const CollapseHistory& history) {
                          h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty() &&
                          h.kept_positions.empty();
     if (nothing) return;
+    check_positions(history);
     check_faces(history);
     const std::vector<std::uint8_t> used = check_collapses(history);
     check_patches(history);

@@ -67,8 +67,9 @@ struct CollapseHistory {
     }
 };
 
-/// Checks that every index is in range and every collapse joins two living versions. O(size)
-/// \throws InputError naming the first collapse or face that is wrong
+/// Checks that every position is finite, every index in range, and that every collapse joins two living versions.
+/// O(size)
+/// \throws InputError naming the first position, collapse or face that is wrong
 FAQEM_EXPORT void validate(const CollapseHistory& history);
 
 /// Rebuilds the small mesh from the history alone. \pre validate(history) passes. O(size)

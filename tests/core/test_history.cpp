@@ -1,8 +1,10 @@
 #include "faqem/history.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <sstream>
 
 #include "core/meshes.hpp"
@@ -240,6 +242,18 @@ TEST_CASE("lying indices are refused, and the first of them named") {
     CHECK(changed([](H& h) { h.kept_faces[0] = 2; }) ==
           "history: kept_faces[0]: has a vertex that was not kept");
     CHECK(changed([](H& h) { h.triangles[0].fill(no_index); }) == "history: patch_faces[0]: no such face");
+}
+
+TEST_CASE("positions that are not finite are refused, wherever they are") {
+    using H = CollapseHistory;
+    const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+    CHECK(changed([&](H& h) { h.positions[1][2] = infinite; }) ==
+          "history: positions[1]: a position that is not finite");
+    CHECK(changed([&](H& h) { h.collapses[0].position[0] = nan; }) ==
+          "history: collapses[0]: a position that is not finite");
+    CHECK(changed([&](H& h) {
+              h.kept_positions.assign(h.kept_versions.size(), {0, -infinite, 0});
+          }) == "history: kept_positions[0]: a position that is not finite");
 }
 
 TEST_CASE("a history without faces may not refer to any") {
