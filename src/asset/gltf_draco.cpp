@@ -115,6 +115,9 @@ std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std
     for (DracoAttribute& attribute : attributes) {
         const draco::PointAttribute* from = mesh->GetAttributeByUniqueId(attribute.id);
         if (!from) reader.fail("has no attribute " + std::to_string(attribute.id));
+        // Bytes that are neither 0 nor 1 are undefined there, and glTF has no such type.
+        if (from->data_type() == draco::DT_BOOL)
+            reader.fail("attribute " + std::to_string(attribute.id) + " holds truth values");
         if (!convert(*mesh, *from, attribute))
             reader.fail("attribute " + std::to_string(attribute.id) + " is damaged");
     }
