@@ -65,16 +65,11 @@ struct ProjectionWalk::Patch {
 
 ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
                                Workers workers)
-    : history_(history), last_(final_versions(history)) {
-    const auto make = [&](std::size_t part, std::size_t, Poll poll) {
-        if (part == 0) {
-            tree_ = Bvh(history.positions, history.triangles, poll);
-        } else {
-            sheets_ = find_sheets(history.positions, history.triangles, unwelded, poll);
-            replay_ = replay_patches(history, poll);
-        }
-    };
-    parallel_blocks(2, 1, workers, make);
+    : history_(history),
+      tree_(history.positions, history.triangles, workers.poll),
+      sheets_(find_sheets(history.positions, history.triangles, unwelded, workers.poll)),
+      replay_(replay_patches(history, workers.poll)),
+      last_(final_versions(history)) {
     describe_patches(history, sheets_.sheet, workers, replay_);
 }
 

@@ -68,7 +68,7 @@ private:
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
 
     const CollapseHistory& history_;
-    Bvh tree_;
+    Bvh tree_;  // first, and alone: making it takes more for a while than it keeps
     Sheets sheets_;
     Replay replay_;
     std::vector<Index> last_;  ///< by version: what became of it in the end
