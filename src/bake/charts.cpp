@@ -75,8 +75,8 @@ Charts lay_region(std::span<const ChartFace> all, const std::vector<Index>& regi
 // Joins charts, those first that share most of the smaller one's outline.
 class Joining {
 public:
-    Joining(std::span<const ChartFace> all, std::vector<Chart> charts, double longest, Poll poll)
-        : all_(all), charts_(std::move(charts)), of_face_(all.size()), longest_(longest), poll_(poll) {
+    Joining(std::span<const ChartFace> all, std::vector<Chart> charts, double longest, Workers workers)
+        : all_(all), charts_(std::move(charts)), of_face_(all.size()), longest_(longest), workers_(workers) {
         for (std::size_t i = 0; i < charts_.size(); ++i) own(static_cast<Index>(i));
         for (std::size_t i = 0; i < charts_.size(); ++i) offer(static_cast<Index>(i), Partners::later);
     }
@@ -86,12 +86,9 @@ public:
         while (!queue_.empty() && work > 0) {
             const Join join = queue_.top();
             queue_.pop();
-            const std::vector<Index>&a = charts_[join.a].faces, &b = charts_[join.b].faces;
-            poll_();
-            if (a.empty() || b.empty() || a.size() + b.size() > most_faces_per_chart) continue;
-            std::vector<Index> faces;
-            std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(faces));
-            Flattening flattening = flatten(all_, std::move(faces), work, poll_);
+            workers_.poll();
+            if (!is_possible(join)) continue;
+            Flattening flattening = laid(join, work);
             if (!good(flattening, longest_)) continue;
             charts_[join.a] = charts_[join.b] = {};
             charts_.push_back(std::move(flattening.chart));
@@ -112,9 +109,67 @@ private:
         }
     };
     enum class Partners { later, all };
+    struct Attempt {
+        Join join;
+        std::uint64_t allowed, left;  // of the work
+        Flattening flattening;
+    };
+
+    bool is_possible(const Join& join) const {
+        const std::size_t a = charts_[join.a].faces.size(), b = charts_[join.b].faces.size();
+        return a > 0 && b > 0 && a + b <= most_faces_per_chart;
+    }
+
+    // Threads lay the next joins meanwhile: most of them will be wanted as they are.
+    Flattening laid(const Join& join, std::uint64_t& work) {
+        auto found = find_attempt(join);
+        if (found == ahead_.end()) {
+            look_ahead(join, work);
+            found = find_attempt(join);
+        }
+        Attempt attempt = std::move(*found);
+        ahead_.erase(found);
+        const std::uint64_t used = attempt.allowed - attempt.left;
+        // What met the limit of the work, or would now, is done with what is left.
+        if (attempt.left == 0 || used >= work) return lay(join, work, workers_.poll);
+        work -= used;
+        return std::move(attempt.flattening);
+    }
+
+    std::vector<Attempt>::iterator find_attempt(const Join& join) {
+        return std::find_if(ahead_.begin(), ahead_.end(),
+                            [&](const Attempt& t) { return t.join.a == join.a && t.join.b == join.b; });
+    }
+
+    void look_ahead(const Join& first, std::uint64_t work) {
+        std::erase_if(ahead_, [&](const Attempt& t) { return !is_possible(t.join); });
+        const std::size_t known = ahead_.size(), most = known + thread_count(workers_.threads);
+        ahead_.push_back({first, work, work, {}});
+        std::vector<Join> later;
+        while (ahead_.size() < most && !queue_.empty()) {
+            const Join join = queue_.top();
+            queue_.pop();
+            if (!is_possible(join)) continue;
+            later.push_back(join);
+            if (find_attempt(join) == ahead_.end()) ahead_.push_back({join, work, work, {}});
+        }
+        for (const Join& join : later) queue_.push(join);
+        parallel_blocks(ahead_.size() - known, 1, workers_,
+                        [&](std::size_t begin, std::size_t end, Poll poll) {
+                            for (std::size_t i = known + begin; i < known + end; ++i)
+                                ahead_[i].flattening = lay(ahead_[i].join, ahead_[i].left, poll);
+                        });
+    }
+
+    Flattening lay(const Join& join, std::uint64_t& work, Poll poll) const {
+        const std::vector<Index>&a = charts_[join.a].faces, &b = charts_[join.b].faces;
+        std::vector<Index> faces;
+        std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(faces));
+        return flatten(all_, std::move(faces), work, poll);
+    }
 
     void own(Index chart) {
-        poll_(charts_[chart].faces.size());
+        workers_.poll(charts_[chart].faces.size());
         outline_.resize(charts_.size());
         for (Index f : charts_[chart].faces) of_face_[f] = chart;
         for (Index f : charts_[chart].faces) {
@@ -156,8 +211,9 @@ private:
     std::vector<Index> of_face_;
     std::vector<double> outline_;  // of the chart
     std::priority_queue<Join> queue_;
+    std::vector<Attempt> ahead_;  // joins that may come next
     double longest_;
-    Poll poll_;
+    Workers workers_;
 };
 
 }  // namespace
@@ -183,7 +239,7 @@ Charts make_charts(std::span<const ChartFace> faces, Workers workers) {
         std::move(region.charts.begin(), region.charts.end(), std::back_inserter(result.charts));
         result.given_up += region.given_up;
     }
-    result.charts = Joining(faces, std::move(result.charts), longest, workers.poll).run();
+    result.charts = Joining(faces, std::move(result.charts), longest, workers).run();
     std::sort(result.charts.begin(), result.charts.end(),
               [](const Chart& a, const Chart& b) { return a.faces.front() < b.faces.front(); });
     return result;

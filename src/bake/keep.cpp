@@ -82,7 +82,7 @@ void bake_vertex(BakeJob& job) {
     const MaterialGroups groups = group_materials(job.source, Bake::vertex);
     Channels wanted;
     wanted.base = true;
-    const SourceSurface surface(job.source, wanted, job.poll());
+    const SourceSurface surface(job.source, wanted, job.workers());
     for (const MaterialGroup& group : groups.groups) {
         Material material = without_textures(job, group.materials.front(), true);
         for (std::size_t m = 1; m < group.materials.size(); ++m)

@@ -163,7 +163,7 @@ bool bake_pages(BakeJob& job) {
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;
-    const SourceSurface surface(job.source, wanted, job.poll());
+    const SourceSurface surface(job.source, wanted, job.workers());
     double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;

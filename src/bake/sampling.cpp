@@ -54,10 +54,10 @@ double usable(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
 }  // namespace
 
-MipImage::MipImage(Pixels pixels, Encoding encoding, engine::Poll poll)
+MipImage::MipImage(Pixels pixels, Encoding encoding, const Workers& workers)
     : pixels_(std::move(pixels)), encoding_(encoding) {
     for (std::size_t level = 0; width(level) > 1 || height(level) > 1; ++level)
-        levels_.push_back(half(level, poll));
+        levels_.push_back(half(level, workers));
 }
 
 Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const {
@@ -75,12 +75,14 @@ Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const
     return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
 }
 
-MipImage::Level MipImage::half(std::size_t from, engine::Poll poll) const {
+MipImage::Level MipImage::half(std::size_t from, const Workers& workers) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
-    result.rgba.reserve(std::size_t{result.width} * result.height * 4);
-    for (std::uint32_t y = 0; y < result.height; ++y) {
-        poll(result.width / 4);
+    // Not a vector: to clear half a gigabyte first would take long, with nobody asked.
+    result.rgba =
+        std::make_unique_for_overwrite<std::uint16_t[]>(std::size_t{result.width} * result.height * 4);
+    const auto fill_row = [&](std::uint32_t y) {
         const Taps rows = taps(y, height(from), result.height);
+        std::uint16_t* to = &result.rgba[std::size_t{y} * result.width * 4];
         for (std::uint32_t x = 0; x < result.width; ++x) {
             const Taps columns = taps(x, width(from), result.width);
             Linear sum{};
@@ -90,11 +92,16 @@ MipImage::Level MipImage::half(std::size_t from, engine::Poll poll) const {
                     for (std::size_t k = 0; k < 4; ++k) sum[k] += rows.weight[j] * columns.weight[i] * c[k];
                 }
             }
-            for (float c : sum) {
-                result.rgba.push_back(static_cast<std::uint16_t>(std::clamp(c, 0.0f, 1.0f) * 65535 + 0.5f));
-            }
+            for (float c : sum) *to++ = static_cast<std::uint16_t>(std::clamp(c, 0.0f, 1.0f) * 65535 + 0.5f);
         }
-    }
+    };
+    constexpr std::size_t rows_at_once = 16;
+    parallel_blocks(result.height, rows_at_once, workers, [&](std::size_t y, std::size_t end, Poll poll) {
+        for (; y < end; ++y) {
+            poll(result.width / 4);
+            fill_row(static_cast<std::uint32_t>(y));
+        }
+    });
     return result;
 }
 

@@ -4,10 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/poll.hpp"
+#include "parallel.hpp"
 
 namespace faqem::detail {
 
@@ -26,8 +27,8 @@ using Linear = std::array<float, 4>;
 class MipImage {
 public:
     /// \param pixels  at least one texel
-    /// \throws what the poll throws
-    MipImage(Pixels pixels, Encoding encoding, engine::Poll poll = {});
+    /// \throws what the workers' poll throws
+    MipImage(Pixels pixels, Encoding encoding, const Workers& workers = {});
 
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
@@ -40,12 +41,12 @@ public:
 private:
     struct Level {
         std::uint32_t width, height;
-        std::vector<std::uint16_t> rgba;
+        std::unique_ptr<std::uint16_t[]> rgba;
     };
     Linear texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& use) const;
     Linear read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
     Linear at_level(std::size_t level, double u, double v, const TextureRef& use) const;
-    Level half(std::size_t from, engine::Poll poll) const;
+    Level half(std::size_t from, const Workers& workers) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
     std::uint32_t height(std::size_t level) const {
         return level ? levels_[level - 1].height : pixels_.height;

@@ -49,7 +49,7 @@ Pixels decode_for(const Asset& asset, Index image, Index material, engine::Poll 
 
 }  // namespace
 
-SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, engine::Poll poll)
+SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, const Workers& workers)
     : asset_(asset), wanted_(wanted) {
     std::vector<bool> used(asset.materials.size() + 1, false);
     for (const Part& part : asset.parts) {
@@ -64,39 +64,39 @@ SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, engine:
         const Material& material = *surface.material;
         const Encoding colour =
             material.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
-        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index, poll);
+        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index, workers);
         if (used[m] && wanted.metallic_roughness) {
             surface.metallic_roughness =
-                slot(material.metallic_roughness_texture, Encoding::data, index, poll);
+                slot(material.metallic_roughness_texture, Encoding::data, index, workers);
         }
         if (used[m] && wanted.occlusion)
-            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index, poll);
+            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index, workers);
         if (used[m] && wanted.emissive) {
-            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index, poll);
+            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index, workers);
         }
         if (used[m] && wanted.normal && !material.unlit) {
-            surface.normal = slot(material.normal_texture, Encoding::data, index, poll);
+            surface.normal = slot(material.normal_texture, Encoding::data, index, workers);
         }
         surfaces_.push_back(surface);
     }
     scales_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
-        measure(asset.parts[p], poll, scales_[p]);
-        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p], poll);
+        measure(asset.parts[p], workers.poll, scales_[p]);
+        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p], workers.poll);
     }
 }
 
 SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material,
-                                        engine::Poll poll) {
+                                        const Workers& workers) {
     if (!use) return {};
     auto& image = images_[{use.image, encoding}];
     if (!image) {
-        Pixels pixels = decode_for(asset_, use.image, material, poll);
+        Pixels pixels = decode_for(asset_, use.image, material, workers.poll);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "its image has no pixels");
         }
-        image = std::make_unique<const MipImage>(std::move(pixels), encoding, poll);
+        image = std::make_unique<const MipImage>(std::move(pixels), encoding, workers);
     }
     const double texels = double(image->width()) * image->height();
     return {image.get(), &use, std::sqrt(texels * std::abs(double(use.scale[0]) * use.scale[1])),

@@ -40,8 +40,8 @@ public:
     /// \param asset   must outlive this
     /// \param wanted  channels that will be asked for
     /// \throws InputError  an image is damaged. \throws UnsupportedError  of an unknown format
-    /// \throws what the poll throws
-    SourceSurface(const Asset& asset, const Channels& wanted, engine::Poll poll = {});
+    /// \throws what the workers' poll throws
+    SourceSurface(const Asset& asset, const Channels& wanted, const Workers& workers = {});
 
     /// \param part      into Asset::parts
     /// \param point     on one of its faces
@@ -80,7 +80,7 @@ private:
         double untextured = 1;
     };
 
-    Slot slot(const TextureRef& use, Encoding encoding, Index material, engine::Poll poll);
+    Slot slot(const TextureRef& use, Encoding encoding, Index material, const Workers& workers);
     void measure(const Part& part, engine::Poll poll, PartScale& scale) const;
     Linear fetch(const Slot& slot, Index part, const SurfacePoint& point, double spacing) const;
     const Surface& surface(Index material) const {

@@ -154,13 +154,17 @@ TEST_CASE("densities that differ by more than a factor of two keep charts apart"
 }
 
 TEST_CASE("charts do not depend on the number of threads") {
-    const auto faces = test::chart_faces(test::shaken(test::torus(40, 20), 0.01, 5), 30);
-    const Charts one = make_charts(faces, 1), three = make_charts(faces, 3);
-    check_charts(faces, one);
-    REQUIRE(one.charts.size() == three.charts.size());
-    for (std::size_t i = 0; i < one.charts.size(); ++i) {
-        CHECK(one.charts[i].faces == three.charts[i].faces);
-        CHECK(one.charts[i].places == three.charts[i].places);
+    // Of the second one so many joins fail that the work for them is used up.
+    for (const TriangleMesh& mesh :
+         {test::shaken(test::torus(40, 20), 0.01, 5), test::shaken(test::torus(40, 20), 0.1, 5)}) {
+        const auto faces = test::chart_faces(mesh, 30);
+        const Charts one = make_charts(faces, 1), three = make_charts(faces, 3);
+        check_charts(faces, one);
+        REQUIRE(one.charts.size() == three.charts.size());
+        for (std::size_t i = 0; i < one.charts.size(); ++i) {
+            CHECK(one.charts[i].faces == three.charts[i].faces);
+            CHECK(one.charts[i].places == three.charts[i].places);
+        }
     }
 }
 

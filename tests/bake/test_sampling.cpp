@@ -82,6 +82,18 @@ TEST_CASE("odd sizes are halved without losing a column") {
     }
 }
 
+TEST_CASE("coarse levels do not depend on the number of threads") {
+    const Pixels pixels = paint(75, 130, [](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 3), 9, 255};
+    });
+    const MipImage one(pixels, Encoding::colour, 1), four(pixels, Encoding::colour, 4);
+    const TextureRef use = wrapped(Wrap::clamp, Filter::nearest);
+    for (const double lod : {1.0, 2.0, 3.0}) {
+        for (double v = 0.01; v < 1; v += 0.02)
+            CHECK(one.sample(use, 0.7 * v, v, lod) == four.sample(use, 0.7 * v, v, lod));
+    }
+}
+
 TEST_CASE("clear texels do not tint others") {
     const MipImage image(paint(2, 2,
                                [](std::uint32_t x, std::uint32_t) {

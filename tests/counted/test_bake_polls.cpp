@@ -43,7 +43,8 @@ TEST_CASE("polls: no part of laying out single triangles is silent for long") {
 TEST_CASE("polls: no part of the work on images is silent for long") {
     constexpr std::uint32_t side = 1024;
     Pixels pixels{side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side, 99), false};
-    CHECK(longest_silence([&](engine::Poll poll) { MipImage(pixels, Encoding::colour, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::Poll poll) { MipImage(pixels, Encoding::colour, Workers(1, poll)); }) <
+          most_steps);
     std::vector<std::uint8_t> known(std::size_t{side} * side, 0);
     for (std::size_t i = 0; i < known.size(); i += 1000) known[i] = 1;
     CHECK(longest_silence([&](engine::Poll poll) { push_pull(pixels, known, {0, 4}, poll); }) < most_steps);
