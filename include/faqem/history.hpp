@@ -54,7 +54,7 @@ struct CollapseHistory {
     /// Collapses, then swaps.
     std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
-        return std::span(patch_faces).subspan(patch_begin[k], patch_begin[k + 1] - patch_begin[k]);
+        return {patch_faces.data() + patch_begin[k], patch_begin[k + 1] - patch_begin[k]};
     }
     /// Position of a vertex of the small mesh. O(1)
     const Vec3& kept_position(std::size_t vertex) const {
@@ -72,7 +72,9 @@ struct CollapseHistory {
 /// \throws InputError naming the first position, collapse or face that is wrong
 FAQEM_EXPORT void validate(const CollapseHistory& history);
 
-/// Rebuilds the small mesh from the history alone. \pre validate(history) passes. O(size)
+/// Rebuilds the small mesh from the history alone.
+/// \pre validate(history) passes.
+/// O(size)
 FAQEM_EXPORT TriangleMesh replay(const CollapseHistory& history);
 
 /// Writes in a little-endian binary format (docs/history-format.md). \throws WriteError

@@ -33,13 +33,13 @@ public:
     PositionView() = default;
     PositionView(std::span<const Vec3> p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
     PositionView(std::span<const Vec3f> p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
-    PositionView(const std::vector<Vec3>& p) : PositionView(std::span(p)) {}
-    PositionView(const std::vector<Vec3f>& p) : PositionView(std::span(p)) {}
+    PositionView(const std::vector<Vec3>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
+    PositionView(const std::vector<Vec3f>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
     /// Flat xyz; a trailing one or two numbers are ignored.
     PositionView(std::span<const double> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
     PositionView(std::span<const float> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
-    PositionView(const std::vector<double>& xyz) : PositionView(std::span(xyz)) {}
-    PositionView(const std::vector<float>& xyz) : PositionView(std::span(xyz)) {}
+    PositionView(const std::vector<double>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
+    PositionView(const std::vector<float>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
 
     /// Any layout: sizeof(Vertex) is the stride of positions in an array of Vertex; of a matrix with a row
     /// per vertex, column by column, it is sizeof(double), and the step sizeof(double) * rows.
@@ -64,9 +64,9 @@ public:
     }
 
 private:
-    template <class Vec>
-    static const typename Vec::value_type* scalars(std::span<const Vec> p) {
-        return p.empty() ? nullptr : p.front().data();
+    template <class Vecs>
+    static const typename Vecs::value_type::value_type* scalars(const Vecs& p) {
+        return p.empty() ? nullptr : p.data()->data();
     }
 
     template <class Scalar>
@@ -89,14 +89,17 @@ public:
     TriangleView() = default;
     TriangleView(std::span<const Triangle> t)
         : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
-    TriangleView(const std::vector<Triangle>& t) : TriangleView(std::span(t)) {}
+    TriangleView(const std::vector<Triangle>& t)
+        : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
     /// Flat list; a trailing one or two indices are ignored.
     TriangleView(std::span<const Index> flat)
         : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
     TriangleView(std::span<const std::uint16_t> flat)
         : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
-    TriangleView(const std::vector<Index>& flat) : TriangleView(std::span(flat)) {}
-    TriangleView(const std::vector<std::uint16_t>& flat) : TriangleView(std::span(flat)) {}
+    TriangleView(const std::vector<Index>& flat)
+        : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
+    TriangleView(const std::vector<std::uint16_t>& flat)
+        : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
 
     /// Any layout, as PositionView(). Of signed indices, those below 0 are out of range.
     /// \param first   first corner of the first triangle; need not be aligned
