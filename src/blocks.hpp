@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "faqem/engine/loop.hpp"
-#include "faqem/engine/poll.hpp"
 #include "faqem/engine/original.hpp"
+#include "faqem/engine/poll.hpp"
 #include "faqem/options.hpp"
 #include "parallel.hpp"
 #include "reduced.hpp"
@@ -95,7 +95,9 @@ struct BlockInput {
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, Workers workers);
 
-/// Does the steps. \throws what the poll throws. O(n)
+/// Does the steps.
+/// \throws what the poll throws.
+/// O(n)
 Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -16,7 +16,8 @@ public:
     Buckets() = default;
     /// \param count     of buckets
     /// \param for_each  is called twice, with put(bucket, item); must call it for each item, the same both
-    /// times O(buckets + items)
+    ///                  times
+    /// O(buckets + items)
     template <class ForEach>
     Buckets(std::size_t count, ForEach&& for_each) : begin_(count + 1, 0) {
         for_each([&](std::size_t bucket, const Item&) { ++begin_[bucket + 1]; });

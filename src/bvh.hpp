@@ -28,15 +28,17 @@ public:
     /// \param positions  finite
     /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without
     ///                   area count as the segment or point that they are.
+    /// Keeps copies. O(n log n) time, about 140 bytes per face.
     /// \pre fewer than 2^31 triangles
-    /// Keeps copies. O(n log n) time, about 140 bytes per face. \throws what the poll throws
+    /// \throws what the poll throws
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, engine::Poll poll = {});
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
         engine::Poll poll = {});
 
     /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
     /// \param triangles  those of the constructor
-    /// \throws what the poll throws: then the tree is of no use any more. O(n)
+    /// \throws what the poll throws: then the tree is of no use any more.
+    /// O(n)
     void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
                engine::Poll poll = {});
 

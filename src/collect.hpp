@@ -21,13 +21,15 @@ namespace faqem::detail {
 /// \param now     the slots of the complex
 /// \param places  of each vertex slot: the vertex of the prepared mesh whose place it has, or no_index
 /// \return the slot of each vertex of the result
-/// \throws what the poll throws. O(n)
+/// \throws what the poll throws.
+/// O(n)
 std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
                            std::span<const Index> places, engine::Poll poll, SimplifyResult& result);
 
 /// Brings what an engine recorded to model units.
-/// \throws what the poll throws. O(n)
+/// \throws what the poll throws.
+/// O(n)
 void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses);
 
 /// Fills what the recorder left open in the history of the result.

@@ -27,13 +27,15 @@ struct CostCurve {
 
 /// Collapses a copy of the mesh as far as its locks and seams let it, with preset fast. Weights, target and
 /// history of the options do not count. Defined in simplify.cpp: it is the first half of a run.
-/// \throws as simplify() O(n log n)
+/// \throws as simplify()
+/// O(n log n)
 FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
 /// How many faces each mesh keeps so that all have `goal` at most, the dearest being kept.
 /// \param curves   of the meshes
 /// \param weights  how much a squared distance times an area in model units counts, per mesh, > 0
-/// \return         per mesh; their sum is above `goal` only where no curve goes lower. O(n log n)
+/// \return per mesh; their sum is above `goal` only where no curve goes lower.
+/// O(n log n)
 FAQEM_EXPORT std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves,
                                                       std::span<const double> weights, std::uint64_t goal);
 

@@ -10,7 +10,9 @@
 
 namespace faqem::detail {
 
-/// The latest version that each version became. \pre every collapse joins two older versions. O(versions)
+/// The latest version that each version became.
+/// \pre every collapse joins two older versions.
+/// O(versions)
 inline std::vector<Index> final_versions(const CollapseHistory& history) {
     std::vector<Index> last(history.positions.size() + history.collapses.size());
     std::iota(last.begin(), last.end(), Index{0});

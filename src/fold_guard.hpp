@@ -20,8 +20,9 @@ public:
     /// O(faces log faces)
     FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll = {});
 
-    /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now. \throws what the poll
-    /// throws. O(faces)
+    /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now.
+    /// \throws what the poll throws.
+    /// O(faces)
     template <class Visit>
     void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit,
                        engine::Poll poll = {}) const {

@@ -58,8 +58,8 @@ public:
     void move_to(std::span<const engine::Vector3> positions, Workers workers);
 
     /// Searches anew where a gap is longer than a share of the longest, until all of those are what a search
-    /// finds: what was followed may lead to a false farthest point. O(spots), and O(log faces) for each of
-    /// them
+    /// finds: what was followed may lead to a false farthest point.
+    /// O(spots), and O(log faces) for each of them
     void search_farthest(double share, Workers workers);
 
     /// Takes other spots on some faces, whose corners may be others too.
@@ -112,7 +112,8 @@ public:
           squared_(points_.size()) {}
 
     /// As GapsThere::move_to(), of the points whose closest face or a neighbour of it has moved. O(faces)
-    /// more. \param swapped  of each triangle, or empty: nonzero has other corners than the last time
+    /// more.
+    /// \param swapped  of each triangle, or empty: nonzero has other corners than the last time
     void move_to(std::span<const engine::Vector3> positions, Workers workers,
                  std::span<const std::uint8_t> swapped = {});
 

@@ -26,7 +26,8 @@ public:
     /// Keeps what is there now, for whole(). To be called before the first step. O(1)
     void keep_whole() { keeps_whole_ = true; }
     /// Lets engines watch the distance to what is there now, and keeps it. To be called before the first step.
-    /// \throws what the poll throws. O(faces)
+    /// \throws what the poll throws.
+    /// O(faces)
     void remember_original(engine::Poll poll = {}) {
         keep_whole();
         original_.emplace(now_.positions, now_.triangles, poll);

@@ -124,7 +124,7 @@ struct Found {
 
 /// Bounds whole faces.
 /// \param refine  keep those whose bound is not low enough; else they are bounded as well as their corners
-/// allow
+///                allow
 void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
                  const std::vector<Nearest>& at_vertices, double enough, bool refine, std::size_t begin,
                  std::size_t end, Poll poll, Found& found) {

@@ -44,14 +44,16 @@ struct Replay {
 };
 
 /// What is needed by the walk over vertices: positions, kept_corners and kept_positions. O(size of the
-/// history) \throws what the poll throws
+/// history)
+/// \throws what the poll throws
 Replay replay_vertices(const CollapseHistory& history, engine::Poll poll = {});
 
 /// Everything but what describe_patches() adds. O(size of the history) time, 37 bytes per patch face with it.
 /// \throws what the poll throws
 Replay replay_patches(const CollapseHistory& history, engine::Poll poll = {});
 
-/// Adds bounds, umbrella and mean_edge. O(size of the history) \throws what the poll throws
+/// Adds bounds, umbrella and mean_edge. O(size of the history)
+/// \throws what the poll throws
 /// \param sheets  of each face of the original
 /// \param replay  of replay_patches(history)
 void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,

@@ -46,11 +46,15 @@ private:
 /// \param faces      slots that are left, in order
 /// \param triangles  of vertex slots that are left, one per face
 /// \param positions  of all vertex slots
-/// \throws what the poll throws. O(n)
+/// \throws what the poll throws.
+/// O(n)
 Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles,
                 std::span<const engine::Vector3> positions, SlotTrace& trace, engine::Poll poll = {});
 
-/// What an engine has left. \param trace  of its collapses. \throws what the poll throws. O(n)
+/// What an engine has left.
+/// \param trace  of its collapses.
+/// \throws what the poll throws.
+/// O(n)
 Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -35,7 +35,8 @@ struct Relaxed {
 /// relax(), with edges swapped twice before the farthest points are drawn in: where that brings the surfaces
 /// closer, and each time with more steps after it.
 /// \param groups  of the triangles of light, or empty: edges between groups are not swapped
-/// The other parameters are those of relax(). Complexity: that of relax(), about twice over.
+/// The other parameters are those of relax().
+/// Complexity: that of relax(), about twice over.
 Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
                        std::span<const Index> groups, double least_turn, Workers workers);
 

@@ -18,7 +18,9 @@ namespace faqem::detail {
 /// \param options  target and max_error do not count
 /// \pre options are valid
 /// \return one result per target; where it was cancelled, the last one says so, and those after it are
-/// missing \throws as simplify(). O(n log n) for all of them together
+///         missing
+/// \throws as simplify().
+/// O(n log n) for all of them together
 FAQEM_EXPORT std::vector<SimplifyResult> run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
                                                 const Options& options);
 

@@ -29,7 +29,9 @@ struct Side {
 /// \throws what the poll throws
 std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll poll = {});
 
-/// Calls visit(std::span<const Side>) for the sides on each edge. \param sides  sorted. O(n)
+/// Calls visit(std::span<const Side>) for the sides on each edge.
+/// \param sides  sorted.
+/// O(n)
 template <class Visit>
 void for_each_edge(std::span<const Side> sides, Visit&& visit) {
     for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
@@ -39,9 +41,10 @@ void for_each_edge(std::span<const Side> sides, Visit&& visit) {
 }
 
 /// Calls join(i, j), i < j, for the sides on one edge that carry a surface on across it: two where there are
-/// no others; where three or more meet, those of a surface that has exactly two of them. \param count    of
-/// sides on the edge \param surface  of side i < count: any number that tells surfaces apart O(count log
-/// count)
+/// no others; where three or more meet, those of a surface that has exactly two of them.
+/// \param count  of sides on the edge
+/// \param surface  of side i < count: any number that tells surfaces apart
+/// O(count log count)
 template <class Surface, class Join>
 void for_each_pair(std::size_t count, Surface&& surface, Join&& join) {
     if (count == 2) join(std::size_t{0}, std::size_t{1});

@@ -33,7 +33,8 @@ struct Surface {
 };
 
 /// Leaves out faces that are lower than 1e-12 of their longest edge, and those that are not finite. Nothing
-/// may be left. \throws InputError  an index is out of range
+/// may be left.
+/// \throws InputError  an index is out of range
 /// \throws what the poll throws
 /// O(n log n)
 FAQEM_EXPORT Surface surface_of(const MeshView& mesh, engine::Poll poll = {});

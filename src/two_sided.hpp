@@ -44,8 +44,8 @@ public:
     bool empty() const { return there_.size() == 0 || back_.size() == 0; }
 
     /// Finds how well each face fits where the vertices are now. The longest gaps are searched for, the
-    /// others followed; all are searched for where the mesh has few faces beside the surface. \pre not
-    /// empty()
+    /// others followed; all are searched for where the mesh has few faces beside the surface.
+    /// \pre not empty()
     std::vector<Fit> measure(std::span<const engine::Vector3> positions);
 
     /// As measure(), for a mesh of which little has moved: only the longest gaps are searched for.

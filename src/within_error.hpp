@@ -43,7 +43,8 @@ public:
     const Surface& surface() const { return surface_; }
 
     /// The two-sided distance of a result. Where the original has no area it is 0, where only the result has
-    /// none it is infinite. \throws what the poll of the workers throws
+    /// none it is infinite.
+    /// \throws what the poll of the workers throws
     Distance distance(const MeshView& result, double allowed, Look look, Workers workers) const;
 
 private:

@@ -116,8 +116,9 @@ struct Instance {
 /// Where the parts are, in the order of the scene's nodes. Without a scene graph: every part once, at home.
 FAQEM_EXPORT std::vector<Instance> instances(const Asset& asset);
 
-/// Loads .glb, .gltf, .obj, .ply, .stl or .off, chosen by content where it tells and by name where not.
-/// Files it refers to must lie in its folder or below. \throws ReadError, InputError, UnsupportedError
+/// Loads .glb, .gltf, .obj, .ply, .stl or .off, chosen by content where it tells and by name where not. Files
+/// it refers to must lie in its folder or below.
+/// \throws ReadError, InputError, UnsupportedError
 FAQEM_EXPORT Asset load(const std::filesystem::path& file);
 
 /// What save() may do to a file that exists.

@@ -47,7 +47,9 @@ FAQEM_EXPORT CollapseHistory cut_at_level(const ChainHistory& history, std::size
 /// one with just as many faces, as its run gave it, else with every vertex where the last collapse put it.
 /// Where even the last level has more faces, that level. For presets whose order of collapses does not depend
 /// on the target (qem, paper, stmw) a run to `faces` gives the same, as long as it took no step of the
-/// ladder. \pre histories are valid O(size)
+/// ladder.
+/// \pre histories are valid
+/// O(size)
 FAQEM_EXPORT CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces);
 
 /// cut_to() for the parts of an asset together. As many faces as a level has give that level; others are

@@ -43,8 +43,7 @@ public:
     /// \param face         face of the input, < history.triangles.size()
     /// \param barycentric  the point on it
     /// \return a place on the small mesh; SmallPoint::face is no_index where the face was dropped before the
-    /// run
-    ///         (two equal corners, or a double), or where nothing is left of what it was part of.
+    ///         run (two equal corners, or a double), or where nothing is left of what it was part of.
     /// O(faces looked at): some twenty where the surface is smooth
     SmallPoint map(Index face, const Vec3& barycentric) const;
 

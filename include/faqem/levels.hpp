@@ -31,13 +31,11 @@ struct SimplifiedLevel {
 /// the next level does not suffer from it. One level alone is what simplify() gives.
 /// \param mesh     any triangle soup; read only during the call
 /// \param levels   from fine to coarse: counts (ratios are of the original's faces) must not ascend,
-/// distances
-///                 not descend. A count above what the level before has gives that mesh again; so does a
-///                 distance that it exceeds, with a warning.
+///                 distances not descend. A count above what the level before has gives that mesh again; so
+///                 does a distance that it exceeds, with a warning.
 /// \param options  as for simplify(); target and max_error have to be unset
 /// \return one per level; where progress cancelled, the last one's stop says so, and the others are those
-/// that
-///         were ready. An empty mesh gives empty results.
+///         that were ready. An empty mesh gives empty results.
 /// \throws OptionError  a level is out of range or finer than the one before, or an option is out of range
 /// \throws InputError   as simplify()
 /// Complexity: for counts one run, and one measurement for each. A distance takes up to 12 runs more, from

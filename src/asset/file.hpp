@@ -27,14 +27,16 @@ struct FileContent {
 
 /// Writes a file so that, whatever happens, the old or the new content is there, complete: a temporary file
 /// in the same folder, synced, then renamed. A new file gets 0666 without the umask, a replaced one keeps its
-/// mode; a symbolic link is followed. \param overwrite  no: a file that exists is an error, also when it
-/// appears while we write \throws WriteError  with path and reason; no temporary file is left behind
+/// mode; a symbolic link is followed.
+/// \param overwrite  no: a file that exists is an error, also when it appears while we write
+/// \throws WriteError  with path and reason; no temporary file is left behind
 FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                              Overwrite overwrite);
 
 /// Writes several files that belong together: the first is put in place after all of them are on the disk, so
 /// that a full disk leaves nothing new behind. They appear in the order given: put the one that refers to the
-/// others last. \throws WriteError  as write_file()
+/// others last.
+/// \throws WriteError  as write_file()
 void write_files(std::span<const FileContent> files, Overwrite overwrite);
 
 /// Removes the temporary files of writes under way. Async-signal-safe: meant for the handler of SIGINT and
@@ -48,10 +50,12 @@ enum class Reference {
 };
 
 /// Finds a file referred to from an asset and makes sure that it lies in the asset's folder or below,
-/// symbolic links followed. The current directory plays no part. \param folder     folder of the asset;
-/// empty: the current directory \param reference  path relative to it \return the canonical path of a regular
-/// file \throws ReadError   no such file, or it cannot be looked at \throws InputError  empty, absolute, with
-/// a scheme (`http:`, `C:`), leading outside, or not a regular file
+/// symbolic links followed. The current directory plays no part.
+/// \param folder  folder of the asset; empty: the current directory
+/// \param reference  path relative to it
+/// \return the canonical path of a regular file
+/// \throws ReadError  no such file, or it cannot be looked at
+/// \throws InputError  empty, absolute, with a scheme (`http:`, `C:`), leading outside, or not a regular file
 FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& folder,
                                                   std::string_view reference,
                                                   Reference kind = Reference::uri);

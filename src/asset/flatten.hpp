@@ -14,8 +14,8 @@ namespace faqem::detail {
 /// All instances of all parts in world space, one after the other. Normals go by the inverse transpose and
 /// have unit length; mirrored instances have their winding turned round. Attributes that only some parts have
 /// get neutral values elsewhere: normals and UVs zero, colours white. Tangents, skins and morph targets are
-/// left out. A part that is alone and stays where it is comes out with the same bits. \throws InputError when
-/// there are more vertices or faces than 32-bit indices can tell apart
+/// left out. A part that is alone and stays where it is comes out with the same bits.
+/// \throws InputError  when there are more vertices or faces than 32-bit indices can tell apart
 FAQEM_EXPORT Part flatten(const Asset& asset);
 
 /// The same for these instances instead of those of the asset's scene.

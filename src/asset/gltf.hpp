@@ -19,8 +19,9 @@ Asset read_gltf(const std::filesystem::path& file);
 /// The same for bytes in memory. \param file  for messages; its folder is searched for buffers and images
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes a GLB, or for names that end in .gltf the JSON with NAME.bin and NAME_0.png ... beside it.
-/// The same asset gives the same bytes. \return what could not be kept, one sentence each
+/// Writes a GLB, or for names that end in .gltf the JSON with NAME.bin and NAME_0.png ... beside it. The same
+/// asset gives the same bytes.
+/// \return what could not be kept, one sentence each
 /// \throws WriteError
 std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::path& file,
                                     Overwrite overwrite);

@@ -46,7 +46,8 @@ std::vector<Index> read_indices(const SourceDocument& source, Index accessor);
 std::vector<std::array<std::uint16_t, 4>> read_joints(const SourceDocument& source, Index accessor);
 
 /// Checks the indices of every sparse accessor: increasing and less than its count. Needs the buffers, so it
-/// is apart from validate_gltf(). \throws InputError
+/// is apart from validate_gltf().
+/// \throws InputError
 void check_sparse(const SourceDocument& source, const std::string& file);
 
 }  // namespace faqem::detail

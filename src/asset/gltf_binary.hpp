@@ -21,7 +21,8 @@ public:
     /// \return index of the accessor: an earlier one if it is equal in everything
     Index add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use);
 
-    /// Bytes in a view of their own (an image), which must live until finish(). \return index of the view;
+    /// Bytes in a view of their own (an image), which must live until finish().
+    /// \return index of the view
     /// \pre no accessor is added afterwards
     Index add_view(std::span<const std::uint8_t> bytes);
 

@@ -63,11 +63,14 @@ private:
 };
 
 /// Unpacks every compressed view and primitive that has no plain data into new buffers, and takes the
-/// extensions out of the document. \pre the document is valid \throws InputError  damaged data, or more than
-/// all buffers can hold
+/// extensions out of the document.
+/// \pre the document is valid
+/// \throws InputError  damaged data, or more than all buffers can hold
 void decompress(SourceDocument& source, const std::string& file);
 
-/// The elements of a meshopt view. \param extension  checked \throws InputError
+/// The elements of a meshopt view.
+/// \param extension  checked
+/// \throws InputError
 std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const std::uint8_t> bytes,
                                          const std::string& file, const std::string& where);
 
@@ -82,7 +85,8 @@ struct DracoAttribute {
 /// Decodes a mesh. The counts in its header are held against the accessors' before anything is allocated.
 /// \param vertices  of every attribute
 /// \param corners   of the index accessor
-/// \return the corners \throws InputError
+/// \return the corners
+/// \throws InputError
 std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std::uint64_t vertices,
                                         std::uint64_t corners, std::vector<DracoAttribute>& attributes,
                                         const std::string& file, const std::string& where);

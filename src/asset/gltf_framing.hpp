@@ -34,7 +34,8 @@ GltfFrame split_gltf(std::span<const std::uint8_t> bytes, const std::string& fil
 /// \throws InputError  deeper than max_json_depth
 void check_json_depth(std::string_view json, const std::string& file);
 
-/// Puts a GLB together. \param bin  may be empty: then there is no BIN chunk
+/// Puts a GLB together.
+/// \param bin  may be empty: then there is no BIN chunk
 /// \throws WriteError  the file would have 4 GiB or more, which GLB cannot express
 std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::uint8_t> bin,
                                    const std::string& file);

@@ -27,8 +27,8 @@ FAQEM_EXPORT std::optional<ImageSize> declared_size(std::span<const std::uint8_t
 ///
 /// A JPEG has at least one bit for each block of 8 x 8 pixels (ITU-T T.81, F and G: in its first scan a block
 /// has a code). A WebP of one colour takes some 30 bytes of any size: from 4096 x 4096 pixels on, at most
-/// 4096 of one byte are believed. A PNG is looked at elsewhere, when its depth is known. \param bytes  the
-/// whole image
+/// 4096 of one byte are believed. A PNG is looked at elsewhere, when its depth is known.
+/// \param bytes  the whole image
 bool can_hold(std::span<const std::uint8_t> bytes, const ImageSize& size);
 
 }  // namespace faqem::detail

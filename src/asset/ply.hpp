@@ -21,15 +21,16 @@ namespace faqem::detail {
 /// left out with a warning. Every count is checked against the size of the file before memory is taken.
 /// \throws ReadError    the file cannot be read
 /// \throws InputError   naming the element and its number (`face 17`), from 0, or the line of the header; or
-/// no faces
+///                      no faces
 Asset read_ply(const std::filesystem::path& file);
 
 /// The same for bytes in memory. \param file  for messages
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Writes binary little-endian PLY of the scene flattened to world space. Positions are floats where all are
-/// exactly floats, else doubles; colours are 8-bit sRGB; the first UV set is written as s t. \return what PLY
-/// cannot hold, one sentence each \throws WriteError
+/// exactly floats, else doubles; colours are 8-bit sRGB; the first UV set is written as s t.
+/// \return what PLY cannot hold, one sentence each
+/// \throws WriteError
 std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::path& file,
                                    Overwrite overwrite);
 

@@ -13,8 +13,9 @@ namespace faqem::detail {
 /// Splits one polygon into size - 2 triangles that use all its corners and keep its winding. A convex polygon
 /// becomes a fan around corner 0; another is cut by ear clipping in the plane of its Newell normal, so that
 /// triangles stay inside and do not overlap, as long as the polygon's projection does not cross itself. A
-/// polygon that does is split all the same, without that promise. \param ring       positions of the corners
-/// in order; may be of any size and scale \param triangles  receives corner numbers, 0 .. ring.size() - 1
+/// polygon that does is split all the same, without that promise.
+/// \param ring  positions of the corners in order; may be of any size and scale
+/// \param triangles  receives corner numbers, 0 .. ring.size() - 1
 /// Complexity: linear for convex polygons; about n log n for others, n^2 for the worst.
 /// Source: Meisters, "Polygons have ears", 1975.
 void triangulate(std::span<const Vec3> ring, std::vector<Triangle>& triangles);

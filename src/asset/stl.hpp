@@ -15,8 +15,9 @@ namespace faqem::detail {
 /// Reads an STL file as one part: binary if and only if its size is 84 + 50 n for the n of byte 80, else
 /// ASCII. Corners at equal positions share a vertex (-0 is 0), in the order in which they come first. The
 /// normals of the facets are not read, as the corners say the same; nor are colours in attribute bytes
-/// (warning where the header announces them). \throws ReadError   the file cannot be read \throws InputError
-/// with the line; truncated; or no faces
+/// (warning where the header announces them).
+/// \throws ReadError  the file cannot be read
+/// \throws InputError  with the line; truncated; or no faces
 Asset read_stl(const std::filesystem::path& file);
 
 /// The same for bytes in memory. \param file  for messages

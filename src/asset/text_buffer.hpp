@@ -14,7 +14,8 @@
 namespace faqem::detail {
 
 /// Numbers are written in place, and the block grows where it lies if the system can do that: as a
-/// std::string half of the time of writing a large OBJ file went into copies. \throws std::bad_alloc
+/// std::string half of the time of writing a large OBJ file went into copies.
+/// \throws std::bad_alloc
 class TextBuffer {
 public:
     void put(char c) {

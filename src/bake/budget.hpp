@@ -13,7 +13,8 @@ namespace faqem::detail {
 /// In proportion to the parts' faces, by largest remainder. Where there is room for them, a part gets no
 /// fewer than 4 faces (or all it has) for each of its connected components, at the others' cost; else no
 /// fewer than 4.
-/// \return per part; their sum is above `goal` only where the parts' 4 faces each are. O(faces)
+/// \return per part; their sum is above `goal` only where the parts' 4 faces each are.
+/// O(faces)
 std::vector<std::uint64_t> share_by_faces(const Asset& asset, std::uint64_t goal);
 
 /// How much a squared distance times an area in a part's own units counts in the scene: lengths scale with

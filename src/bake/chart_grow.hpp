@@ -14,11 +14,14 @@ namespace faqem::detail {
 /// first that adds least to the spread of its normals (face areas times squared distance from the mean
 /// normal; Ward's rule, as in the face clusters of Garland et al. 2001) and to its outline's square. None is
 /// made whose mean normal is shorter than 1 - `most_spread`, or whose densities differ by more than 2.
-/// \return by region, faces ascending; regions by smallest face. O(n log n) expected
+/// \return by region, faces ascending; regions by smallest face.
+/// O(n log n) expected
 /// \throws what the poll throws
 std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces, engine::Poll poll = {});
 
-/// The connected groups of `faces`. \param faces  ascending \return each ascending, by smallest face
+/// The connected groups of `faces`.
+/// \param faces  ascending
+/// \return each ascending, by smallest face
 std::vector<std::vector<Index>> connected_groups(std::span<const ChartFace> all,
                                                  std::span<const Index> faces);
 

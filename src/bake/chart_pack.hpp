@@ -38,11 +38,12 @@ struct ChartPage {
 /// Places every chart, turned so that its box is least, on the smallest page that holds the wanted sizes;
 /// then takes the largest scale that fits that page (to a hundredth), at most sqrt 2. If the largest page is
 /// too small everything is scaled down. A chart longer than the page is squeezed along; one with places that
-/// are not finite, or beyond 1e100, becomes one texel. A chart owns the
-/// blocks that a bilinear read inside it touches on the mip level where blocks are texels; the larger the
-/// chart, the larger its blocks, 16 at most. Large blocks come first; each chart goes to the lowest free
-/// place in one of four turns. \param faces  of all charts together \param side  largest width and height, a
-/// power of two \return nothing if there are more charts than texels
+/// are not finite, or beyond 1e100, becomes one texel. A chart owns the blocks that a bilinear read inside it
+/// touches on the mip level where blocks are texels; the larger the chart, the larger its blocks, 16 at most.
+/// Large blocks come first; each chart goes to the lowest free place in one of four turns.
+/// \param faces  of all charts together
+/// \param side  largest width and height, a power of two
+/// \return nothing if there are more charts than texels
 /// \throws what the poll throws
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side,
                                      engine::Poll poll = {});

@@ -35,7 +35,8 @@ public:
         std::uint32_t x, y;
     };
     /// The first place, by row and then by column, where all of the mask's blocks are free.
-    /// \param from, end  range of rows for the mask's first one \param step  only every step-th of them
+    /// \param from, end  range of rows for the mask's first one
+    /// \param step  only every step-th of them
     /// \throws what the poll throws
     std::optional<Spot> find(const BlockMask& mask, std::uint32_t from, std::uint32_t end, std::uint32_t step,
                              engine::Poll poll = {}) const;

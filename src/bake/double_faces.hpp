@@ -14,7 +14,8 @@ namespace faqem::detail {
 /// \param groups  of the part's faces, or empty: one for all
 /// \return `groups`; a face with the corners (by place) and winding of an earlier one of its group, but
 ///         another material, or normals on the other side, has a group that it shares with others of its kind
-///         at most. O(n log n)
+///         at most.
+/// O(n log n)
 std::vector<Index> set_looks_apart(const Part& part, std::vector<Index> groups);
 
 }  // namespace faqem::detail

@@ -24,8 +24,8 @@ struct CornerNormals {
 /// where the face has no area. O(1)
 engine::Vector3 face_side(const SmallPart& part, const CornerNormals& normals, std::size_t face);
 
-/// Whether the normals of both ends are split along an edge. \param corner,other_corner  of the two faces on
-/// it, each opposite the edge; both are wound alike
+/// Whether the normals of both ends are split along an edge.
+/// \param corner,other_corner  of the two faces on it, each opposite the edge; both are wound alike
 bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
                std::size_t other_corner);
 

@@ -37,9 +37,9 @@ struct PageImages {
 /// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
 /// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
 /// triangle's closest point where there is none. Normals are averaged in the tangent space of the small mesh;
-/// texels outside a triangle use that of its closest point. Cells and tiles are independent of each other,
-/// so the result does not depend on the number of threads. \param done, total  cells and tiles, for the
-/// progress
+/// texels outside a triangle use that of its closest point. Cells and tiles are independent of each other, so
+/// the result does not depend on the number of threads.
+/// \param done, total  cells and tiles, for the progress
 /// \throws Cancelled
 PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,
                      double done, double total);

@@ -36,7 +36,8 @@ std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<cons
 
 /// Wants the source's texels per length of each face, and makes the atlas that options.bake.kind says.
 /// `automatic` takes charts unless they hold fewer than 3 faces on average.
-/// \param faces  those of a part are consecutive \return nothing if there are more pieces than texels
+/// \param faces  those of a part are consecutive
+/// \return nothing if there are more pieces than texels
 std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
                                          std::span<const PageFace> faces);
 

@@ -33,7 +33,9 @@ struct SceneSize {
 FAQEM_EXPORT SceneSize scene_size(const Asset& source);
 
 /// What a part is simplified with: Topology::prune in the part's own units, at its largest scale; unset where
-/// the scene shrinks the part to nothing. \param size   of the scene \param scale  the part's
+/// the scene shrinks the part to nothing.
+/// \param size  of the scene
+/// \param scale  the part's
 Options part_options(const Options& options, const SceneSize& size, const PartScale& scale);
 
 }  // namespace faqem::detail

@@ -39,7 +39,8 @@ class SourceSurface {
 public:
     /// \param asset   must outlive this
     /// \param wanted  channels that will be asked for
-    /// \throws InputError  an image is damaged. \throws UnsupportedError  of an unknown format
+    /// \throws InputError  an image is damaged.
+    /// \throws UnsupportedError  of an unknown format
     /// \throws what the workers' poll throws
     SourceSurface(const Asset& asset, const Channels& wanted, const Workers& workers = {});
 
@@ -50,7 +51,8 @@ public:
 
     /// The normal that the original is lit with, in the part's coordinates: its normal map's where it has
     /// one. A face that is wound the other way than `side`, and whose normals look away from it too, is seen
-    /// from behind: its normal is turned round, as viewers do. \param side  the small face's normal
+    /// from behind: its normal is turned round, as viewers do.
+    /// \param side  the small face's normal
     engine::Vector3 normal(Index part, const SurfacePoint& point, double spacing,
                            const engine::Vector3& side) const;
 

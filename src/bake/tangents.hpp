@@ -28,7 +28,9 @@ struct TangentCorner {
 /// Unlike the reference, two triangles whose tangents are exactly opposite share one nevertheless: it keeps
 /// the work bounded around vertices with very many triangles.
 /// \param corners  three per triangle, finite
-/// \return one per corner. \throws what the poll throws. O(n log n)
+/// \return one per corner.
+/// \throws what the poll throws.
+/// O(n log n)
 std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners, engine::Poll poll = {});
 
 }  // namespace faqem::detail

@@ -11,7 +11,7 @@ namespace faqem::c {
 /// view.
 struct MeshArrays {
     /// \throws InputError  arrays that must be there are null, or there are more elements than indices can
-    /// count
+    ///                     count
     explicit MeshArrays(const faqem_mesh& mesh);
     MeshArrays(const MeshArrays&) = delete;  // the view points into it
     MeshArrays& operator=(const MeshArrays&) = delete;

@@ -39,8 +39,7 @@ ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 
 /// simplify(), and where the result is larger than the budget:
 /// 1. fewer faces, until what is not images takes half of the budget, or what the images leave if these are
-/// not
-///    baked anew;
+///    not baked anew;
 /// 2. images that are baked: JPEG instead of PNG unless the encoding is as asked, then half the side, again
 ///    and again, down to 64 texels;
 /// 3. fewer faces still, where the smallest images leave less than half.

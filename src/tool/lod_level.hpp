@@ -10,7 +10,8 @@
 namespace faqem::tool {
 
 /// `pixels:2@50`, an error that covers at most 2 pixels where the eye is 50 model units away; else as
-/// level_of(). \throws OptionError
+/// level_of().
+/// \throws OptionError
 Level lod_level(const std::string& text, const Viewing& viewing);
 
 }  // namespace faqem::tool

@@ -40,7 +40,8 @@ void add_level_options(CLI::App& command, SimplifyArguments& arguments);
 void add_look_options(CLI::App& command, SimplifyArguments& arguments);
 
 /// `0.5`, a share of the faces; `5000`, a number of them; `error:0.01` in model units or `error:0.1%` of the
-/// diagonal. \throws OptionError
+/// diagonal.
+/// \throws OptionError
 Level level_of(const std::string& text);
 
 /// \throws OptionError  a value is unknown or out of range

@@ -34,8 +34,9 @@ auto naming(const std::filesystem::path& file, Work&& work) {
 
 /// What Bake::automatic comes to where the result's file holds no textures, or no more than bare geometry was
 /// read: there is nothing to lay out an atlas for. PLY: vertex colours, where the source has any look; STL,
-/// and bare geometry into PLY and OBJ: none; STL has no vertex normals from the original either, which would need
-/// the map. Other kinds, and other files, stay as they are. \param out  its ending decides
+/// and bare geometry into PLY and OBJ: none; STL has no vertex normals from the original either, which would
+/// need the map. Other kinds, and other files, stay as they are.
+/// \param out  its ending decides
 BakeOptions bake_for(BakeOptions asked, const Asset& source, const std::filesystem::path& out);
 
 /// simplify(), within a budget where there is one. What is wrong with an asset is said with the name of its

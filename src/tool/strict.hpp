@@ -9,7 +9,9 @@
 namespace faqem::tool {
 
 /// Makes sure that nothing was repaired or left out when the asset was loaded, and that every face has an
-/// area and is there once. \param file  for messages \throws InputError  naming the first of each
+/// area and is there once.
+/// \param file  for messages
+/// \throws InputError  naming the first of each
 void require_clean(const Asset& asset, const std::string& file);
 
 }  // namespace faqem::tool

@@ -14,7 +14,8 @@ namespace faqem::tool {
 /// A new folder among the system's temporary ones, gone afterwards with all that is in it.
 class TemporaryFolder {
 public:
-    /// \param name  begins with it. \throws WriteError  it cannot be made
+    /// \param name  begins with it.
+    /// \throws WriteError  it cannot be made
     explicit TemporaryFolder(const std::string& name) {
         std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
         if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot be made");

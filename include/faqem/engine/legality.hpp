@@ -32,7 +32,8 @@ public:
     explicit Legality(const Complex& complex) : folds_(complex), mark_(complex.vertex_slots(), 0) {}
 
     /// \pre u != v, both alive
-    /// \return why (u, v) may not become one vertex at p, or nothing. O(valence of u and v)
+    /// \return why (u, v) may not become one vertex at p, or nothing.
+    /// O(valence of u and v)
     std::optional<Refusal> check(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
                                  const Vector3& p, const Rules& rules) {
         turned_.clear();

@@ -44,7 +44,8 @@ public:
     /// \pre there is room for it
     void push_back(List& list, Index number) { numbers_[first(list.place) + list.size++] = number; }
 
-    /// \param numbers  not of these Lists. Amortised O(numbers)
+    /// \param numbers  not of these Lists
+    /// Amortised O(numbers)
     void assign(List& list, std::span<const Index> numbers) {
         const auto size = static_cast<std::uint32_t>(numbers.size());
         if (size > numbers_[quad * std::size_t{list.place}]) list = make_room(size + size / 2);

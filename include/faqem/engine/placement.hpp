@@ -36,7 +36,8 @@ inline Eigen::AlignedBox3d room_around(const Eigen::AlignedBox3d& box) {
 }
 
 /// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
-/// taken (paper, Sec. 3.1). \pre freedom is not `nowhere`
+/// taken (paper, Sec. 3.1).
+/// \pre freedom is not `nowhere`
 /// \param room  a minimum outside of it counts as ill conditioned; null: there is room everywhere
 inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freedom freedom,
                      const Eigen::AlignedBox3d* room = nullptr) {

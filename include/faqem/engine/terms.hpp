@@ -48,7 +48,8 @@ inline std::optional<std::array<Index, 2>> border_neighbours(const PairTable& pa
 
 /// Curvature of the border v2, v1, v3 by finite differences (paper eq. 6):
 /// |d' x d''| / |d'|^3 with d' = v3 - v2 and d'' = v3 - 2 v1 + v2. d' spans two steps: a circular rim of
-/// radius R gives about 1/(4R). \return 0 where v2 and v3 coincide
+/// radius R gives about 1/(4R).
+/// \return 0 where v2 and v3 coincide
 inline double border_curvature(const Vector3& v1, const Vector3& v2, const Vector3& v3) {
     const Vector3 first = v3 - v2;
     const Vector3 second = v3 - 2 * v1 + v2;

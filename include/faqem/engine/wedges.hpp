@@ -64,7 +64,8 @@ public:
     }
 
     /// u and v are about to become one vertex at p: joins their wedges, with the values that the surface has
-    /// at the place closest to p among the faces of each joined wedge. \pre freedom() did not say nowhere
+    /// at the place closest to p among the faces of each joined wedge.
+    /// \pre freedom() did not say nowhere
     void collapsing(const Complex& complex, Index u, Index v, const Vector3& p) {
         if (empty()) return;
         match(complex, u, v);

@@ -13,7 +13,8 @@ namespace faqem::tool {
 std::string escaped(std::string_view text);
 
 /// Replaces `@NAME@` by its value, each once and never inside of a value.
-/// \param values  names in capitals, digits and underscores \pre every name in the text has a value
+/// \param values  names in capitals, digits and underscores
+/// \pre every name in the text has a value
 std::string filled(std::string_view text,
                    const std::vector<std::pair<std::string_view, std::string>>& values);
 
