@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "faqem/error.hpp"
 
@@ -24,15 +25,24 @@ bool make_unit(std::array<float, N>& v) {
     return true;
 }
 
-void gather_positions(const Part& part, PrimitiveData& data) {
+void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data) {
     data.positions.reserve(data.vertices.size());
     for (const Index v : data.vertices) {
         const Vec3& p = part.positions[v];
-        const Vec3f q = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+        Vec3f q;
+        for (std::size_t i = 0; i < 3; ++i) q[i] = static_cast<float>(p[i] - origin[i]);
         if (!std::isfinite(q[0]) || !std::isfinite(q[1]) || !std::isfinite(q[2]))
             throw WriteError("part '" + part.name + "', vertex " + std::to_string(v) +
                              ": its position is too large for glTF");
         data.positions.push_back(q);
+    }
+    for (std::size_t c = 0; c < data.corners.size(); c += 3) {
+        const auto is_closed = [&](std::size_t i, std::size_t k) {
+            const Index a = data.corners[c + i], b = data.corners[c + k];
+            return data.positions[a] == data.positions[b] &&
+                   part.positions[data.vertices[a]] != part.positions[data.vertices[b]];
+        };
+        data.closed += is_closed(0, 1) || is_closed(1, 2) || is_closed(2, 0);
     }
 }
 
@@ -114,7 +124,33 @@ void gather_influences(const Part& part, PrimitiveData& data) {
 
 }  // namespace
 
-PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces,
+Vec3 origin_of(const std::vector<Part>& parts) {
+    constexpr double near = 8;  // half sizes: three of a float's 24 bits
+    Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, origin = {};
+    for (const Part& part : parts) {
+        for (const Vec3& p : part.positions) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                low[i] = std::min(low[i], p[i]);
+                high[i] = std::max(high[i], p[i]);
+            }
+        }
+    }
+    double half = 0;
+    for (std::size_t i = 0; i < 3; ++i) half = std::max(half, high[i] / 2 - low[i] / 2);
+    if (!(half > 0)) return origin;
+    const double unit = std::exp2(std::floor(std::log2(half)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double centre = low[i] / 2 + high[i] / 2;
+        // What is too large for a float is an error, as it would be without a node.
+        if (!(std::abs(centre) > near * half) || !(std::abs(centre) <= std::numeric_limits<float>::max()))
+            continue;
+        const double steps = centre / unit;
+        origin[i] = std::abs(steps) < 0x1p52 ? std::round(steps) * unit : centre;
+    }
+    return origin;
+}
+
+PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
                                std::vector<Index>& scratch) {
     PrimitiveData data;
     for (const Index f : faces)
@@ -130,7 +166,7 @@ PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces
         for (const Index v : part.triangles[f]) data.corners.push_back(scratch[v]);
     for (const Index v : data.vertices) scratch[v] = no_index;
 
-    gather_positions(part, data);
+    gather_positions(part, origin, data);
     gather_normals(part, data);
     gather_tangents(part, data);
     gather_influences(part, data);

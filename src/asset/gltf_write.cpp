@@ -8,6 +8,7 @@
 #include "asset/file.hpp"
 #include "asset/gltf.hpp"
 #include "asset/gltf_accessor.hpp"
+#include "asset/gltf_attributes.hpp"
 #include "asset/gltf_framing.hpp"
 #include "asset/gltf_levels.hpp"
 #include "asset/gltf_writer.hpp"
@@ -121,6 +122,13 @@ void finish(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
         write_glb(writer, file, overwrite);
 }
 
+/// Positions of a document stay as they are: its nodes, skins and animations fit them.
+GltfWriter writer_of(const Asset& asset) {
+    static const SourceDocument none;
+    const SourceDocument& source = asset.source ? *asset.source : none;
+    return {asset, source, start_document(source.document), asset.source ? Vec3{} : origin_of(asset.parts)};
+}
+
 void write_all(GltfWriter& writer) {
     find_source_images(writer);
     std::vector<Index> new_meshes;
@@ -154,18 +162,14 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
 }
 
 std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Overwrite overwrite) {
-    const SourceDocument none;
-    const SourceDocument& source = asset.source ? *asset.source : none;
-    GltfWriter writer{asset, source, start_document(source.document)};
+    GltfWriter writer = writer_of(asset);
     write_all(writer);
     finish(writer, file, overwrite);
     return std::move(writer.warnings);
 }
 
 std::vector<std::uint8_t> glb_of(const Asset& asset) {
-    const SourceDocument none;
-    const SourceDocument& source = asset.source ? *asset.source : none;
-    GltfWriter writer{asset, source, start_document(source.document)};
+    GltfWriter writer = writer_of(asset);
     write_all(writer);
     write_extension_lists(writer);
     return glb_bytes(writer, "the model in memory");
@@ -174,9 +178,7 @@ std::vector<std::uint8_t> glb_of(const Asset& asset) {
 std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,
                                            Overwrite overwrite) {
     const Asset& asset = leveled.asset;
-    const SourceDocument none;
-    const SourceDocument& source = asset.source ? *asset.source : none;
-    GltfWriter writer{asset, source, start_document(source.document)};
+    GltfWriter writer = writer_of(asset);
     find_source_images(writer);
     std::vector<Index> new_meshes, mesh;
     write_meshes(writer, new_meshes);

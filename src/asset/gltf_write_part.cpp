@@ -6,6 +6,7 @@
 #include "asset/gltf_accessor.hpp"
 #include "asset/gltf_attributes.hpp"
 #include "asset/gltf_writer.hpp"
+#include "asset/repair.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -141,8 +142,10 @@ std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& 
 
 void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
     std::vector<Index> scratch(part.positions.size(), no_index);
+    std::size_t closed = 0;
     for (const auto& [material, faces] : faces_by_material(part)) {
-        const PrimitiveData data = gather_primitive(part, faces, scratch);
+        const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
+        closed += data.closed;
         Json primitive = primitive_base(writer, part, material);
         primitive["attributes"] = attributes(writer, part, data);
         primitive["indices"] = add_indices(writer, data);
@@ -150,6 +153,9 @@ void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
         if (material != no_index) primitive["material"] = write_material(writer, material);
         primitives.push_back(std::move(primitive));
     }
+    if (closed > 0)
+        writer.warnings.push_back("part '" + part.name + "': glTF holds positions as floats; " +
+                                  counted(closed, "face") + " closed up");
 }
 
 }  // namespace faqem::detail

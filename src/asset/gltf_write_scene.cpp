@@ -69,6 +69,7 @@ void add_nodes(GltfWriter& writer, const std::vector<Index>& new_meshes) {
     for (const Index mesh : new_meshes) {
         if (mesh == no_index) continue;
         Json node = {{"mesh", mesh}};
+        if (writer.origin != Vec3{}) node["translation"] = writer.origin;
         const Json& name = member(writer.out["meshes"][mesh], "name");
         if (!name.is_null()) node["name"] = name;
         roots.push_back(append(writer, "nodes", std::move(node)));

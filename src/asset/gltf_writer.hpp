@@ -17,6 +17,7 @@ struct GltfWriter {
     const Asset& asset;
     const SourceDocument& source;  ///< an empty one where the asset has none
     Json out;                      ///< the document under construction
+    Vec3 origin = {0, 0, 0};       ///< of all positions; the nodes of new meshes put it back
     GltfBinary binary = {};
     std::vector<std::string> warnings = {};
 

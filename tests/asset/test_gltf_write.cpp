@@ -116,6 +116,54 @@ TEST_CASE("a position too large for a float is an error, not an infinity") {
     CHECK(contains(message_of<WriteError>([&] { saved(asset); }), "part 'square', vertex 1"));
 }
 
+TEST_CASE("far from the origin, new meshes keep their shape: their nodes put them back") {
+    Asset asset = new_square();
+    asset.parts.push_back(asset.parts[0]);
+    for (Part& part : asset.parts) {
+        for (Vec3& p : part.positions) p = {1e7 + 0.1 * p[0], 0.1 * p[1] - 3, 0.1 * p[2]};
+    }
+    for (Vec3& p : asset.parts[1].positions) p[0] += 0.1;  // they have an edge in common
+    const Json json = json_of(saved(asset));
+    for (const Json& node : json["nodes"]) {
+        CHECK(node["translation"][0].get<double>() == Approx(1e7).epsilon(1e-7));
+        CHECK(node["translation"][1].get<double>() == Approx(-3).margin(0.1));
+        CHECK(node["translation"][2] == 0);
+    }
+    const Asset back = load_glb(saved(asset));
+    const std::vector<Instance> where = instances(back);
+    REQUIRE(where.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t v = 0; v < 4; ++v) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double moved = back.parts[i].positions[v][k] + where[i].transform[12 + k];
+                CHECK(moved == Approx(asset.parts[i].positions[v][k]).epsilon(0).margin(2e-8));
+            }
+        }
+    }
+    CHECK(back.parts[0].positions[1] == back.parts[1].positions[0]);
+    CHECK(back.parts[0].positions[3] == back.parts[1].positions[2]);
+    CHECK(saved(back) == saved(load_glb(saved(back))));
+}
+
+TEST_CASE("near the origin, and where no float would reach, a new mesh stays where it is") {
+    Asset asset = new_square();
+    for (Vec3& p : asset.parts[0].positions) p[0] += 3;
+    CHECK_FALSE(json_of(saved(asset))["nodes"][0].contains("translation"));
+    for (Vec3& p : asset.parts[0].positions) p = {1e300, 0, p[2]};
+    CHECK(contains(message_of<WriteError>([&] { saved(asset); }), "too large"));
+    for (Vec3& p : asset.parts[0].positions) p = {1e7, 1e7, 1e7};
+    CHECK_FALSE(json_of(saved(asset))["nodes"][0].contains("translation"));
+}
+
+TEST_CASE("faces that close up as floats are counted") {
+    // 0, 1, 1 and a bit: that one closes up.
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1e-50, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    const TemporaryFolder folder;
+    CHECK(any_contains(save(asset, folder / "a.glb"), "1 face closed up"));
+    asset.parts[0].positions[2][1] = 1e-3;
+    CHECK(save(asset, folder / "b.glb").empty());
+}
+
 TEST_CASE("the scene around the meshes comes through") {
     GltfBuilder builder = square_gltf();
     builder.json["asset"] = Json::parse(

@@ -98,6 +98,30 @@ TEST_CASE("lod refuses what makes no chain, and touches nothing") {
     CHECK(run(folder, "lod a.glb out --format xyz").code == 2);
 }
 
+TEST_CASE("ten million units from the origin, all levels keep their shape and their place") {
+    const Folder folder;
+    faqem::Asset hill = sheet(20, 0.2);
+    for (faqem::Vec3& p : hill.parts[0].positions) p[0] += 1e7, p[1] -= 2e7;
+    faqem::save(hill, folder / "far.ply");
+    const std::string rest = " --levels 0.5,0.2 --bake none --quiet";
+    REQUIRE(run(folder, "lod far.ply out" + rest).code == 0);
+    REQUIRE(run(folder, "lod far.ply all --one-file" + rest).code == 0);
+    const faqem::MeshView before{hill.parts[0].positions, hill.parts[0].triangles};
+    const faqem::Asset all = faqem::load(folder / "all/far_LOD.glb");
+    for (std::size_t i = 0; i < 3; ++i) {
+        const faqem::Asset one = faqem::load(folder / ("out/far_LOD" + std::to_string(i) + ".glb"));
+        for (const faqem::Asset* asset : {&one, &all}) {
+            const std::size_t part = asset == &all ? i : 0;
+            const faqem::Instance where = faqem::instances(*asset).at(0);
+            std::vector<faqem::Vec3> positions = asset->parts.at(part).positions;
+            for (faqem::Vec3& p : positions) {
+                for (std::size_t k = 0; k < 3; ++k) p[k] += where.transform[12 + k];
+            }
+            CHECK(faqem::hausdorff(before, {positions, asset->parts[part].triangles}).value < 0.1);
+        }
+    }
+}
+
 TEST_CASE("lod replaces nothing without --force") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
