@@ -38,7 +38,7 @@ int main(int count, char** arguments) try {
     save(asset_of({test::icosphere(4)}), folder / "ball.glb");
     save(asset_of({test::shaken(test::torus(60, 30), 0.02, 1), test::shaken(test::grid(40), 0.3, 2)}),
          folder / "two.glb");
-    save(asset_of({test::soup(3, 300, 2000)}), folder / "soup.glb");
+    save(asset_of({test::soup(3, 80, 400)}), folder / "soup.glb");
     save(asset_of({test::both(test::globe(24, 1), test::cylinder(30, 30, 4))}), folder / "open.glb");
     return 0;
 } catch (const std::exception& error) {

@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 # hash TOOL MODEL THREADS OPTION...: of the model, the history and the textures.
 hash() {
     "$1" simplify "$2" "$work/out.glb" --force --quiet --threads "$3" --history "$work/out.hist" \
-        --texture-size 256 $4
+        --texture-size 128 $4
     cat "$work/out.glb" "$work/out.hist" | sha256sum | cut -d' ' -f1
 }
 
@@ -39,6 +39,7 @@ for model in "$work"/*.glb; do
             if [ -x "$other" ] && [ "$other" != "$tool" ]; then compare "$other" 3 "preset $preset"; fi
         done
     done
+    echo "$(basename "$model"): $same of $runs so far"
 done
 echo "$same of $runs outputs are the same"
 [ "$same" -eq "$runs" ]
