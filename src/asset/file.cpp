@@ -279,7 +279,7 @@ fs::path resolve_inside(const fs::path& folder, std::string_view reference, Refe
     if (leads_outside(relative)) refuse("leads out of the folder of the file");
     try {
         const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder);
-        const fs::path found = fs::canonical(root / relative);
+        fs::path found = fs::canonical(root / relative);
         if (std::mismatch(root.begin(), root.end(), found.begin(), found.end()).first != root.end())
             refuse("leads out of the folder of the file");
         if (!fs::is_regular_file(found)) refuse("is not a regular file");
