@@ -1,16 +1,11 @@
 #include "asset/image.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <algorithm>
 #include <array>
-#include <cstring>
-#include <memory>
 #include <optional>
 #include <string_view>
 
-#include "asset/image_size.hpp"
+#include "asset/image_checks.hpp"
+#include "asset/image_codec.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -33,120 +28,12 @@ constexpr std::array<Kind, 7> kinds = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png
                                         {{"GIF8", 4}, 0, "image/gif", ".gif"},
                                         {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
-constexpr std::uint64_t max_decoded_bytes = std::uint64_t{1} << 30;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-std::string title(const Image& image) { return image.name.empty() ? "image" : "image '" + image.name + "'"; }
-
-[[noreturn]] void fail(const Image& image, const std::string& what) {
-    throw InputError(image.uri, title(image), what);
-}
-
-std::string text_of(const ImageSize& size) {
-    return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
-
-void check_size(const Image& image, const ImageSize& size) {
-    if (size.width == 0 || size.height == 0 || size.width > max_image_side || size.height > max_image_side ||
-        size.pixels() * 4 > max_decoded_bytes)
-        fail(image, "is " + text_of(size) + " pixels, at most " + text_of({max_image_side, max_image_side}) +
-                        " are read");
-}
-
-[[noreturn]] void fail_length(const Image& image, const ImageSize& size) {
-    fail(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
-                    text_of(size) + " pixels");
-}
-
 /// Decoders take memory by what the header says, some of them when they open an image.
 void check_header(const Image& image) {
     const std::optional<ImageSize> size = declared_size(image.encoded);
-    if (!size) fail(image, "is damaged: its header does not say how large it is");
-    check_size(image, *size);
-    if (!can_hold(image.encoded, *size)) fail_length(image, *size);
-}
-
-/// What the decoder is going to make. A PNG too short for its pixels is found out before there is memory for
-/// them: deflate makes at most 1032 bytes of one (zlib, "Technical Details").
-void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::string& format) {
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
-        fail(image, "is not a picture of one layer");
-    const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
-    check_size(image, size);
-    const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
-    if (format == "png" && size.pixels() * bits / 8 / 1032 > image.encoded.size()) fail_length(image, size);
-}
-
-/// Calls work(begin, end) for bands of rows, each of which takes a few thousandths of a second, and asks
-/// before each. OpenImageIO has a callback of its own, but calls it once for 64 MB of pixels.
-/// \param work  false where it has failed
-/// \return whether it never has
-template <class Work>
-bool in_bands(const Pixels& pixels, engine::Poll poll, Work&& work) {
-    constexpr std::uint32_t pixels_of_band = 16384;
-    const std::uint32_t rows = std::max(1u, pixels_of_band / pixels.width);
-    for (std::uint32_t y = 0, end; y < pixels.height; y = end) {
-        end = y + std::min(rows, pixels.height - y);
-        poll.now();
-        if (!work(y, end)) return false;
-    }
-    return true;
-}
-
-/// Spreads 1 to 4 channels to RGBA.
-void spread_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
-    const bool grey = channels < 3;
-    const bool alpha = channels == 2 || channels == 4;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        std::array<std::uint8_t, 4> pixel = {};
-        std::memcpy(pixel.data(), from + i * channels, channels);
-        to[4 * i] = pixel[0];
-        to[4 * i + 1] = grey ? pixel[0] : pixel[1];
-        to[4 * i + 2] = grey ? pixel[0] : pixel[2];
-        to[4 * i + 3] = alpha ? pixel[channels - 1] : std::uint8_t{255};
-    }
-}
-
-OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int channels) {
-    const std::size_t count = std::size_t{pixels.width} * pixels.height;
-    if (count == 0 || pixels.rgba.size() != count * 4)
-        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
-    return OIIO::ImageSpec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
-                           OIIO::TypeDesc::UINT8);
-}
-
-Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
-             const std::string& format, engine::Poll poll) {
-    Image image;
-    image.name = name;
-    image.mime_type = "image/" + format;
-    OIIO::Filesystem::IOVecOutput bytes(image.encoded);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output) throw Error("OpenImageIO has no writer for " + format + ": " + OIIO::geterror());
-    output->set_ioproxy(&bytes);
-    const bool opened = output->open("memory." + format, spec);
-    const auto channels = static_cast<OIIO::stride_t>(spec.nchannels);
-    std::vector<std::uint8_t> rgb;
-    const bool written = opened && in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
-                             const std::size_t first = std::size_t{begin} * pixels.width;
-                             const std::size_t count = std::size_t{end - begin} * pixels.width;
-                             const std::uint8_t* rows = &pixels.rgba[4 * first];
-                             if (channels == 3) {
-                                 rgb.resize(3 * count);
-                                 for (std::size_t i = 0; i < count; ++i)
-                                     std::memcpy(&rgb[3 * i], rows + 4 * i, 3);
-                                 rows = rgb.data();
-                             }
-                             return output->write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
-                                                            OIIO::TypeDesc::UINT8, rows);
-                         });
-    const bool closed = opened && output->close();
-    // OpenImageIO 2.4 reports some failures here only.
-    const std::string error = output->geterror();
-    if (!written || !closed || !error.empty())
-        throw WriteError("image '" + name + "': cannot encode: " + error);
-    return image;
+    if (!size) fail_image(image, "is damaged: its header does not say how large it is");
+    check_image_size(image, *size);
+    if (!can_hold(image.encoded, *size)) fail_image_length(image, *size);
 }
 
 }  // namespace
@@ -162,11 +49,7 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
 bool can_decode_image(const std::string& mime_type) {
     if (mime_type == "image/png" || mime_type == "image/jpeg") return true;
     if (mime_type != "image/webp") return false;
-    static const bool has_webp = [] {
-        const auto input = OIIO::ImageInput::create("webp");
-        if (!input) OIIO::geterror();  // else it is there for the next one who asks
-        return input && input->supports("ioproxy");
-    }();
+    static const bool has_webp = image_codec().reads_webp();
     return has_webp;
 }
 
@@ -193,61 +76,23 @@ Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t q
 }
 
 Pixels detail::decode(const Image& image, engine::Poll poll) {
-    const std::string type = detail::sniff_mime_type(image.encoded);
-    if (!detail::can_decode_image(type))
+    const std::string type = sniff_mime_type(image.encoded);
+    if (!can_decode_image(type))
         throw UnsupportedError(
-            image.uri, detail::title(image),
+            image.uri, image_title(image),
             (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") + ", only " +
-                detail::decodable_images() + " are");
-    detail::check_header(image);
-    OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
-    const std::string format = type.substr(6);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-    if (!input) throw Error("OpenImageIO has no reader for " + format + ": " + OIIO::geterror());
-    input->set_ioproxy(&bytes);
-    OIIO::ImageSpec spec, config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->open("memory." + format, spec, config))
-        detail::fail(image, detail::first_line(input->geterror()));
-    detail::check_spec(image, spec, format);
-
-    Pixels pixels;
-    pixels.width = static_cast<std::uint32_t>(spec.width);
-    pixels.height = static_cast<std::uint32_t>(spec.height);
-    const int channels = std::min(spec.nchannels, 4);
-    pixels.rgba.resize(std::size_t{pixels.width} * pixels.height * 4);
-    std::vector<std::uint8_t> band;
-    const bool read = detail::in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
-        const std::size_t count = std::size_t{end - begin} * pixels.width;
-        band.resize(count * static_cast<std::size_t>(channels));
-        if (!input->read_scanlines(0, 0, static_cast<int>(begin), static_cast<int>(end), 0, 0, channels,
-                                   OIIO::TypeDesc::UINT8, band.data()))
-            return false;
-        std::uint8_t* rgba = &pixels.rgba[std::size_t{begin} * pixels.width * 4];
-        detail::spread_to_rgba(band.data(), count, static_cast<std::size_t>(channels), rgba);
-        for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
-            pixels.has_alpha = rgba[4 * i + 3] != 255;
-        return true;
-    });
-    const bool closed = input->close();
-    const std::string error = input->geterror();
-    if (!read || !closed || !error.empty())
-        detail::fail(image, error.empty() ? "is damaged" : "is damaged: " + detail::first_line(error));
-    return pixels;
+                decodable_images() + " are");
+    check_header(image);
+    return image_codec().decode(image, type.substr(6), poll);
 }
 
 Image detail::encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll) {
-    OIIO::ImageSpec spec = detail::spec_of(pixels, name, pixels.has_alpha ? 4 : 3);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    return detail::encode(pixels, name, spec, "png", poll);
+    return image_codec().encode_png(pixels, name, poll);
 }
 
 Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
                           Content content, engine::Poll poll) {
-    OIIO::ImageSpec spec = detail::spec_of(pixels, name, 3);
-    spec.attribute("CompressionQuality", static_cast<int>(quality));
-    if (content == Content::data) spec.attribute("jpeg:subsampling", "4:4:4");
-    return detail::encode(pixels, name, spec, "jpeg", poll);
+    return image_codec().encode_jpeg(pixels, name, quality, content, poll);
 }
 
 }  // namespace faqem

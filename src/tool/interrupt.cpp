@@ -40,9 +40,9 @@ void handle_interrupts() {
 bool interrupted() { return signals != 0; }
 
 Unattended::Unattended() {
-    unattended = 1;
+    ++unattended;
     if (signals != 0) _exit(exit_cancelled);  // it came after the last question and before this
 }
-Unattended::~Unattended() { unattended = 0; }
+Unattended::~Unattended() { --unattended; }
 
 }  // namespace faqem::tool

@@ -11,7 +11,7 @@ void handle_interrupts();
 
 bool interrupted();
 
-/// Alive while work is done that does not ask: reading and writing files.
+/// Alive while work is done that does not ask: reading and writing files, loading libraries.
 class Unattended {
 public:
     Unattended();

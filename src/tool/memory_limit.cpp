@@ -44,6 +44,8 @@ double work_per_face(const Options& options) {
 constexpr double held_per_face = 250;  // the history, and what baking finds its way with
 constexpr double search_factor = 1.3;  // --max-error: the best mesh so far, and what measures it
 constexpr double bytes_per_corner_value = 12;
+constexpr double image_libraries =
+    140e6;  // come with the first image that is decoded or encoded (tool/images)
 constexpr double work_per_texel = 36, held_per_texel = 8, bytes_per_origin = 24;
 
 std::size_t kept_values(const Part& part) { return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4); }
@@ -96,6 +98,7 @@ std::uint64_t predicted_peak(const Asset& asset, const Options& options) {
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none) baking += decoded_bytes(asset);
     if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);
+    if (baking > 0) baking += image_libraries;
     return static_cast<std::uint64_t>(resident_peak() + work + baking);
 }
 

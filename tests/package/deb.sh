@@ -34,5 +34,6 @@ export PKG_CONFIG_PATH LD_LIBRARY_PATH
 "$cxx" -std=c++20 "$consumers/arrays.cpp" $(pkg-config --cflags --libs faqem) -o "$work/arrays"
 "$work/arrays"
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >"$work/square.obj"
-"$work/root/usr/bin/faqem" simplify "$work/square.obj" "$work/square.glb" --ratio 1 --bake none --quiet
+"$work/root/usr/bin/faqem" simplify "$work/square.obj" "$work/square.glb" --ratio 1 --normal-map on \
+    --texture-size 64 --quiet
 "$work/root/usr/bin/faqem" info "$work/square.glb" --json | grep -q '"faces": 2'

@@ -1,0 +1,22 @@
+#!/bin/sh
+# The command starts without OpenImageIO and its 250 libraries, loads them for images, and says so where it cannot.
+# Usage: images.sh READELF TOOL WORK
+set -eu
+readelf=$1 tool=$2 work=$3
+if "$readelf" -d "$tool" | grep NEEDED | grep OpenImageIO; then
+    echo "the command is linked to OpenImageIO"
+    exit 1
+fi
+rm -rf "$work"
+mkdir -p "$work"
+cp "$tool" "$work/alone"
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >"$work/square.obj"
+"$work/alone" simplify "$work/square.obj" "$work/geometry.glb" --ratio 1 --bake none --quiet
+images="--ratio 1 --normal-map on --texture-size 64 --quiet"
+"$tool" simplify "$work/square.obj" "$work/textured.glb" $images
+if "$work/alone" simplify "$work/square.obj" "$work/none.glb" $images 2>"$work/said"; then
+    echo "a command without its module has written an image"
+    exit 1
+fi
+grep -q 'cannot read or write images: .*/faqem/faqem-images.so: cannot open' "$work/said"
+[ ! -e "$work/none.glb" ]
