@@ -352,7 +352,8 @@ private:
                                    is_last ? std::move(prepared_.positions) : prepared_.positions,
                                    is_last ? std::move(prepared_.triangles) : prepared_.triangles, result);
         }
-        if (settings_.relax && !is_cancelled) relax(work, slots, result);
+        // Without a collapse the mesh is its own best fit.
+        if (settings_.relax && !is_cancelled && result.report.collapses > 0) relax(work, slots, result);
         detail::finish_report(options_, settings_, prepared_, result);
         result.report.seconds.simplify = result.report.seconds.total = watch_.seconds();
         watch_ = {};

@@ -75,6 +75,19 @@ TEST_CASE("at ratio 1 the mesh comes back as it is, bit by bit and in order") {
     }
 }
 
+TEST_CASE("what is as it was is not moved closer to itself, nor has it edges to swap") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(3), 0.02, 3);
+    SimplifyResult result = simplify(mesh.view(), options(Preset::best, ratio(1)));
+    CHECK(same_bits(result.mesh, mesh));
+    CHECK(result.report.vertices_relaxed == 0);
+    CHECK(result.report.edges_swapped == 0);
+    // Of the same mesh with every face twice, only the doubles go.
+    TriangleMesh twice = mesh;
+    twice.triangles.insert(twice.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+    result = simplify(twice.view(), options(Preset::best, ratio(0.5)));
+    CHECK(same_bits(result.mesh, mesh));
+}
+
 TEST_CASE("positions given as float come back as the same numbers") {
     std::vector<Vec3f> positions;
     const TriangleMesh grid = test::shaken(test::grid(2), 0.1, 1);
