@@ -35,9 +35,7 @@ if(FAQEM_BUILD_C OR BUILD_SHARED_LIBS)
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
     set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}\n The shared libraries.")
     set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
-    if(BUILD_SHARED_LIBS)
-        set(CPACK_COMPONENT_TOOL_DEPENDS runtime)
-    endif()
+    set(CPACK_COMPONENT_TOOL_DEPENDS runtime)  # for the module of images, if for nothing else
     set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/asset
                                                     ${PROJECT_BINARY_DIR}/src/bake ${PROJECT_BINARY_DIR}/src/c)
 endif()

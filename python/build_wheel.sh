@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds the Python wheel around a built C door, without any index.
-# Usage: build_wheel.sh LIBRARY VERSION OUTDIR, with LIBRARY the file libfaqem_c.so. PYTHON: python3.
+# Usage: build_wheel.sh LIBRARY VERSION OUTDIR, with LIBRARY the file libfaqem_c.so; beside it is what it loads for
+# images, unless it is linked to that. PYTHON: python3.
 set -eu
 library=$1 version=$2 out=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -9,5 +10,7 @@ trap 'rm -rf "$work"' EXIT INT TERM
 
 cp -R "$here/." "$work/source"
 cp -L "$library" "$work/source/faqem/libfaqem_c.so"
+images=$(dirname "$library")/faqem-images.so
+[ ! -e "$images" ] || cp "$images" "$work/source/faqem/"
 FAQEM_VERSION=$version "${PYTHON:-python3}" -m pip wheel --quiet --no-index --no-deps --no-build-isolation \
     --wheel-dir "$out" "$work/source"

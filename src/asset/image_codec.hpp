@@ -10,7 +10,7 @@
 
 namespace faqem::detail {
 
-/// A table, so that the command can load it when the first image comes (tool/images).
+/// A table, so that the command and the C door can load it when the first image comes (images/load.hpp).
 struct ImageCodec {
     /// Version of faqem that it was built with.
     const char* version;
@@ -26,7 +26,7 @@ struct ImageCodec {
                          Content content, engine::Poll poll);
 };
 
-/// \throws Error if the command cannot load it
+/// \throws Error if it has to be loaded and cannot be
 const ImageCodec& image_codec();
 
 }  // namespace faqem::detail

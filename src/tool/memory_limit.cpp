@@ -45,7 +45,7 @@ constexpr double held_per_face = 250;  // the history, and what baking finds its
 constexpr double search_factor = 1.3;  // --max-error: the best mesh so far, and what measures it
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_libraries =
-    140e6;  // come with the first image that is decoded or encoded (tool/images)
+    140e6;  // come with the first image that is decoded or encoded (images/load.hpp)
 constexpr double work_per_texel = 36, held_per_texel = 8, bytes_per_origin = 24;
 
 std::size_t kept_values(const Part& part) { return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4); }

@@ -1,12 +1,14 @@
 #!/bin/sh
-# The command starts without OpenImageIO and its 250 libraries, loads them for images, and says so where it cannot.
-# Usage: images.sh READELF TOOL WORK
+# The command, and the C door, start without OpenImageIO and its 250 libraries; the command loads them for images, and
+# says so where it cannot. Usage: images.sh READELF TOOL WORK [LIBRARY]
 set -eu
 readelf=$1 tool=$2 work=$3
-if "$readelf" -d "$tool" | grep NEEDED | grep OpenImageIO; then
-    echo "the command is linked to OpenImageIO"
-    exit 1
-fi
+for program in "$tool" ${4:+"$4"}; do
+    if "$readelf" -d "$program" | grep NEEDED | grep OpenImageIO; then
+        echo "$program is linked to OpenImageIO"
+        exit 1
+    fi
+done
 rm -rf "$work"
 mkdir -p "$work"
 cp "$tool" "$work/alone"
