@@ -37,7 +37,7 @@ struct SpeedOptions {
     double ratio = 0.1;
     int repetitions = 5;
     bool quality = true;                   ///< Chamfer and Hausdorff distances too
-    std::vector<std::string> simplifiers;  ///< `meshoptimizer`, `cgal-lt`, PRESET-THREADS
+    std::vector<std::string> simplifiers;  ///< `meshoptimizer`, `wasm-1.3`, `cgal-lt`, PRESET-THREADS
 };
 
 /// Times the simplifiers on the mesh and on the same with its vertices shuffled, their repetitions in turn,

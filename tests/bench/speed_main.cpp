@@ -24,8 +24,8 @@ constexpr const char* usage = R"(Usage: faqem-bench-speed [OPTION]...
   --min-faces N       pass over smaller models; default: 1000000
   --sizes N,...       faces of generated surfaces; default: 1000000
   --sections S,...    default: simplify,files,pipeline; the last two take the first generated surface
-  --simplifiers S,... meshoptimizer, cgal-lt, PRESET-THREADS; default:
-                      meshoptimizer,fast-1,fast-2,balanced-2
+  --simplifiers S,... meshoptimizer, cgal-lt, PRESET-THREADS; of npm's meshoptimizer wasm-0.18, wasm-1.3 and
+                      wasm-1.3-update; default: meshoptimizer,fast-1,fast-2,balanced-2
   --ratio R           default: 0.1
   --repetitions N     of each; medians count; default: 5
   --no-quality        do not measure distances

@@ -17,6 +17,7 @@
 #include "simplifier.hpp"
 #include "speed.hpp"
 #include "stopwatch.hpp"
+#include "wasm.hpp"
 
 namespace faqem::bench {
 
@@ -89,8 +90,25 @@ Run run_cgal(const FloatMesh& in, std::size_t target_faces) {
 }
 #endif
 
+#ifdef FAQEM_BENCH_WASM
+Run run_webassembly(const FloatMesh& in, std::size_t target_faces, const std::string& name) {
+    WasmResult result = run_wasm(in, target_faces, name);
+    Run run;
+    run.seconds = result.seconds;
+    run.cpu_seconds = result.cpu_seconds;
+    run.mesh = std::move(result.mesh);
+    return run;
+}
+#endif
+
 Simplifier simplifier_of(const std::string& name) {
     if (name == "meshoptimizer") return run_meshoptimizer;
+#ifdef FAQEM_BENCH_WASM
+    if (is_wasm(name)) {
+        return
+            [name](const FloatMesh& mesh, std::size_t target) { return run_webassembly(mesh, target, name); };
+    }
+#endif
 #ifdef FAQEM_BENCH_CGAL
     if (name == "cgal-lt") return run_cgal;
 #endif
