@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds faqem and runs every test. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
 # CMakePresets.json; default: release. Needs Debian 12 and nothing else: packages are installed first.
-# --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak, fuzzing,
-# examples, the site), and runs each room in one process: under two minutes.
+# --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak,
+# fuzzing, examples, the site), and runs each room in one process: under two minutes.
 set -eu
 cd "$(dirname "$0")/.."
 quick=""

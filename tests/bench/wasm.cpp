@@ -54,11 +54,11 @@ std::string output_of(const std::string& command) {
 
 }  // namespace
 
-bool is_wasm(const std::string& name) { return name.rfind("wasm-", 0) == 0; }
+bool is_wasm(const std::string& name) { return name.starts_with("wasm-"); }
 
 WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::string& name) {
     const std::string update = "-update";
-    const bool moves = name.size() > update.size() && name.ends_with(update);
+    const bool moves = name.ends_with(update);
     const std::string package = moves ? name.substr(0, name.size() - update.size()) : name;
     const fs::path index = fs::path(FAQEM_BENCH_WASM) / "node_modules" / package / "index.js";
     if (!fs::exists(index)) throw OptionError("simplifier " + name + ": " + index.string() + " is not there");

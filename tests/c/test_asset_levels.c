@@ -193,7 +193,7 @@ static void levels_are_saved_in_one_file(void) {
     faqem_asset_destroy(read);
     for (int i = 0; i < 3; ++i) faqem_asset_destroy(chain[i]);
     faqem_options_destroy(options);
-    CHECK(remove(path) == 0);
+    CHECK(remove(path) == 0 && remove("test_c_lod.bin") == 0 && remove("test_c_lod_0.png") == 0);
 }
 
 void test_asset_levels(void) {
