@@ -44,9 +44,17 @@ struct TextureRef {
     float rotation = 0;  ///< radians
 
     explicit operator bool() const { return image != no_index; }
+    bool operator==(const TextureRef&) const = default;
 };
 
 enum class AlphaMode { opaque, mask, blend };
+
+/// A texture of a material extension that faqem knows to bake: docs/baking.md names them.
+struct ExtensionTexture {
+    std::string extension, name;  ///< as in glTF, e.g. KHR_materials_clearcoat and clearcoatNormalTexture
+    TextureRef texture;
+    float normal_scale = 1;  ///< of normal maps; otherwise not used
+};
 
 /// A glTF 2.0 metallic-roughness material. OBJ's Kd, map_Kd and d are translated to it.
 struct Material {
@@ -65,11 +73,13 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;
+    /// Each name of an extension once; their factors live in the source document.
+    std::vector<ExtensionTexture> extension_textures;
     /// Names of extensions other than KHR_materials_unlit and KHR_texture_transform, sorted.
     std::vector<std::string> extensions;
     /// Material of the source document whose extras and extensions go along when saved; no_index: none.
     Index source = no_index;
-    /// The UVs were made anew: textures inside the extensions of the source no longer fit and are left out.
+    /// The UVs were made anew: textures of the source that are not named above no longer fit and are left out.
     bool rebaked = false;
 };
 

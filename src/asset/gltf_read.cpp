@@ -6,6 +6,7 @@
 #include "asset/file.hpp"
 #include "asset/gltf.hpp"
 #include "asset/image.hpp"
+#include "asset/material_textures.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -13,33 +14,34 @@ namespace {
 
 /// \throws UnsupportedError  a texture of the core material model is of a kind that cannot be decoded
 void check_image_types(const Asset& asset, const SourceDocument& source, const std::string& file) {
-    for (const Material& material : asset.materials)
-        for (const TextureRef* ref : texture_slots(material)) {
-            if (!*ref) continue;
-            const std::string& type = source.images[ref->image].mime_type;
-            const std::string where = step("/images", ref->image);
-            if (!type.empty() && !can_decode_image(type))
-                throw UnsupportedError(
-                    file, where,
-                    "is " + (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
-                        ", only " + decodable_images() + " are supported");
-        }
+    const auto check = [&](const TextureRef& ref) {
+        if (!ref) return;
+        const std::string& type = source.images[ref.image].mime_type;
+        if (type.empty() || can_decode_image(type)) return;
+        throw UnsupportedError(file, step("/images", ref.image),
+                               "is " +
+                                   (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
+                                   ", only " + decodable_images() + " are supported");
+    };
+    for (const Material& material : asset.materials) for_each_core_texture(material, check);
 }
 
 /// Gives the asset the images its materials use, each once, and renumbers the references.
 void share_images(Asset& asset, const SourceDocument& source) {
     std::vector<Index> shared(source.images.size(), no_index);
-    for (Material& material : asset.materials)
-        for (TextureRef* ref : texture_slots(material))
-            if (*ref) shared[ref->image] = 0;
+    for (const Material& material : asset.materials)
+        for_each_texture(material, [&](const TextureRef& ref) {
+            if (ref) shared[ref.image] = 0;
+        });
     for (std::size_t i = 0; i < shared.size(); ++i)
         if (shared[i] != no_index) {
             shared[i] = static_cast<Index>(asset.images.size());
             asset.images.push_back(source.images[i]);
         }
     for (Material& material : asset.materials)
-        for (TextureRef* ref : texture_slots(material))
-            if (*ref) ref->image = shared[ref->image];
+        for_each_texture(material, [&](TextureRef& ref) {
+            if (ref) ref.image = shared[ref.image];
+        });
 }
 
 /// Everything in the scene must be at a place that doubles can say, so that it can be flattened and measured.

@@ -2,8 +2,6 @@
 /// \file
 /// From tinygltf's model to parts and materials.
 
-#include <array>
-
 #include "asset/gltf_load.hpp"
 
 namespace faqem::detail {
@@ -15,12 +13,5 @@ Part read_part(LoadedGltf& loaded, Index mesh, std::uint64_t& dropped_faces);
 
 /// All materials; TextureRef::image is an index into the document's images.
 std::vector<Material> read_materials(LoadedGltf& loaded);
-
-/// The five textures of a material, in a fixed order.
-template <class M>
-auto texture_slots(M& material) {
-    return std::array{&material.base_color_texture, &material.metallic_roughness_texture,
-                      &material.normal_texture, &material.occlusion_texture, &material.emissive_texture};
-}
 
 }  // namespace faqem::detail

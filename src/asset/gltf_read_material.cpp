@@ -3,6 +3,9 @@
 #include <map>
 
 #include "asset/gltf_read.hpp"
+#include "asset/image.hpp"
+#include "asset/known_textures.hpp"
+#include "asset/material_textures.hpp"
 #include "asset/repair.hpp"
 
 namespace faqem::detail {
@@ -61,6 +64,34 @@ TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
     return ref;
 }
 
+/// \param value  checked to be a texture info
+tinygltf::TextureInfo texture_info(const tinygltf::Value& value) {
+    tinygltf::TextureInfo info;
+    info.index = value.Get("index").GetNumberAsInt();
+    if (value.Has("texCoord")) info.texCoord = value.Get("texCoord").GetNumberAsInt();
+    if (!value.Has("extensions")) return info;
+    const tinygltf::Value& extensions = value.Get("extensions");
+    for (const std::string& name : extensions.Keys()) info.extensions[name] = extensions.Get(name);
+    return info;
+}
+
+/// Those that can be read: the others are passed through as what nobody knows.
+std::vector<ExtensionTexture> extension_textures(LoadedGltf& loaded, const tinygltf::Material& from) {
+    std::vector<ExtensionTexture> result;
+    for (const KnownTexture& known : known_textures) {
+        const std::string extension(known.extension), name(known.name);
+        const auto found = from.extensions.find(extension);
+        if (found == from.extensions.end() || !found->second.Has(name)) continue;
+        const tinygltf::Value& info = found->second.Get(name);
+        if (!info.IsObject() || !info.Has("index")) continue;
+        const TextureRef texture = texture_ref(loaded, texture_info(info));
+        if (!texture || !can_decode_image(loaded.source->images[texture.image].mime_type)) continue;
+        const double scale = info.Has("scale") ? number_or(info.Get("scale"), 1) : 1;
+        result.push_back({extension, name, texture, static_cast<float>(scale)});
+    }
+    return result;
+}
+
 template <std::size_t N>
 void copy_factors(std::array<float, N>& to, const std::vector<double>& from) {
     for (std::size_t i = 0; i < N && i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
@@ -81,6 +112,7 @@ Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
     material.occlusion_texture = texture_ref(loaded, from.occlusionTexture);
     material.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
     material.emissive_texture = texture_ref(loaded, from.emissiveTexture);
+    material.extension_textures = extension_textures(loaded, from);
     if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
     material.alpha_cutoff = static_cast<float>(from.alphaCutoff);
@@ -110,10 +142,11 @@ std::uint64_t reset_infinite(Material& material) {
     reset(material.normal_scale, standard.normal_scale);
     reset(material.occlusion_strength, standard.occlusion_strength);
     reset(material.alpha_cutoff, standard.alpha_cutoff);
-    for (TextureRef* ref : texture_slots(material)) {
-        for (std::size_t i = 0; i < 2; ++i) reset(ref->offset[i], 0), reset(ref->scale[i], 1);
-        reset(ref->rotation, 0);
-    }
+    for (ExtensionTexture& texture : material.extension_textures) reset(texture.normal_scale, 1);
+    for_each_texture(material, [&](TextureRef& ref) {
+        for (std::size_t i = 0; i < 2; ++i) reset(ref.offset[i], 0), reset(ref.scale[i], 1);
+        reset(ref.rotation, 0);
+    });
     return count;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "asset/gltf_writer.hpp"
+#include "asset/known_textures.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -27,9 +28,10 @@ void set_changed(Json& object, const char* key, const T& now, const T& was, cons
 }
 
 bool same_use(const GltfWriter& writer, const TextureRef& now, const TextureRef& was) {
-    return now && was && writer.source_image_of[now.image] == was.image && now.uv_set == was.uv_set &&
-           now.wrap_u == was.wrap_u && now.wrap_v == was.wrap_v && now.filter == was.filter &&
-           now.offset == was.offset && now.scale == was.scale && now.rotation == was.rotation;
+    if (!now || !was) return false;
+    TextureRef in_source = now;
+    in_source.image = writer.source_image_of[now.image];
+    return in_source == was;
 }
 
 Json fresh_texture_info(GltfWriter& writer, const TextureRef& ref) {
@@ -107,16 +109,65 @@ std::vector<std::string> write_other_textures(GltfWriter& writer, const Material
     return material.rebaked ? infos : std::vector<std::string>();
 }
 
-void warn_of_removed(GltfWriter& writer, const Material& material, const std::string& what) {
-    writer.warnings.push_back("material '" + material.name + "': the textures of " + what +
+/// \param part  of it that is meant: `textures`
+void warn_of_removed(GltfWriter& writer, const Material& material, const std::string& what,
+                     const std::string& part) {
+    writer.warnings.push_back("material '" + material.name + "': the " + part + " of " + what +
                               " do not fit the new texture coordinates and were left out");
 }
 
-void write_extension_textures(GltfWriter& writer, const Material& material, Json& json) {
-    if (!json.contains("extensions")) return;
-    for (auto& [name, extension] : json["extensions"].items()) {
-        if (!write_other_textures(writer, material, extension).empty())
-            warn_of_removed(writer, material, name);
+const ExtensionTexture* find_texture(const Material& material, const std::string& extension,
+                                     const std::string& name) {
+    for (const ExtensionTexture& texture : material.extension_textures)
+        if (texture.extension == extension && texture.name == name) return &texture;
+    return nullptr;
+}
+
+/// Texture infos of the source's extension that the material does not have any more: erased. What was there in
+/// places must not be everywhere, so the factor of such a texture goes too. \return how many
+std::size_t erase_textures(const Material& now, const Material& was, const std::string& name,
+                           Json& extension) {
+    std::vector<std::string> gone;
+    for (const auto& [key, value] : extension.items()) {
+        if (!is_texture_info(key, value) || find_texture(now, name, key)) continue;
+        if (now.rebaked || find_texture(was, name, key)) gone.push_back(key);
+    }
+    for (const std::string& key : gone) {
+        extension.erase(key);
+        const KnownTexture* known = find_known_texture(name, key);
+        if (known && !known->switch_factor.empty()) extension.erase(std::string(known->switch_factor));
+    }
+    return gone.size();
+}
+
+/// The textures of the source's extension that are not the material's are followed.
+void follow_textures(GltfWriter& writer, const Material& now, const std::string& name, Json& extension) {
+    for (auto& [key, value] : extension.items()) {
+        if (is_texture_info(key, value) && !find_texture(now, name, key))
+            value["index"] = copy_texture(writer, index_of(value, "index"));
+    }
+}
+
+/// Its directions are those of the texture coordinates, with or without a texture.
+constexpr const char* anisotropy = "KHR_materials_anisotropy";
+
+void write_extensions(GltfWriter& writer, const Material& now, const Material& was, Json& json) {
+    static const ExtensionTexture none;
+    if (now.rebaked && json.contains("extensions") && json["extensions"].erase(anisotropy) != 0)
+        warn_of_removed(writer, now, anisotropy, "directions");
+    if (json.contains("extensions")) {
+        for (auto& [name, extension] : json["extensions"].items()) {
+            if (erase_textures(now, was, name, extension) != 0)
+                warn_of_removed(writer, now, name, "textures");
+            follow_textures(writer, now, name, extension);
+        }
+    }
+    for (const ExtensionTexture& texture : now.extension_textures) {
+        const ExtensionTexture* before = find_texture(was, texture.extension, texture.name);
+        Json& extension = json["extensions"][texture.extension];
+        const ExtensionTexture& old = before ? *before : none;
+        write_slot(writer, extension, texture.name.c_str(), texture.texture, old.texture);
+        write_slot_number(extension, texture.name.c_str(), "scale", texture.normal_scale, old.normal_scale);
     }
 }
 
@@ -129,7 +180,7 @@ void write_foreign_textures(GltfWriter& writer, const Material& material, Json& 
             writer, material, json["pbrMetallicRoughness"], {"baseColorTexture", "metallicRoughnessTexture"});
         removed.insert(removed.end(), more.begin(), more.end());
     }
-    for (const std::string& name : removed) warn_of_removed(writer, material, name);
+    for (const std::string& name : removed) warn_of_removed(writer, material, name, "textures");
 }
 
 void write_unlit(Json& json, bool unlit) {
@@ -159,7 +210,7 @@ Json material_json(GltfWriter& writer, const Material& material) {
     write_alpha(json, material, was);
     set_changed(json, "doubleSided", material.double_sided, was.double_sided, false, material.double_sided);
     write_foreign_textures(writer, material, json);
-    write_extension_textures(writer, material, json);
+    write_extensions(writer, material, was, json);
     write_unlit(json, material.unlit);
     return json;
 }
@@ -185,7 +236,10 @@ Index write_source_material(GltfWriter& writer, Index material) {
          {&json, json.contains("pbrMetallicRoughness") ? &json["pbrMetallicRoughness"] : &json})
         for (auto& [key, value] : holder->items())
             if (is_texture_info(key, value)) value["index"] = copy_texture(writer, index_of(value, "index"));
-    write_extension_textures(writer, writer.source.materials[material], json);
+    if (json.contains("extensions")) {
+        for (auto& [name, extension] : json["extensions"].items())
+            follow_textures(writer, {}, name, extension);
+    }
     entry->second = append(writer, "materials", std::move(json));
     return entry->second;
 }

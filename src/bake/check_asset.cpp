@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "asset/material_textures.hpp"
 #include "bake/job.hpp"
 #include "faqem/error.hpp"
 
@@ -80,13 +81,14 @@ private:
 void check_material(const Asset& asset, Index material) {
     const auto fail = [&](const char* what) { throw InputError("", material_title(asset, material), what); };
     const Material& m = asset.materials[material];
-    for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                                  &m.occlusion_texture, &m.emissive_texture}) {
-        if (!*ref) continue;
-        if (!(ref->image < asset.images.size())) fail("image index out of range");
-        for (const float x : {ref->offset[0], ref->offset[1], ref->scale[0], ref->scale[1], ref->rotation})
+    for_each_texture(m, [&](const TextureRef& ref) {
+        if (!ref) return;
+        if (!(ref.image < asset.images.size())) fail("image index out of range");
+        for (const float x : {ref.offset[0], ref.offset[1], ref.scale[0], ref.scale[1], ref.rotation})
             if (!std::isfinite(x)) fail("the transform of a texture is not finite");
-    }
+    });
+    for (const ExtensionTexture& texture : m.extension_textures)
+        if (!std::isfinite(texture.normal_scale)) fail("the scale of a normal map is not finite");
     for (const float x :
          {m.base_color[0], m.base_color[1], m.base_color[2], m.base_color[3], m.metallic, m.roughness,
           m.normal_scale, m.occlusion_strength, m.emissive[0], m.emissive[1], m.emissive[2], m.alpha_cutoff})

@@ -7,6 +7,7 @@ namespace {
 
 bool may_merge(const Material& a, const Material& b, Bake kind) {
     if (!a.extensions.empty() || !b.extensions.empty()) return false;
+    if (!a.extension_textures.empty() || !b.extension_textures.empty()) return false;
     if (a.alpha_mode != b.alpha_mode || a.double_sided != b.double_sided || a.unlit != b.unlit) return false;
     if (a.alpha_mode == AlphaMode::mask && a.alpha_cutoff != b.alpha_cutoff) return false;
     if (kind != Bake::vertex) return true;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/extension_layers.hpp"
 #include "bake/job.hpp"
 #include "bake/normal_map.hpp"
 #include "bake/sampling.hpp"
@@ -33,6 +34,7 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     result.base_color_texture = result.metallic_roughness_texture = result.normal_texture =
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
+    result.extension_textures.clear();  // save() says so
     result.rebaked = true;
     return result;
 }
@@ -61,11 +63,11 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const SmallPart& part,
         faces_of[face_material(*part.source, part.small->history.kept_faces[f])].push_back(f);
     }
     for (const auto& [material, faces] : faces_of) {
-        const TextureRef& use = material_or_default(job.source, material).normal_texture;
-        if (!use || use.uv_set >= uvs.size()) continue;
-        std::vector<Vec2f> moved = uvs[use.uv_set];
+        const TextureRef* use = tangent_texture(material_or_default(job.source, material));
+        if (!use || use->uv_set >= uvs.size()) continue;
+        std::vector<Vec2f> moved = uvs[use->uv_set];
         if (part.source->tangents.empty()) {
-            const UvTransform transform = uv_transform(use);
+            const UvTransform transform = uv_transform(*use);
             for (Vec2f& uv : moved) {
                 const auto to = transform.apply(uv[0], uv[1]);
                 uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "bake/extension_layers.hpp"
 #include "bake/job.hpp"
 #include "bake/page_atlas.hpp"
 #include "bake/source_surface.hpp"
@@ -18,15 +19,18 @@ struct PageRequest {
     std::span<const ChartTile> tiles;               ///< of the charts
     std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
     std::span<const PageFace> faces;                ///< by triangle of the atlas
-    /// By part and corner, as they are written; needed for the normal map.
+    /// By part and corner, as they are written; needed for normal maps.
     std::span<const std::vector<Vec4f>> tangents;
     Channels channels;
     AlphaMode alpha_mode = AlphaMode::opaque;
+    std::span<const ExtensionLayer> layers = {};  ///< of `material`
+    Index material = no_index;                    ///< whose extensions these are
 };
 
 /// The page's images; those not asked for have no pixels.
 struct PageImages {
     Pixels base, occlusion_roughness_metallic, emissive, normal;
+    std::vector<Pixels> layers;                 ///< as asked for
     std::array<std::uint64_t, 3> samples = {};  ///< by MapStep
     std::uint64_t uncertain_texels = 0;         ///< with a sample found other than by MapStep::history
     std::uint64_t texels = 0;                   ///< that show a triangle

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bake/extension_layers.hpp"
 #include "bake/job.hpp"
 #include "bake/normal_map.hpp"
 #include "bake/page.hpp"
@@ -18,6 +19,7 @@ struct GroupPage {
     std::string name;
     Channels channels;
     std::vector<PageFace> faces;
+    std::vector<ExtensionLayer> layers;
     std::optional<PageAtlas> atlas;  // none where no image is needed
 };
 
@@ -49,6 +51,12 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
     for (std::size_t g = 0; g < pages.size(); ++g) {
         pages[g].name = groups.groups[g].material.name;
         pages[g].channels = needed_channels(job.source, groups.groups[g]);
+        std::vector<ExtensionLayer>& layers = pages[g].layers;
+        layers = extension_layers(groups.groups[g].material);
+        const auto is_normal = [](const ExtensionLayer& layer) { return layer.is_normal(); };
+        if (job.options.bake.normal_map == NormalMap::off) std::erase_if(layers, is_normal);
+        pages[g].channels.layers = !layers.empty();
+        pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal);
     }
     for (const SmallPart& part : job.parts) {
         const bool colors = has_colors(*part.source);
@@ -143,7 +151,7 @@ std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::v
                                                 const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<std::vector<Vec4f>> result(job.parts.size());
     for (const GroupPage& page : pages) {
-        if (!page.atlas || !page.channels.normal) continue;
+        if (!page.atlas || !page.channels.tangents()) continue;
         for (std::size_t begin = 0, end = 0; begin < page.faces.size(); begin = end) {
             const Index part = page.faces[begin].part;
             std::vector<Index> faces;
@@ -181,15 +189,16 @@ bool bake_pages(BakeJob& job) {
         const Material& first = groups.groups[g].material;
         PageImages images;
         if (page.atlas) {
-            images = bake_page(job, surface,
-                               {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
-                                page.faces, tangents, page.channels, first.alpha_mode},
-                               done, pieces);
+            images = bake_page(
+                job, surface,
+                {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across, page.faces,
+                 tangents, page.channels, first.alpha_mode, page.layers, groups.groups[g].materials.front()},
+                done, pieces);
             done += static_cast<double>(page.atlas->pieces());
         }
         if (page.atlas) add_to_report(job, surface, page, images);
-        out.materials.push_back(
-            page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{}, images));
+        out.materials.push_back(page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{},
+                                              page.layers, images));
     }
     for (const SmallPart& part : job.parts) {
         CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};

@@ -69,8 +69,10 @@ Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const
     }
     const std::uint8_t* p = &pixels_.rgba[at];
     constexpr float unit = 1.0f / 255;
-    if (encoding_ == Encoding::data) return {p[0] * unit, p[1] * unit, p[2] * unit, 1};
+    if (encoding_ == Encoding::data) return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
     const auto& linear = srgb_table();
+    if (encoding_ == Encoding::colour_and_number)
+        return {linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
     const float alpha = encoding_ == Encoding::colour ? p[3] * unit : 1;
     return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
 }

@@ -14,12 +14,13 @@ namespace faqem::detail {
 
 /// How the numbers of an image are meant.
 enum class Encoding {
-    colour,         ///< sRGB, alpha counts: filtered premultiplied
-    opaque_colour,  ///< sRGB, alpha is ignored and read as 1
-    data,           ///< linear numbers in RGB, alpha is ignored and read as 1
+    colour,             ///< sRGB, alpha counts: filtered premultiplied
+    opaque_colour,      ///< sRGB, alpha is ignored and read as 1
+    colour_and_number,  ///< sRGB; alpha is a number of its own
+    data,               ///< linear numbers in RGBA
 };
 
-/// RGBA in linear light, premultiplied.
+/// RGBA in linear light, premultiplied where the encoding says so.
 using Linear = std::array<float, 4>;
 
 /// An image with its mip pyramid: level 0 as decoded, the others 16 bits per channel in linear light,

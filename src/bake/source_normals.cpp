@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bake/directions.hpp"
+#include "bake/extension_layers.hpp"
 #include "bake/groups.hpp"
 #include "bake/tangents.hpp"
 
@@ -99,7 +100,7 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine:
     for (Index f = 0; f < part.triangles.size(); ++f) {
         poll();
         const Index material = face_material(part, f);
-        if (!material_or_default(asset, material).normal_texture) continue;
+        if (!tangent_texture(material_or_default(asset, material))) continue;
         result.resize(3 * part.triangles.size(), Vec4f{});
         if (!has_tangents(part, f)) {
             without[material].push_back(f);
@@ -112,7 +113,7 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine:
         }
     }
     for (const auto& [material, faces] : without) {
-        add_mikk_tangents(part, material_or_default(asset, material).normal_texture, faces, poll, result);
+        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces, poll, result);
     }
     return result;
 }

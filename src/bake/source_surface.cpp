@@ -59,32 +59,38 @@ SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, const W
     }
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
         const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
-        Surface surface;
-        surface.material = &material_or_default(asset, index);
-        const Material& material = *surface.material;
-        const Encoding colour =
-            material.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
-        if (used[m] && wanted.base) surface.base = slot(material.base_color_texture, colour, index, workers);
-        if (used[m] && wanted.metallic_roughness) {
-            surface.metallic_roughness =
-                slot(material.metallic_roughness_texture, Encoding::data, index, workers);
-        }
-        if (used[m] && wanted.occlusion)
-            surface.occlusion = slot(material.occlusion_texture, Encoding::data, index, workers);
-        if (used[m] && wanted.emissive) {
-            surface.emissive = slot(material.emissive_texture, Encoding::opaque_colour, index, workers);
-        }
-        if (used[m] && wanted.normal && !material.unlit) {
-            surface.normal = slot(material.normal_texture, Encoding::data, index, workers);
-        }
-        surfaces_.push_back(surface);
+        surfaces_.push_back(used[m] ? surface_of(index, workers)
+                                    : Surface{&material_or_default(asset, index), {}, {}, {}, {}, {}, {}});
     }
     scales_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         measure(asset.parts[p], workers.poll, scales_[p]);
-        if (wanted.normal) tangents_[p] = source_tangents(asset, asset.parts[p], workers.poll);
+        if (wanted.tangents()) tangents_[p] = source_tangents(asset, asset.parts[p], workers.poll);
     }
+}
+
+SourceSurface::Surface SourceSurface::surface_of(Index index, const Workers& workers) {
+    Surface result;
+    result.material = &material_or_default(asset_, index);
+    const Material& m = *result.material;
+    const Encoding colour = m.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
+    const auto set = [&](Slot& to, bool wanted, const TextureRef& use, Encoding encoding) {
+        if (wanted) to = slot(use, encoding, index, workers);
+    };
+    set(result.base, wanted_.base, m.base_color_texture, colour);
+    set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture, Encoding::data);
+    set(result.occlusion, wanted_.occlusion, m.occlusion_texture, Encoding::data);
+    set(result.emissive, wanted_.emissive, m.emissive_texture, Encoding::opaque_colour);
+    set(result.normal, wanted_.normal && !m.unlit, m.normal_texture, Encoding::data);
+    if (!wanted_.layers) return result;
+    result.extensions.resize(m.extension_textures.size());
+    for (const ExtensionLayer& layer : extension_layers(m)) {
+        const Index first = layer.textures.front();
+        set(result.extensions[first], !layer.is_normal() || wanted_.layer_normals,
+            m.extension_textures[first].texture, layer.encoding());
+    }
+    return result;
 }
 
 SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material,
@@ -116,11 +122,9 @@ void SourceSurface::measure(const Part& part, engine::Poll poll, PartScale& scal
     if (area > 0) scale.untextured = std::sqrt(2 * static_cast<double>(faces) / area);
     scale.uv_per_length.resize(part.uvs.size());
     for (std::size_t set = 0; set < part.uvs.size(); ++set) {
-        const bool needed = std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) {
-            const auto slots = s.slots();
-            return std::any_of(slots.begin(), slots.end(),
-                               [&](const Slot* slot) { return slot->image && slot->use->uv_set == set; });
-        });
+        bool needed = false;
+        for (const Surface& surface : surfaces_)
+            surface.for_each_image([&](const Slot& slot) { needed = needed || slot.use->uv_set == set; });
         if (!needed) continue;
         std::vector<float>& ratio = scale.uv_per_length[set];
         ratio.resize(faces, 0.0f);
@@ -145,7 +149,7 @@ Linear SourceSurface::fetch(const Slot& slot, Index p, const SurfacePoint& point
 
 Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spacing) const {
     const Part& part = asset_.parts[p];
-    const Surface& s = surface(face_material(part, point.face));
+    const Surface& s = surface(p, point);
     const Material& m = *s.material;
     Appearance result;
     Vec4f factor = m.base_color;
@@ -178,13 +182,17 @@ Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spac
 }
 
 Vector3 SourceSurface::normal(Index p, const SurfacePoint& point, double spacing, const Vector3& side) const {
+    const Surface& s = surface(p, point);
+    return bent(s.normal, s.material->normal_scale, p, point, spacing, side);
+}
+
+Vector3 SourceSurface::bent(const Slot& slot, double scale, Index p, const SurfacePoint& point,
+                            double spacing, const Vector3& side) const {
     const Part& part = asset_.parts[p];
     const Vector3 smooth = smooth_normal(part, point);
     Vector3 result = smooth;
-    const Surface& s = surface(face_material(part, point.face));
-    if (s.normal.image) {
-        const Linear c = fetch(s.normal, p, point, spacing);
-        const double scale = s.material->normal_scale;
+    if (slot.image) {
+        const Linear c = fetch(slot, p, point, spacing);
         const Vector3 bent(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0), 2 * c[2] - 1.0);
         std::array<FrameCorner, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -199,14 +207,26 @@ Vector3 SourceSurface::normal(Index p, const SurfacePoint& point, double spacing
     return from_behind ? Vector3(-result) : result;
 }
 
+Linear SourceSurface::layer(Index p, const SurfacePoint& point, double spacing,
+                            const ExtensionLayer& layer) const {
+    return fetch(surface(p, point).extensions[layer.textures.front()], p, point, spacing);
+}
+
+Vector3 SourceSurface::layer_normal(Index p, const SurfacePoint& point, double spacing, const Vector3& side,
+                                    const ExtensionLayer& layer) const {
+    const Slot& slot = surface(p, point).extensions[layer.textures.front()];
+    return bent(slot, layer.normal_scale, p, point, spacing, side);
+}
+
 double SourceSurface::texel_density(Index p, Index face) const {
     const Part& part = asset_.parts[p];
     const Surface& s = surface(face_material(part, face));
     double density = 0;
-    for (const Slot* slot : s.slots()) {
-        if (!slot->image || slot->use->uv_set >= part.uvs.size()) continue;
-        density = std::max(density, scales_[p].uv_per_length[slot->use->uv_set][face] * slot->texels_per_uv);
-    }
+    s.for_each_image([&](const Slot& slot) {
+        const std::uint32_t set = slot.use->uv_set;
+        if (set < part.uvs.size())
+            density = std::max(density, scales_[p].uv_per_length[set][face] * slot.texels_per_uv);
+    });
     const bool geometry = wanted_.normal && !s.normal.image;
     return density > 0 && !geometry ? density : std::max(density, scales_[p].untextured);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bake/extension_layers.hpp"
 #include "bake/groups.hpp"
 #include "bake/sampling.hpp"
 #include "bake/source_normals.hpp"
@@ -25,12 +26,21 @@ struct Appearance {
 /// Channels of a material that images can hold.
 struct Channels {
     bool base = false, metallic_roughness = false, occlusion = false, emissive = false, normal = false;
-    bool any() const { return base || metallic_roughness || occlusion || emissive || normal; }
+    bool layers = false;         ///< of extensions
+    bool layer_normals = false;  ///< one of these at least has normals
+
+    bool any() const { return base || metallic_roughness || occlusion || emissive || normal || layers; }
+    bool tangents() const { return normal || layer_normals; }
 
     /// Those of both.
     Channels operator|(const Channels& o) const {
-        return {base || o.base, metallic_roughness || o.metallic_roughness, occlusion || o.occlusion,
-                emissive || o.emissive, normal || o.normal};
+        return {base || o.base,
+                metallic_roughness || o.metallic_roughness,
+                occlusion || o.occlusion,
+                emissive || o.emissive,
+                normal || o.normal,
+                layers || o.layers,
+                layer_normals || o.layer_normals};
     }
 };
 
@@ -56,6 +66,19 @@ public:
     engine::Vector3 normal(Index part, const SurfacePoint& point, double spacing,
                            const engine::Vector3& side) const;
 
+    /// The material at a point, no_index for the default one.
+    Index material(Index part, const SurfacePoint& point) const {
+        return face_material(asset_.parts[part], point.face);
+    }
+
+    /// What a layer of the material at a point holds there, without its factors.
+    /// \param layer  one of that material's that holds no normals
+    Linear layer(Index part, const SurfacePoint& point, double spacing, const ExtensionLayer& layer) const;
+
+    /// As normal(), of a layer that holds normals.
+    engine::Vector3 layer_normal(Index part, const SurfacePoint& point, double spacing,
+                                 const engine::Vector3& side, const ExtensionLayer& layer) const;
+
     /// Texels per length at a face, those of its material's finest texture. Faces without a texture are given
     /// as many as make two texels per face of the part; those that get a normal map and have none, at least
     /// as many.
@@ -71,9 +94,14 @@ private:
     struct Surface {  // a material
         const Material* material = nullptr;
         Slot base, metallic_roughness, occlusion, emissive, normal;
+        std::vector<Slot> extensions;  // by Material::extension_textures; the first of each layer
 
-        std::array<const Slot*, 5> slots() const {
-            return {&base, &metallic_roughness, &occlusion, &emissive, &normal};
+        template <class Visit>
+        void for_each_image(const Visit& visit) const {
+            for (const Slot* slot : {&base, &metallic_roughness, &occlusion, &emissive, &normal})
+                if (slot->image) visit(*slot);
+            for (const Slot& slot : extensions)
+                if (slot.image) visit(slot);
         }
     };
     struct PartScale {
@@ -82,9 +110,15 @@ private:
         double untextured = 1;
     };
 
+    Surface surface_of(Index material, const Workers& workers);
     Slot slot(const TextureRef& use, Encoding encoding, Index material, const Workers& workers);
     void measure(const Part& part, engine::Poll poll, PartScale& scale) const;
     Linear fetch(const Slot& slot, Index part, const SurfacePoint& point, double spacing) const;
+    engine::Vector3 bent(const Slot& slot, double scale, Index part, const SurfacePoint& point,
+                         double spacing, const engine::Vector3& side) const;
+    const Surface& surface(Index part, const SurfacePoint& point) const {
+        return surface(material(part, point));
+    }
     const Surface& surface(Index material) const {
         return surfaces_[material == no_index ? surfaces_.size() - 1 : material];
     }

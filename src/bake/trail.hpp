@@ -25,9 +25,6 @@ public:
         started_ = true;
     }
 
-    /// The last answer.
-    const SurfacePoint& last() const { return last_.point; }
-
 private:
     struct Mark {
         SurfacePoint point;

@@ -47,6 +47,7 @@ constexpr double bytes_per_corner_value = 12;
 constexpr double image_libraries =
     140e6;  // come with the first image that is decoded or encoded (images/load.hpp)
 constexpr double work_per_texel = 36, held_per_texel = 8, bytes_per_origin = 24;
+constexpr double work_per_layer_texel = 9;  // of a texture of a material's extensions
 
 std::size_t kept_values(const Part& part) { return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4); }
 
@@ -65,7 +66,10 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
     const double texels = static_cast<double>(bake.texture_size) * bake.texture_size;
     const double held = held_per_texel + (bake.correspondence == Recording::on ? bytes_per_origin : 0);
     const auto pages = static_cast<double>(detail::group_materials(asset, bake.kind).groups.size());
-    return texels * (work_per_texel + held * pages);
+    std::size_t layers = 0;
+    for (const Material& material : asset.materials)
+        layers = std::max(layers, material.extension_textures.size());
+    return texels * (work_per_texel + work_per_layer_texel * static_cast<double>(layers) + held * pages);
 }
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }

@@ -137,4 +137,21 @@ inline Image small_png(std::uint8_t shade = 100) {
     return encode_png(pixels, "");
 }
 
+/// The document's JSON after loading and saving.
+inline Json through(const GltfBuilder& builder) { return json_of(saved(load_glb(builder))); }
+
+/// A material of one colour texture, with a PNG in a view of its own.
+inline void add_texture(GltfBuilder& builder, std::uint8_t shade) {
+    const auto view = builder.view(small_png(shade).encoded);
+    const auto image = builder.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+    builder.add("textures", {{"source", image}});
+}
+
+/// Two faces.
+inline Asset new_square() {
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
+    asset.parts[0].name = "square";
+    return asset;
+}
+
 }  // namespace faqem::testing
