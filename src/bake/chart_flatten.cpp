@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bake/chart_outline.hpp"
 #include "bake/chart_overlap.hpp"
 #include "faqem/engine/vector.hpp"
 
@@ -366,7 +367,7 @@ Flattening flatten(std::span<const ChartFace> all, std::vector<Index> faces, std
     }
     result.turned.clear();
     Chart chart = chart_of(patch, best, least);
-    if (!apart(chart.places, work, poll)) return result;
+    if (!apart(chart.places, work, poll) || !outline_is_clear(all, chart, work, poll)) return result;
     result.chart = std::move(chart);
     result.outcome = Flattening::Outcome::flat;
     return result;

@@ -17,7 +17,9 @@ struct Flattening {
     enum class Outcome {
         flat,
         turned,    ///< some triangles would lie on their backs: `turned`
-        overlaps,  ///< all turn the right way, but some lie on others, or it could not be told
+        /// All turn the right way, but some lie on others, or outline_is_clear() does not hold, or it could
+        /// not be told.
+        overlaps,
     };
     Outcome outcome = Outcome::overlaps;
     Chart chart;                ///< of `flat` only

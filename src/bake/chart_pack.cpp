@@ -26,13 +26,13 @@ struct Shape {
 };
 
 // Andrew's monotone chain, counter-clockwise.
-std::vector<ChartPoint> convex_hull(const Chart& chart) {
+std::vector<ChartPoint> convex_hull(const Chart& chart, engine::Poll poll) {
     std::vector<ChartPoint> points;
     for (const Flat& t : chart.places) points.insert(points.end(), t.begin(), t.end());
     const auto less = [](const ChartPoint& a, const ChartPoint& b) {
         return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
     };
-    std::sort(points.begin(), points.end(), less);
+    std::sort(points.begin(), points.end(), engine::polled_less(poll, less));
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::vector<ChartPoint> hull;
     for (int side = 0; side < 2; ++side) {
@@ -72,9 +72,9 @@ bool is_measurable(const Chart& chart) {
     });
 }
 
-Shape shape_of(const Chart& chart) {
+Shape shape_of(const Chart& chart, engine::Poll poll) {
     if (!is_measurable(chart)) return {std::vector<Flat>(chart.places.size()), 0, 0, 0};  // one texel
-    const std::vector<ChartPoint> hull = convex_hull(chart);
+    const std::vector<ChartPoint> hull = convex_hull(chart, poll);
     ChartPoint best = 1;
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -129,7 +129,7 @@ bool meets(const Flat& t, double x, double y, double half) {
     return true;
 }
 
-BlockMask mask_of(const Shape& shape, const Cut& cut) {
+BlockMask mask_of(const Shape& shape, const Cut& cut, engine::Poll poll) {
     const double grain = cut.grain;
     BlockMask mask = cut.mask;
     mask.blocks.assign(std::size_t{mask.columns} * mask.rows, 0);
@@ -137,6 +137,7 @@ BlockMask mask_of(const Shape& shape, const Cut& cut) {
         return static_cast<std::uint32_t>(std::clamp(i, 0.0, double(n - 1)));
     };
     for (const Flat& t : shape.places) {
+        poll();
         const Flat p = {cut.place(t[0]), cut.place(t[1]), cut.place(t[2])};
         Extent extent;
         for (const ChartPoint& corner : p) extent.add(corner);
@@ -154,7 +155,7 @@ BlockMask mask_of(const Shape& shape, const Cut& cut) {
     return mask;
 }
 
-Cut cut_at(const Shape& shape, double scale, std::uint32_t width, std::uint32_t height) {
+Cut cut_at(const Shape& shape, double scale, std::uint32_t width, std::uint32_t height, engine::Poll poll) {
     Cut cut{scale, scale, 1, true, {}};
     if (!(std::max(shape.width, shape.height) * scale >= 0.75)) return cut;
     cut.single = false;
@@ -172,7 +173,7 @@ Cut cut_at(const Shape& shape, double scale, std::uint32_t width, std::uint32_t 
     };
     cut.mask.columns = blocks(shape.width * cut.scale_x);
     cut.mask.rows = blocks(shape.height * cut.scale_y);
-    cut.mask = mask_of(shape, cut);
+    cut.mask = mask_of(shape, cut, poll);
     return cut;
 }
 
@@ -194,8 +195,8 @@ public:
         : width_(width), height_(height), poll_(poll) {
         cuts_.reserve(shapes.size());
         for (const Shape& shape : shapes) {
-            poll(shape.places.size());
-            cuts_.push_back(cut_at(shape, scale, width, height));
+            poll();
+            cuts_.push_back(cut_at(shape, scale, width, height, poll));
         }
     }
 
@@ -315,7 +316,7 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     double area = 0;
     for (const Chart& chart : charts) {
         poll(chart.places.size());
-        shapes.push_back(shape_of(chart));
+        shapes.push_back(shape_of(chart, poll));
         area += shapes.back().area;
     }
     std::uint32_t width = 4, height = 4;
