@@ -52,6 +52,8 @@ void validate(const Options& options) {
     const BakeOptions& bake = options.bake;
     require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
             "texture_size must be a power of two in [64, 16384]");
+    require(!bake.texel_density || (*bake.texel_density >= 0.125 && *bake.texel_density <= 8),
+            "texel_density must be in [0.125, 8]");
     require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
     require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
     require(bake.normals != Normals::none || bake.kind == Bake::none,

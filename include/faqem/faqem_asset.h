@@ -49,6 +49,8 @@ typedef enum faqem_image_format FAQEM_ENUM {
 FAQEM_API faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind);
 /** Largest side of a baked image in texels, a power of two in [64, 16384]. */
 FAQEM_API faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t texels);
+/** Texels per length, times those of the source, in [0.125, 8]. Unset: 1, and more on small pages. */
+FAQEM_API faqem_status faqem_options_set_texel_density(faqem_options* options, double factor);
 FAQEM_API faqem_status faqem_options_set_normal_map(faqem_options* options, faqem_normal_map kind);
 FAQEM_API faqem_status faqem_options_set_normals(faqem_options* options, faqem_normals kind);
 FAQEM_API faqem_status faqem_options_set_image_format(faqem_options* options, faqem_image_format format);

@@ -175,6 +175,9 @@ struct BakeOptions {
     Bake kind = Bake::automatic;
     /// Largest side of a baked image in texels, a power of two in [64, 16384].
     std::uint32_t texture_size = 2048;
+    /// Texels per length of the surface, times those of the source, in [0.125, 8]; texture_size is the limit.
+    /// Unset: 1, and up to 1.41 on small pages, where more texels cost little and less is lost to sampling anew.
+    std::optional<double> texel_density = {};
     NormalMap normal_map = NormalMap::automatic;
     Mapping mapping = Mapping::projection;
     /// Samples per texel and axis, in [1, 8]: 2 means 2 x 2.

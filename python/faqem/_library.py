@@ -61,6 +61,7 @@ _declarations = {
     "faqem_options_set_progress": (_set, [_object, Progress, c_void_p]),
     "faqem_options_set_bake": (_set, [_object, c_int]),
     "faqem_options_set_texture_size": (_set, [_object, c_uint32]),
+    "faqem_options_set_texel_density": (_set, [_object, c_double]),
     "faqem_options_set_normal_map": (_set, [_object, c_int]),
     "faqem_options_set_normals": (_set, [_object, c_int]),
     "faqem_options_set_image_format": (_set, [_object, c_int]),

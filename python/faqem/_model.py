@@ -89,7 +89,8 @@ def load(path):
 def bake(model, /, **options):
     """Simplifies a model and bakes its look anew; the model is left as it is.
 
-    options  those of simplify(), and bake, texture_size, normal_map, normals, image_format; see docs/python.md
+    options  those of simplify(), and bake, texture_size, texel_density, normal_map, normals, image_format; see
+             docs/python.md
 
     Raises OptionError, InputError, UnsupportedError, MemoryError, and what `progress` raises.
     """

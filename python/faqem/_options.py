@@ -43,7 +43,8 @@ class Options:
 
     def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, border=None,
                  group_borders=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
-                 progress=None, history=None, bake=None, texture_size=None, normal_map=None, normals=None, image_format=None):
+                 progress=None, history=None, bake=None, texture_size=None, texel_density=None,
+                 normal_map=None, normals=None, image_format=None):
         if ratio is not None and faces is not None:
             raise OptionError("ratio and faces: give one of them")
         self.object = library.faqem_options_create()
@@ -69,6 +70,8 @@ class Options:
             self._set("history", 1 if history else 0)
         if texture_size is not None:
             self._set("texture_size", whole(texture_size, "texture_size", 32))
+        if texel_density is not None:
+            self._set("texel_density", float(texel_density))
         for option, setter, name, names in [
             ("preset", "preset", preset, _presets),
             ("link", "link", link, _links),

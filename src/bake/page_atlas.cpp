@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bake/charts.hpp"
 #include "faqem/engine/vector.hpp"
@@ -129,6 +130,24 @@ std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<cons
 
 namespace {
 
+double wanted_texels(const BakeJob& job, std::span<const PageFace> faces,
+                     const std::vector<double>& density) {
+    double sum = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const auto p = corners_of(job.parts[faces[i].part].small->mesh, faces[i].face);
+        const double area = engine::area_vector(p[0], p[1], p[2]).norm() / 2;
+        if (std::isfinite(area)) sum += area * density[i] * density[i];
+    }
+    return sum;
+}
+
+// Pages below this get up to twice the texels.
+constexpr double small_page = 1 << 18;
+
+double small_page_factor(double texels) {
+    return std::clamp(std::sqrt(small_page / texels), 1.0, std::numbers::sqrt2);
+}
+
 // By face.
 std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& surface,
                                      std::span<const PageFace> faces) {
@@ -140,6 +159,10 @@ std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& su
         }
     });
     clamp_densities(job, faces, density);
+    const double factor = job.options.bake.texel_density
+                              ? *job.options.bake.texel_density
+                              : small_page_factor(wanted_texels(job, faces, density));
+    for (double& d : density) d *= factor;
     return density;
 }
 

@@ -30,6 +30,10 @@ faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t tex
     return set(options, [&](Options& o) { o.bake.texture_size = texels; });
 }
 
+faqem_status faqem_options_set_texel_density(faqem_options* options, double factor) {
+    return set(options, [&](Options& o) { o.bake.texel_density = factor; });
+}
+
 faqem_status faqem_options_set_normal_map(faqem_options* options, faqem_normal_map kind) {
     return set_enum(
         options, kind, FAQEM_NORMAL_MAP_OFF, [](Options & o) -> auto& { return o.bake.normal_map; });

@@ -45,6 +45,7 @@ constexpr std::array value_names = {
     Pair{"--seed", "N"},
     Pair{"--size", "N"},
     Pair{"--source", "FILE"},
+    Pair{"--texel-density", "X"},
     Pair{"--texture-size", "N"},
     Pair{"--textures", "each|shared"},
     Pair{"--threads", "N"},

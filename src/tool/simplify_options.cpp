@@ -151,6 +151,9 @@ void add_look_options(CLI::App& command, SimplifyArguments& a) {
         "per-triangle, vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
                        "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
+    command.add_option("--texel-density", a.options.bake.texel_density,
+                       "Texels per length of a new texture, times those of the source, 0.125 to 8 (default 1; more "
+                       "on small pages)");
     command.add_option("--normal-map", a.normal_map,
                        "Normal map of a new texture: auto (where the source has one or its normals differ; "
                        "default), on, off");
@@ -179,7 +182,7 @@ void add_level_options(CLI::App& command, SimplifyArguments& a) {
 namespace {
 
 /// What the library calls an option that begins its sentence, and what the command calls it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> option_names = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> option_names = {
     {{"target ratio", "--ratio"},
      {"max_error", "--max-error"},
      {"weights.area", "--w-area"},
@@ -191,6 +194,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> option_n
      {"virtual_edge_distance", "--virtual-edges"},
      {"prune", "--prune"},
      {"texture_size", "--texture-size"},
+     {"texel_density", "--texel-density"},
      {"crease_angle", "--normals: the angle of smooth"},
      {"normals can be left out", "--normals none: they can be left out"}}};
 
@@ -259,8 +263,8 @@ std::string options_text(const Options& o) {
         {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
         {index(t.link), index(t.border), index(t.group_borders), index(t.weld), number(t.weld_distance),
          index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
-        {index(o.bake.kind), o.bake.texture_size, index(o.bake.mapping), o.bake.samples, o.bake.crease_angle,
-         index(o.bake.normal_map), index(o.bake.normals), index(o.bake.image_format), o.bake.jpeg_quality}}
+        {index(o.bake.kind), o.bake.texture_size, number(o.bake.texel_density), index(o.bake.mapping), o.bake.samples,
+         o.bake.crease_angle, index(o.bake.normal_map), index(o.bake.normals), index(o.bake.image_format), o.bake.jpeg_quality}}
         .dump();
 }
 

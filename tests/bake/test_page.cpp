@@ -72,6 +72,19 @@ TEST_CASE("charts show the source's colours, at their seams and on coarser mip l
     }
 }
 
+TEST_CASE("however the charts are cut, no texel of another place is read at their seams") {
+    const Asset source = painted_ball();
+    const Pixels before = decode(source.images[0]);
+    const double density = GENERATE(0.82, 1.0, 1.11, 1.416, 1.46, 2.01, 2.13, 3.96);
+    Options options = of_kind(Bake::atlas, 512);
+    options.bake.texel_density = density;
+    const LightAsset light = bake(source, unchanged(source), options);
+    // The ramp rises by 180 over 64 source texels: 2.9 per texel.
+    const double texels = worst_colour(source, before, light.asset, decode(light.asset.images[0])) /
+                          (180.0 / 63) * light.report.pages[0].density;
+    CHECK(texels < 1.6);
+}
+
 TEST_CASE("charts split few vertices, and the report says what the page is like") {
     const Asset source = painted_ball();
     const SmallParts small = unchanged(source);

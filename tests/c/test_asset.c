@@ -31,6 +31,7 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(faqem_options_set_faces(options, 50) == FAQEM_OK);
     CHECK(faqem_options_set_bake(options, FAQEM_BAKE_NONE) == FAQEM_OK);
     CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);
+    CHECK(faqem_options_set_texel_density(options, 0.5) == FAQEM_OK);
     CHECK(faqem_options_set_normal_map(options, FAQEM_NORMAL_MAP_OFF) == FAQEM_OK);
     CHECK(faqem_options_set_normals(options, FAQEM_NORMALS_FLAT) == FAQEM_OK);
     CHECK(faqem_options_set_image_format(options, FAQEM_IMAGE_JPEG) == FAQEM_OK);
@@ -45,6 +46,10 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     faqem_asset* none = NULL;
     CHECK(faqem_asset_simplify(loaded, options, &none, &error) == FAQEM_ERROR_OPTION);
     CHECK(none == NULL && strstr(error.message, "texture_size") != NULL);
+    CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);
+    CHECK(faqem_options_set_texel_density(options, 0) == FAQEM_OK);
+    CHECK(faqem_asset_simplify(loaded, options, &none, &error) == FAQEM_ERROR_OPTION);
+    CHECK(none == NULL && strstr(error.message, "texel_density") != NULL);
     faqem_options_destroy(options);
     faqem_asset_destroy(loaded);
     faqem_asset_destroy(light);

@@ -96,6 +96,10 @@ TEST_CASE("baking options have their ranges") {
         CHECK(complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
               "texture_size must be a power of two in [64, 16384]");
     }
+    for (const double bad : {0.0, 0.124, 8.1, not_a_number}) {
+        CHECK(complaint([&](Options& o) { o.bake.texel_density = bad; }) ==
+              "texel_density must be in [0.125, 8]");
+    }
     for (const std::uint32_t bad : {0u, 9u}) {
         CHECK(complaint([&](Options& o) { o.bake.samples = bad; }) == "samples must be in [1, 8]");
     }
@@ -110,6 +114,7 @@ TEST_CASE("baking options have their ranges") {
     CHECK(complaint([](Options& o) {
               o.bake = {.kind = Bake::none,
                         .texture_size = 64,
+                        .texel_density = 8,
                         .mapping = Mapping::closest,
                         .samples = 8,
                         .crease_angle = 180,

@@ -34,7 +34,7 @@ class Models(unittest.TestCase):
     def test_a_model_is_baked(self):
         source = faqem.load(self.painted())
         self.assertIsNone(source.report)
-        light = faqem.bake(source, faces=50, texture_size=64, bake="per_triangle", normals="flat", normal_map="off",
+        light = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle", normals="flat", normal_map="off",
                            image_format="png")
         self.assertEqual(len(source.parts[0].triangles), 288)
         self.assertLessEqual(len(light.parts[0].triangles), 50)

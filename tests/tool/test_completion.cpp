@@ -43,7 +43,7 @@ TEST_CASE("bash completes commands, options and values") {
                                     "completion", "man"});
     CHECK(in_bash("co", 1) == Words{"compare", "completion"});
     CHECK(in_bash("--v", 1) == Words{"--version"});
-    CHECK(in_bash("simplify a.glb --tex", 3) == Words{"--texture-size"});
+    CHECK(in_bash("simplify a.glb --textu", 3) == Words{"--texture-size"});
     CHECK(in_bash("info --", 2) == Words{"--help", "--json"});
     CHECK(in_bash("simplify --preset ''", 3) == Words{"qem", "paper", "stmw", "fast", "balanced", "best"});
     CHECK(in_bash("batch models light --format g", 5) == Words{"glb", "gltf"});
