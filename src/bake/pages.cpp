@@ -17,6 +17,7 @@ namespace {
 // One group's faces and page.
 struct GroupPage {
     std::string name;
+    Index material = no_index;  // the group's first
     Channels channels;
     std::vector<PageFace> faces;
     std::vector<ExtensionLayer> layers;
@@ -50,6 +51,7 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
     std::vector<GroupPage> pages(groups.groups.size());
     for (std::size_t g = 0; g < pages.size(); ++g) {
         pages[g].name = groups.groups[g].material.name;
+        pages[g].material = groups.groups[g].materials.front();
         pages[g].channels = needed_channels(job.source, groups.groups[g]);
         std::vector<ExtensionLayer>& layers = pages[g].layers;
         layers = extension_layers(groups.groups[g].material);
@@ -103,6 +105,10 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
     return result;
 }
 
+// Pages with a smaller share of the source's texels per length are told of: mostly a tiled texture that no page
+// could hold.
+constexpr double coarse_page = 0.2;
+
 // Texels per length: of the page over the source's, both root mean squares over the small surface.
 double relative_density(const BakeJob& job, const SourceSurface& surface, const GroupPage& page) {
     const Poll poll = job.poll();
@@ -136,6 +142,11 @@ void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& 
     baked.density = relative_density(job, surface, page);
     baked.samples = images.samples;
     baked.uncertain_texels = images.uncertain_texels;
+    if (baked.density > 0 && baked.density < coarse_page * job.options.bake.texel_density.value_or(1)) {
+        const std::string side = std::to_string(std::lround(1 / baked.density));
+        job.warn("atlas of " + material_title(job.source, page.material) + ": one texel for " + side + " x " +
+                 side + " of the source's; texture_size is " + std::to_string(job.options.bake.texture_size));
+    }
     job.result.report.pages.push_back(std::move(baked));
     if (page.atlas->summary.faces_alone > 0) {
         job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +

@@ -117,6 +117,25 @@ TEST_CASE("a page has as many texels per length as are asked for, beside those o
     }
 }
 
+TEST_CASE("a page much coarser than the source is told of, unless that was asked for") {
+    // Tiled ten times each way.
+    Asset asset = textured_square(ramp(128));
+    asset.materials[0].base_color_texture.wrap_u = asset.materials[0].base_color_texture.wrap_v =
+        Wrap::repeat;
+    for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {10 * uv[0], 10 * uv[1]};
+    Options options;
+    options.bake.texture_size = 128;
+    const LightAsset light = bake(asset, unchanged(asset), options);
+    REQUIRE(light.report.warnings.size() == 1);
+    CHECK(light.report.warnings[0] ==
+          "atlas of material 'paint': one texel for 11 x 11 of the source's; texture_size is 128");
+    options.bake.texel_density = 0.125;
+    CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
+    options.bake.texture_size = 2048;
+    options.bake.texel_density.reset();
+    CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
+}
+
 TEST_CASE("where nothing is asked for, small pages are finer than the source, and large ones are not") {
     const auto density = [](std::uint32_t side, std::optional<double> asked) {
         const Asset asset = textured_square(ramp(side));
