@@ -106,7 +106,7 @@ public:
             for (std::uint32_t x = 0; x < tile.width; ++x) {
                 const std::size_t first = (std::size_t{y} * tile.width * samples_ + x) * samples_;
                 if (owned.owners[first] == TileOwners::none) continue;
-                poll(samples_ * samples_);
+                poll(std::uint64_t{samples_} * samples_);
                 Texel sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -153,7 +153,7 @@ private:
     void bake_texels(const AtlasCell& cell, Poll poll, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
             for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-                poll(samples_ * samples_);
+                poll(std::uint64_t{samples_} * samples_);
                 Texel sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -247,7 +247,7 @@ private:
         for (std::size_t i = 0; i < known_.size(); ++i) {
             if (i % texels_per_poll == 0) poll(texels_per_poll / 16);
             images_.texels += known_[i];
-            history += known_[i] * (samples_ * samples_ - relaxed_[i] - closest_[i]);
+            history += known_[i] * (std::uint64_t{samples_} * samples_ - relaxed_[i] - closest_[i]);
             relaxed += relaxed_[i];
             closest += closest_[i];
             images_.uncertain_texels += relaxed_[i] + closest_[i] > 0;
