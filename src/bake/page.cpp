@@ -126,18 +126,18 @@ public:
         count_samples();
         struct Filled {
             Pixels& image;
-            const std::vector<std::uint8_t>& known;
+            const std::vector<std::uint8_t>&known, &known_alpha;
         };
-        std::vector<Filled> all = {{images_.base, images_.base.has_alpha ? opaque_ : known_},
-                                   {images_.occlusion_roughness_metallic, known_},
-                                   {images_.emissive, known_},
-                                   {images_.normal, known_}};
-        for (Pixels& layer : images_.layers) all.push_back({layer, own_});
+        std::vector<Filled> all = {{images_.base, images_.base.has_alpha ? opaque_ : known_, known_},
+                                   {images_.occlusion_roughness_metallic, known_, known_},
+                                   {images_.emissive, known_, known_},
+                                   {images_.normal, known_, known_}};
+        for (Pixels& layer : images_.layers) all.push_back({layer, own_, own_});
         parallel_blocks(all.size(), 1, job_.workers(), [&](std::size_t i, std::size_t, Poll poll) {
-            auto& [image, known] = all[i];
+            auto& [image, known, known_alpha] = all[i];
             if (image.rgba.empty()) return;
             push_pull(image, known, {0, 3}, poll);
-            if (image.has_alpha) push_pull(image, i == 0 ? known_ : known, {3, 4}, poll);
+            if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, poll);
         });
         return std::move(images_);
     }

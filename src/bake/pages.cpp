@@ -16,7 +16,6 @@ namespace {
 
 // One group's faces and page.
 struct GroupPage {
-    std::string name;
     Index material = no_index;  // the group's first
     Channels channels;
     std::vector<PageFace> faces;
@@ -50,7 +49,6 @@ Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
 std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& groups) {
     std::vector<GroupPage> pages(groups.groups.size());
     for (std::size_t g = 0; g < pages.size(); ++g) {
-        pages[g].name = groups.groups[g].material.name;
         pages[g].material = groups.groups[g].materials.front();
         pages[g].channels = needed_channels(job.source, groups.groups[g]);
         std::vector<ExtensionLayer>& layers = pages[g].layers;
@@ -137,7 +135,7 @@ void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& 
     const Atlas& atlas = page.atlas->atlas;
     const Index material = static_cast<Index>(job.result.asset.materials.size());
     BakedPage baked = page.atlas->summary;
-    baked.material = page.name;
+    baked.material = material_or_default(job.source, page.material).name;
     baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
     baked.density = relative_density(job, surface, page);
     baked.samples = images.samples;
@@ -200,11 +198,11 @@ bool bake_pages(BakeJob& job) {
         const Material& first = groups.groups[g].material;
         PageImages images;
         if (page.atlas) {
-            images = bake_page(
-                job, surface,
-                {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across, page.faces,
-                 tangents, page.channels, first.alpha_mode, page.layers, groups.groups[g].materials.front()},
-                done, pieces);
+            images =
+                bake_page(job, surface,
+                          {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
+                           page.faces, tangents, page.channels, first.alpha_mode, page.layers, page.material},
+                          done, pieces);
             done += static_cast<double>(page.atlas->pieces());
         }
         if (page.atlas) add_to_report(job, surface, page, images);
