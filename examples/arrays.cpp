@@ -41,7 +41,7 @@ int main(int argc, char** argv) try {
     for (const faqem::Index v : out.vertex_origin) on_border += locks[v];
     std::cout << out.report.faces_in << " faces, now " << out.report.faces_out << "; " << on_border
               << " vertices on the border; " << name(out.report.stop) << "\n";
-    return on_border == 4 * (side - 1) ? 0 : 1;
+    return on_border == std::size_t{4} * (side - 1) ? 0 : 1;
 } catch (const std::exception& error) {
     std::cerr << "arrays: " << error.what() << "\n";
     return 1;

@@ -36,6 +36,7 @@ int main(int argc, char** argv) try {
         std::cerr << "warning: " << lost << "\n";
 
     std::vector<faqem::CollapseHistory> histories;
+    histories.reserve(levels.size());
     for (const faqem::SmallPartsLevel& level : levels) histories.push_back(level.result.parts[0].history);
     const std::uint64_t wanted = (histories[0].kept_faces.size() + histories[1].kept_faces.size()) / 2;
     const faqem::SimplifyResult cut = faqem::restore(faqem::cut_to(faqem::join(histories), wanted));

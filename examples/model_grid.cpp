@@ -65,8 +65,9 @@ void paint(const Placed& c, faqem::Pixels& texture) {
         for (int x = -gutter; x < c.width + gutter; ++x) {
             Vec3 sum = {};
             for (int k = 0; k < samples * samples; ++k) {
-                const double u = std::clamp((x + (k % samples + 0.5) / samples) / c.width, 0.0, 1.0);
-                const double v = std::clamp((y + (k / samples + 0.5) / samples) / c.height, 0.0, 1.0);
+                const int column = k % samples, row = k / samples;
+                const double u = std::clamp((x + (column + 0.5) / samples) / c.width, 0.0, 1.0);
+                const double v = std::clamp((y + (row + 0.5) / samples) / c.height, 0.0, 1.0);
                 const double s = chart.first_column + u * (chart.last_column - chart.first_column);
                 const double t = chart.last_row + v * (chart.first_row - chart.last_row);
                 sum = add(sum, c.grid->paint(s / c.grid->columns, t / c.grid->rows));

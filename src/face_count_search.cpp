@@ -36,7 +36,7 @@ double FaceCountSearch::guess() const {
         if (error <= 0) return std::log(1e-6);
         return error <= 1e6 * allowed_ ? std::log(std::max(error / allowed_, 1e-6)) : std::log(1e6);
     };
-    double at = low;
+    double at;
     if (good_.error && bad_.error) {
         const double g = excess(*good_.error), b = excess(*bad_.error);
         double share = high - low > last_width_ / 2 ? 0.5 : g / (g - b);

@@ -142,8 +142,8 @@ void drop_collapsed(Prepared& out) {
 // back stay.
 void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
     struct Rest {
-        Index second, third, group, face;  // of a face whose smallest corner is known
-        auto operator<=>(const Rest&) const = default;
+        Index second, third, group, face;               // of a face whose smallest corner is known
+        auto operator<=>(const Rest&) const = default;  // NOLINT(modernize-use-nullptr)
     };
     std::vector<std::size_t> place(out.positions.size() + 1, 0);
     const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };

@@ -103,7 +103,7 @@ public:
     /// Swaps edges where that helps. \pre settle()
     std::vector<EdgeSwap> swap_edges(std::span<const Index> groups) {
         if (gaps_.empty()) return {};
-        const std::vector<EdgeSwap> better =
+        std::vector<EdgeSwap> better =
             better_edges({positions_, triangles_, fixed_, groups}, original_, gaps_.back(), gaps_.corners(),
                          area(original_.mesh), workers_);
         std::vector<std::uint8_t> swapped(triangles_.size(), 0);

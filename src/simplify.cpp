@@ -32,7 +32,6 @@ namespace {
 // Up to which the queue is exact.
 constexpr std::size_t few_pairs = 1 << 17;
 
-using detail::Stopwatch;
 using engine::Complex;
 using engine::Poll;
 using engine::Vector3;
@@ -283,8 +282,8 @@ private:
         engine::PairTable pairs(complex, extra, poll_);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
-            work.wedges =
-                engine::Wedges(complex, {ground_.now().per_face<float>(values, 3 * width), width}, poll_);
+            work.wedges = engine::Wedges(
+                complex, {ground_.now().per_face<float>(values, std::size_t{3} * width), width}, poll_);
         }
         work.locked = ground_.locked();
         if (options_.topology.group_borders == GroupBorders::kept) {

@@ -145,6 +145,7 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
                 edges.end());
     if (edges.size() > points.vertices.size()) edges.resize(points.vertices.size());
     std::vector<std::pair<Index, Index>> result;
+    result.reserve(edges.size());
     for (const Edge& edge : edges) result.emplace_back(edge.a, edge.b);
     std::sort(result.begin(), result.end());
     return result;

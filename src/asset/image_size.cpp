@@ -10,8 +10,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t jpeg_pixels_per_byte = 8 * 64;
-constexpr std::uint64_t webp_pixels_per_byte = 4096, webp_always = 4096 * 4096;
+constexpr std::uint64_t jpeg_pixels_per_byte = 512;  // eight blocks of 8 x 8
+constexpr std::uint64_t webp_pixels_per_byte = 4096, webp_always = 1 << 24;
 
 /// An unsigned number of some bytes. \pre they are there
 std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t size) {

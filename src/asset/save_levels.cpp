@@ -83,7 +83,7 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
     check(levels);
     const std::size_t parts = levels[0].asset.parts.size();
     detail::LeveledAsset leveled;
-    leveled.parts = std::max<std::size_t>(parts, 1);
+    leveled.parts = parts;
     for (std::size_t p = 0; p < parts; ++p) leveled.coverage.push_back(coverage_of(levels, p));
     leveled.asset = std::move(levels[0].asset);
     for (std::size_t i = 1; i < levels.size(); ++i) add(leveled.asset, std::move(levels[i].asset));

@@ -219,7 +219,7 @@ private:
     struct Spot {
         std::uint64_t curve;
         std::uint32_t x, y;
-        auto operator<=>(const Spot&) const = default;
+        auto operator<=>(const Spot&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
     std::span<const AtlasTriangle> triangles_;

@@ -40,6 +40,7 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
             asset->asset, c::levels_of(levels, level_count), c::options_or_defaults(options),
             textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
         std::vector<std::unique_ptr<faqem_asset>> made;
+        made.reserve(light.size());
         for (LightLevel& level : light)
             made.push_back(std::make_unique<faqem_asset>(std::move(level.result), level.error));
         for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();

@@ -89,6 +89,7 @@ void write_histories(const Arguments& a, const std::vector<SmallPartsLevel>& lev
     std::ostringstream out;
     for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
         std::vector<CollapseHistory> histories;
+        histories.reserve(levels.size());
         for (const SmallPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
         write(join(histories), out);
     }

@@ -121,7 +121,7 @@ Eigen::Vector4f sample(const Texture& texture, const TextureRef& use, const Eige
     const double clamped = lod > 0 ? std::min(lod, last) : 0;
     const auto level = static_cast<std::size_t>(clamped);
     const auto t = static_cast<float>(clamped - static_cast<double>(level));
-    const Eigen::Vector4f fine = bilinear(texture, texture.levels[level], use, uv);
+    Eigen::Vector4f fine = bilinear(texture, texture.levels[level], use, uv);
     if (!(t > 0)) return fine;
     return (1 - t) * fine + t * bilinear(texture, texture.levels[level + 1], use, uv);
 }

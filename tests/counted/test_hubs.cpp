@@ -72,7 +72,8 @@ double steps_tracked(const TriangleMesh& mesh) {
     const LoopOptions loop = to_a_tenth(complex);
     const std::uint64_t before = test::steps();
     TrackedMetric metric({}, original.surface, original.lineage, loop.target_faces, loop.distance_weight);
-    CHECK(run(complex, std::move(metric)).stop == StopReason::reached_target);
+    const LoopResult result = run(complex, std::move(metric));
+    CHECK(result.stop == StopReason::reached_target);
     return static_cast<double>(test::steps() - before) / static_cast<double>(mesh.triangles.size());
 }
 

@@ -36,7 +36,7 @@ TriangleMesh shape(Random& random, double size, std::string& story) {
             return test::fan(20 * n);
         case 6:
             story = "soup";
-            return test::soup(random.below(1000), 10 * n, static_cast<std::size_t>(20) * n);
+            return test::soup(random.below(1000), std::size_t{10} * n, std::size_t{20} * n);
         case 7: {
             story = "boxes";
             TriangleMesh all;
@@ -153,7 +153,8 @@ void unweld(TriangleMesh& mesh, Random& random) {
 }
 
 void noise(TriangleMesh& mesh, Random& random) {
-    mesh = test::shaken(std::move(mesh), diagonal(mesh) * power(random, -8, -1.5), random.below(1000));
+    const double by = diagonal(mesh) * power(random, -8, -1.5);
+    mesh = test::shaken(std::move(mesh), by, random.below(1000));
 }
 
 // Single vertices far away, as bad depths leave them.

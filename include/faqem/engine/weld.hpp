@@ -94,7 +94,8 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
         const Vec3 cell = cell_of(positions[v]);
         Index found = no_index;
         for (int i = 0; i < 27; ++i) {
-            const Vec3 beside = {cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1};
+            const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
+            const Vec3 beside = {cell[0] + dx, cell[1] + dy, cell[2] + dz};
             for (Index w = *head_of(beside); w != no_index; w = following[w]) {
                 if (w < found && near(v, w)) found = w;
             }
