@@ -34,7 +34,7 @@ TEST_CASE("a plain node gets its levels beside it, and the scene shows the first
     const std::string glb = saved_levels(three_levels(load_glb(square_gltf())));
     const Json json = json_of(glb);
     REQUIRE(json["nodes"].size() == 3);
-    CHECK(json["scenes"][0]["nodes"] == Json({0}));
+    CHECK(json["scenes"][0]["nodes"] == Json::array({0}));
     CHECK(json["nodes"][0]["mesh"] == 0);
     CHECK(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == Json({1, 2}));
     CHECK(json["nodes"][0]["extras"]["MSFT_screencoverage"] == Json({0.5, 0.25, 0.0}));
