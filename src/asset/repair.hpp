@@ -18,7 +18,7 @@ std::string counted(std::uint64_t count, const std::string& noun);
 
 /// \throws InputError  when there are more than max_index_count
 /// \param element  what in the file is counted, e.g. `vertex`
-void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
+FAQEM_EXPORT void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
 
 /// Drops the faces at vertices with a non-finite position, and those vertices; resets other non-finite
 /// numbers (normal to zero, UV to zero, colour to white). Adds one counted warning for each kind.
