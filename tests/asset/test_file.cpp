@@ -181,6 +181,7 @@ TEST_CASE("a signal handler can remove the temporary file of a write under way",
     }
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
+    place = nullptr;
     CHECK(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 0);
 }

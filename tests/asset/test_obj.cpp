@@ -145,7 +145,9 @@ TEST_CASE("errors after continued lines name the right line", "[obj]") {
 }
 
 TEST_CASE("a line of ten megabytes is read", "[obj]") {
-    std::string text = "v 0 0 0\n#" + std::string(10'000'000, 'x') + "\n";
+    std::string text = "v 0 0 0\n#";
+    text.append(10'000'000, 'x');
+    text += '\n';
     const int n = 100'000;
     text += "v 1 0 0\nv 1 1 0\nf";
     for (int i = 0; i < n; ++i) text += " 1 2 3" + std::string(94, i % 2 ? ' ' : '\t');

@@ -116,7 +116,7 @@ TEST_CASE("every level of a textured asset has a texture of its own") {
     const auto levels = simplify_levels(asset, {ratio(0.5), ratio(0.1)}, options);
     REQUIRE(levels.size() == 2);
     for (const LightLevel& level : levels) {
-        CHECK(level.result.asset.images.size() >= 1);
+        CHECK_FALSE(level.result.asset.images.empty());
         CHECK(level.result.report.pages.size() == 1);
     }
     CHECK(levels[0].result.report.faces_out > levels[1].result.report.faces_out);
