@@ -72,7 +72,7 @@ private:
     template <class Scalar>
     static double read(const std::byte* at) {
         Scalar value;
-        std::memcpy(&value, at, sizeof value);
+        std::memcpy(&value, at, sizeof value);  // NOLINT(clang-analyzer-core.NonNullParamChecker): i < size()
         return value;
     }
 

@@ -66,7 +66,7 @@ TEST_CASE("a batch makes of every model what simplify makes of it, in the same t
         CHECK(line["result"] == out);
         CHECK(line["status"] == "done");
         CHECK(line["code"] == 0);
-        CHECK(line["message"] == "");
+        CHECK(line["message"].get<std::string>().empty());
         CHECK(line["seconds"] >= 0.0);
         CHECK(line["faces_out"] > 0);
         CHECK(line["faces_out"].get<int>() * 2 <= line["faces_in"].get<int>());
