@@ -196,6 +196,14 @@ Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     }
 }
 
+Bvh::Ray::Ray(const Query& from, const Vector3& direction) : origin(from) {
+    for (int i = 0; i < 3; ++i) {
+        const auto x = static_cast<float>(direction[i]);
+        constexpr float least = 1e-18f;
+        inverse[static_cast<std::size_t>(i)] = 1 / (std::abs(x) >= least ? x : std::copysign(least, x));
+    }
+}
+
 float Bvh::limit_in_frame(double distance_squared) const {
     return static_cast<float>(distance_squared * frame_.scale * frame_.scale * (1 + 1e-6)) +
            std::numeric_limits<float>::min();

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Exact closest points on a triangle mesh by a tree of boxes. Own code, because CGAL's AABB tree is GPL,
-/// Embree computes in single precision, and no other library with exact double distances is packaged.
+/// Exact closest points on a triangle mesh, and what a ray meets, by a tree of boxes. Own code, because CGAL's
+/// AABB tree is GPL, Embree computes in single precision, and no other library with exact double distances is
+/// packaged.
 
 #include <array>
 #include <cstdint>
@@ -85,6 +86,18 @@ public:
     template <class Visit>
     void visit_within(const Vec3& p, double distance_squared, Visit&& visit) const;
 
+    /// Which side of a triangle a ray comes from: seen from the front its corners go counter-clockwise.
+    enum class Side { front, back };
+
+    /// Whether a ray meets a triangle that counts; edges and corners are of the triangle. One that the ray
+    /// lies in is not met.
+    /// \param origin     finite; the ray goes on without end
+    /// \param direction  finite, of about unit length
+    /// \param counts     (face, Side) -> bool, asked for triangles that are met
+    /// O(log n) typically. Source: Moeller and Trumbore 1997
+    template <class Counts>
+    bool meets(const Vec3& origin, const Vec3& direction, Counts&& counts) const;
+
 private:
     using Vector3 = engine::Vector3;
     static constexpr int width = 4;
@@ -103,6 +116,13 @@ private:
         std::array<float, 3> low, high;
     };
 
+    /// A ray in the frame.
+    struct Ray {
+        Ray(const Query& from, const Vector3& direction);
+        Query origin;
+        std::array<float, 3> inverse;  ///< of the direction; large where that is zero
+    };
+
     /// The boxes of up to four children, rounded outwards.
     struct Node {
         std::array<Lanes, 3> low, high;
@@ -115,6 +135,20 @@ private:
                 sum += (low[i] - p.high[i]).max(p.low[i] - high[i]).max(0.0f).square();
             }
             return sum * (1 - 1e-6f);
+        }
+        /// Which of the children's boxes a ray goes through; by rounding some that it passes by.
+        Eigen::Array<bool, width, 1> on_way(const Ray& ray) const {
+            Lanes enter = Lanes::Zero(), leave = Lanes::Constant(std::numeric_limits<float>::max());
+            for (std::size_t i = 0; i < 3; ++i) {
+                const bool up = ray.inverse[i] > 0;
+                const Lanes& entry = up ? low[i] : high[i];
+                const Lanes& exit = up ? high[i] : low[i];
+                const float far = up ? ray.origin.high[i] : ray.origin.low[i];
+                const float near = up ? ray.origin.low[i] : ray.origin.high[i];
+                enter = enter.max((entry - far) * ray.inverse[i]);
+                leave = leave.min((exit - near) * ray.inverse[i]);
+            }
+            return enter <= leave * (1 + 1e-6f);
         }
     };
     struct Corners {
@@ -215,6 +249,41 @@ void Bvh::visit_within(const Vec3& p, double distance_squared, Visit&& visit) co
             const ClosestPoint hit = closest_point_on_triangle(query, t.a, t.b, t.c);
             if (hit.distance_squared <= distance_squared) visit(t.face, hit);
         });
+}
+
+template <class Counts>
+bool Bvh::meets(const Vec3& origin, const Vec3& direction, Counts&& counts) const {
+    if (nodes_.empty()) return false;
+    const Vector3 from = engine::to_eigen(origin), way = engine::to_eigen(direction);
+    const Ray ray(Query(from, frame_), way);
+    const auto counts_where_met = [&](const Corners& t) {
+        const Vector3 e = t.b - t.a, g = t.c - t.a, h = way.cross(g), s = from - t.a;
+        const double determinant = e.dot(h), sign = determinant < 0 ? -1 : 1;
+        const double size = sign * determinant;
+        if (!(size > 0)) return false;
+        const double u = sign * s.dot(h);
+        if (!(u >= 0 && u <= size)) return false;
+        const Vector3 q = s.cross(e);
+        const double v = sign * way.dot(q);
+        if (!(v >= 0 && u + v <= size)) return false;
+        return sign * g.dot(q) > 0 && counts(t.face, determinant > 0 ? Side::front : Side::back);
+    };
+    std::array<std::uint32_t, (width - 1) * max_depth + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const std::uint32_t top = stack[--size];
+        if (top & leaf_bit) {
+            if (counts_where_met(triangles_[top & ~leaf_bit])) return true;
+            continue;
+        }
+        const Node& node = nodes_[top];
+        const Eigen::Array<bool, width, 1> on_way = node.on_way(ray);
+        for (std::uint32_t k = 0; k < node.count; ++k) {
+            if (on_way[k]) stack[size++] = node.child[k];
+        }
+    }
+    return false;
 }
 
 }  // namespace faqem::detail

@@ -33,6 +33,9 @@ void validate(const Options& options) {
         require(options.max_error->value > 0 && std::isfinite(options.max_error->value),
                 "max_error must be finite and > 0");
     }
+    require(options.visibility == Visibility::ignored || !options.max_error ||
+                options.target.kind != Target::Kind::unset,
+            "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
     require_weight(options.weights.area, "area");
     require_weight(options.weights.boundary, "boundary");
     require_weight(options.weights.normal, "normal");

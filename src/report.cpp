@@ -75,6 +75,7 @@ std::string to_json(const Report& report) {
     json["components_deleted"] = report.components_deleted;
     json["components_pruned"] = report.components_pruned;
     json["faces_pruned"] = report.faces_pruned;
+    json["vertices_hidden"] = report.vertices_hidden;
     json["vertices_relaxed"] = report.vertices_relaxed;
     json["edges_swapped"] = report.edges_swapped;
     json["virtual_edges"] = report.virtual_edges;

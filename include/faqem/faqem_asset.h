@@ -46,6 +46,13 @@ typedef enum faqem_image_format FAQEM_ENUM {
     FAQEM_IMAGE_SOURCE = 2
 } faqem_image_format;
 
+/** Whether what is hidden from outside counts less, see faqem::Visibility. */
+typedef enum faqem_visibility FAQEM_ENUM {
+    FAQEM_VISIBILITY_IGNORED = 0,
+    FAQEM_VISIBILITY_WEIGHS = 1
+} faqem_visibility;
+
+FAQEM_API faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility);
 FAQEM_API faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind);
 /** Largest side of a baked image in texels, a power of two in [64, 16384]. */
 FAQEM_API faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t texels);

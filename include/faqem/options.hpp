@@ -123,6 +123,12 @@ enum class Budget {
     mesh,   ///< in proportion to each mesh's faces
 };
 
+/// Whether what is hidden from outside counts less; used by the asset door only. See docs/method.md.
+enum class Visibility {
+    ignored,
+    weighs,  ///< errors count by how much of the surface around them can be seen from outside the scene
+};
+
 /// Whether the collapse history is kept. Off costs nothing.
 enum class Recording { off, on };
 
@@ -196,6 +202,7 @@ struct BakeOptions {
 struct Options {
     Target target = {};
     Budget budget = Budget::scene;
+    Visibility visibility = Visibility::ignored;
     /// Without a target: the result is the smallest mesh found within this distance. With one: the target is
     /// run, and Report::max_error tells whether it is within. What counts is the proven bound, not the value.
     std::optional<MaxError> max_error = {};

@@ -99,6 +99,7 @@ struct Report {
     std::uint64_t components_deleted = 0;
     std::uint64_t components_pruned = 0;  ///< deleted at the start, as Topology::prune says
     std::uint64_t faces_pruned = 0;       ///< faces of these
+    std::uint64_t vertices_hidden = 0;    ///< of the input, that nothing outside sees (Options::visibility)
     std::uint64_t vertices_relaxed = 0;   ///< moved in the end to come closer to the original (preset best)
     std::uint64_t edges_swapped = 0;      ///< in the end, for the same reason (preset best)
     std::uint64_t virtual_edges = 0;

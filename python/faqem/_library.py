@@ -59,6 +59,7 @@ _declarations = {
     "faqem_options_set_history": (_set, [_object, c_int]),
     "faqem_options_set_threads": (_set, [_object, c_uint32]),
     "faqem_options_set_progress": (_set, [_object, Progress, c_void_p]),
+    "faqem_options_set_visibility": (_set, [_object, c_int]),
     "faqem_options_set_bake": (_set, [_object, c_int]),
     "faqem_options_set_texture_size": (_set, [_object, c_uint32]),
     "faqem_options_set_texel_density": (_set, [_object, c_double]),

@@ -8,6 +8,7 @@ from .errors import OptionError
 _presets = ["qem", "paper", "stmw", "fast", "balanced", "best"]
 _links = ["as_preset", "off", "by_size", "on", "strict"]
 _borders = ["free", "kept"]
+_visibilities = ["ignored", "weighs"]
 _bakes = ["automatic", "atlas", "per_triangle", "vertex", "keep", "none"]
 _normal_maps = ["automatic", "on", "off"]
 _normals = ["transfer", "smooth", "flat", "none"]
@@ -43,7 +44,7 @@ class Options:
 
     def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, border=None,
                  group_borders=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
-                 progress=None, history=None, bake=None, texture_size=None, texel_density=None,
+                 progress=None, history=None, visibility=None, bake=None, texture_size=None, texel_density=None,
                  normal_map=None, normals=None, image_format=None):
         if ratio is not None and faces is not None:
             raise OptionError("ratio and faces: give one of them")
@@ -77,6 +78,7 @@ class Options:
             ("link", "link", link, _links),
             ("border", "border", border, _borders),
             ("group_borders", "group_border", group_borders, _borders),
+            ("visibility", "visibility", visibility, _visibilities),
             ("bake", "bake", bake, _bakes),
             ("normal_map", "normal_map", normal_map, _normal_maps),
             ("normals", "normals", normals, _normals),

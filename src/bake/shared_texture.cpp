@@ -36,6 +36,7 @@ void count_from_original(Report& report, const Report& before) {
     report.components_deleted += before.components_deleted;
     report.components_pruned += before.components_pruned;
     report.faces_pruned += before.faces_pruned;
+    report.vertices_hidden = before.vertices_hidden;
     report.vertices_relaxed += before.vertices_relaxed;
     report.edges_swapped += before.edges_swapped;
     report.virtual_edges += before.virtual_edges;

@@ -11,10 +11,12 @@
 #include "bake/parts_run.hpp"
 #include "bake/parts_within_error.hpp"
 #include "bake/scene_size.hpp"
+#include "bake/visibility.hpp"
 #include "cost_curve.hpp"
 #include "faqem/bake.hpp"
 #include "run.hpp"
 #include "target.hpp"
+#include "within_error.hpp"
 
 namespace faqem {
 namespace {
@@ -77,11 +79,13 @@ struct PartInput {
     CornerAttributes attributes;
     MeshView view;
 
-    PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake)
+    PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake,
+              std::span<const float> weights)
         : groups(face_groups(part, material_groups)) {
         if (material_groups) groups = detail::set_looks_apart(part, std::move(groups));
         if (bake == Bake::keep) attributes = corner_attributes(part);
-        view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {}};
+        view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {},
+                weights};
     }
     PartInput(const PartInput&) = delete;
 };
@@ -106,6 +110,7 @@ public:
             level.parts.resize(source_.parts.size());
             level.report.preset = options_.preset;
         }
+        if (options_.visibility == Visibility::weighs) look();
         const std::vector<std::vector<std::uint64_t>> share = shares(targets);
         for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
             own.history = Recording::on;
@@ -126,6 +131,21 @@ public:
     }
 
 private:
+    void look() try {
+        const detail::Stopwatch watch;
+        const detail::AskMeanwhile meanwhile(options_, 0);
+        detail::SeenShares seen = detail::seen_shares(source_, {options_.threads, meanwhile.poll()});
+        weights_ = std::move(seen.weights);
+        const std::string warning = detail::visibility_warning(source_);
+        for (SmallParts& level : small_) {
+            level.report.vertices_hidden = seen.hidden;
+            if (!warning.empty()) level.report.warnings.push_back(warning);
+        }
+        small_.front().report.seconds.simplify += watch.seconds();
+    } catch (const engine::Cancelled&) {
+        is_cancelled_ = true;
+    }
+
     // Per part and target; none of a part is above the one before it.
     std::vector<std::vector<std::uint64_t>> shares(std::span<const std::uint64_t> targets) {
         const detail::Stopwatch watch;
@@ -144,7 +164,7 @@ private:
                 result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
         }
         curves_.clear();
-        small_.front().report.seconds.simplify = watch.seconds();
+        small_.front().report.seconds.simplify += watch.seconds();
         return result;
     }
 
@@ -184,7 +204,8 @@ private:
                 };
             }
             const auto& groups = keeps_groups() ? std::nullopt : groups_;
-            work(p, PartInput(part, groups, options_.bake.kind).view, own);
+            const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
+            work(p, PartInput(part, groups, options_.bake.kind, weights).view, own);
             done_ += size;
         }
     }
@@ -196,9 +217,10 @@ private:
     std::vector<detail::CostCurve> curves_;
     bool is_cancelled_ = false;
     detail::SceneSize size_;
-    double faces_ = 0;   // of all parts
-    double done_ = 0;    // faces that were worked on
-    double passes_ = 1;  // how often each is
+    std::vector<std::vector<float>> weights_;  // by part; empty: the same everywhere
+    double faces_ = 0;                         // of all parts
+    double done_ = 0;                          // faces that were worked on
+    double passes_ = 1;                        // how often each is
 };
 
 }  // namespace

@@ -8,6 +8,8 @@ using faqem::c::same;
 using faqem::c::set;
 using faqem::c::set_enum;
 
+static_assert(same(FAQEM_VISIBILITY_IGNORED, Visibility::ignored) &&
+              same(FAQEM_VISIBILITY_WEIGHS, Visibility::weighs));
 static_assert(same(FAQEM_BAKE_AUTOMATIC, Bake::automatic) && same(FAQEM_BAKE_ATLAS, Bake::atlas) &&
               same(FAQEM_BAKE_PER_TRIANGLE, Bake::per_triangle) && same(FAQEM_BAKE_VERTEX, Bake::vertex) &&
               same(FAQEM_BAKE_KEEP, Bake::keep) && same(FAQEM_BAKE_NONE, Bake::none));
@@ -20,6 +22,11 @@ static_assert(same(FAQEM_IMAGE_PNG, ImageFormat::png) && same(FAQEM_IMAGE_JPEG, 
               same(FAQEM_IMAGE_SOURCE, ImageFormat::source));
 
 }  // namespace
+
+faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility) {
+    return set_enum(
+        options, visibility, FAQEM_VISIBILITY_WEIGHS, [](Options & o) -> auto& { return o.visibility; });
+}
 
 faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind) {
     return set_enum(

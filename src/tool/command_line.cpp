@@ -52,6 +52,7 @@ constexpr std::array value_names = {
     Pair{"--tolerance", "T"},
     Pair{"--views", "N"},
     Pair{"--virtual-edges", "TAU"},
+    Pair{"--visibility", "ignored|weighs"},
     Pair{"--w-area", "W"},
     Pair{"--w-boundary", "W"},
     Pair{"--w-normal", "W"},

@@ -42,6 +42,7 @@ double work_per_face(const Options& options) {
 }
 
 constexpr double held_per_face = 250;  // the history, and what baking finds its way with
+constexpr double looking_per_face = 400;  // of all instances: --visibility, before anything else
 constexpr double search_factor = 1.3;  // --max-error: the best mesh so far, and what measures it
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_libraries =
@@ -72,6 +73,13 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
     return texels * (work_per_texel + work_per_layer_texel * static_cast<double>(layers) + held * pages);
 }
 
+double faces_shown(const Asset& asset) {
+    double faces = 0;
+    for (const Instance& instance : instances(asset))
+        faces += static_cast<double>(asset.parts[instance.part].triangles.size());
+    return faces;
+}
+
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
 
 }  // namespace
@@ -99,6 +107,8 @@ std::uint64_t predicted_peak(const Asset& asset, const Options& options) {
     double work = held_per_face * all + work_per_face(options) * largest;
     if (options.bake.kind == Bake::keep) work += bytes_per_corner_value * values;
     if (options.max_error) work *= search_factor;
+    if (options.visibility == Visibility::weighs)
+        work = std::max(work, looking_per_face * faces_shown(asset));
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none) baking += decoded_bytes(asset);
     if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);

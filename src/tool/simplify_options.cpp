@@ -38,6 +38,9 @@ constexpr std::array<std::pair<std::string_view, ImageFormat>, 3> image_formats 
 constexpr std::array<std::pair<std::string_view, Budget>, 2> budgets = {
     {{"scene", Budget::scene}, {"mesh", Budget::mesh}}};
 
+constexpr std::array<std::pair<std::string_view, Visibility>, 2> visibilities = {
+    {{"ignored", Visibility::ignored}, {"weighs", Visibility::weighs}}};
+
 template <class Value, std::size_t n>
 Value named(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
             const char* option) {
@@ -110,6 +113,8 @@ void add_metric_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--budget", a.budget,
                        "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
                        "proportion to their faces)");
+    command.add_option("--visibility", a.visibility,
+                       "What is hidden from outside: ignored (counts like all else, default), weighs (counts less)");
     command.add_option(
         "--preset", a.preset,
         "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");
@@ -182,9 +187,10 @@ void add_level_options(CLI::App& command, SimplifyArguments& a) {
 namespace {
 
 /// What the library calls an option that begins its sentence, and what the command calls it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> option_names = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_names = {
     {{"target ratio", "--ratio"},
      {"max_error", "--max-error"},
+     {"visibility: a distance counts", "--visibility weighs: a distance counts"},
      {"weights.area", "--w-area"},
      {"weights.boundary", "--w-boundary"},
      {"weights.normal", "--w-normal"},
@@ -217,6 +223,8 @@ Options make_options(const SimplifyArguments& arguments) {
     if (arguments.max_error) options.max_error = length(*arguments.max_error, "--max-error");
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
     if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
+    if (!arguments.visibility.empty())
+        options.visibility = named(visibilities, arguments.visibility, "--visibility");
     if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
     if (!arguments.normal_map.empty()) {
         options.bake.normal_map = named(normal_maps, arguments.normal_map, "--normal-map");
@@ -258,6 +266,7 @@ std::string options_text(const Options& o) {
         index(o.target.kind),
         o.target.value,
         index(o.budget),
+        index(o.visibility),
         length(o.max_error),
         name(o.preset),
         {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},

@@ -18,7 +18,7 @@ namespace faqem::tool {
 
 /// The command line as it was given.
 struct SimplifyArguments {
-    std::string preset, budget, bake, mapping, normal_map, normals, image_format;
+    std::string preset, budget, visibility, bake, mapping, normal_map, normals, image_format;
     std::string virtual_edges;  ///< empty: off
     std::optional<std::string> max_error, prune;
     std::optional<double> ratio;

@@ -1,5 +1,6 @@
 #include "bvh.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -206,6 +207,67 @@ TEST_CASE("all faces within a distance are visited, once") {
         CHECK(hit.distance_squared == soup.on(f, p).distance_squared);
     });
     for (Index f = 0; f < 500; ++f) CHECK(visits[f] == (soup.on(f, p).distance_squared <= 0.04 ? 1 : 0));
+}
+
+TEST_CASE("a ray meets what is before it, and tells the side it comes from") {
+    const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
+    const std::vector<Triangle> triangles = {{0, 1, 2}};
+    const Bvh tree(positions, triangles);
+    std::vector<Bvh::Side> sides;
+    const auto seen = [&](Index f, Bvh::Side side) {
+        CHECK(f == 0);
+        sides.push_back(side);
+        return true;
+    };
+    CHECK(tree.meets({1, 0.5, 3}, {0, 0, -1}, seen));
+    CHECK(tree.meets({1, 0.5, -3}, {0, 0, 1}, seen));
+    CHECK(sides == std::vector{Bvh::Side::front, Bvh::Side::back});
+    CHECK(tree.meets({0, 0, 1}, {0, 0, -1}, seen));              // a corner
+    CHECK(tree.meets({2, 0, 1}, {0, 0, -1}, seen));              // an edge
+    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, 1}, seen));       // behind it
+    CHECK_FALSE(tree.meets({3, 1.5, 3}, {0, 0, -1}, seen));      // beside it
+    CHECK_FALSE(tree.meets({-1, 0.5, 0}, {1, 0, 0}, seen));      // in its plane
+    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, -1}, [](Index, Bvh::Side) { return false; }));
+    CHECK_FALSE(Bvh().meets({0, 0, 0}, {0, 0, 1}, seen));
+}
+
+TEST_CASE("a ray meets what a search over all faces meets") {
+    for (const std::size_t faces : {1u, 5u, 17u, 1000u}) {
+        const Soup soup(faces, 7);
+        const Bvh tree(soup.positions, soup.triangles);
+        std::mt19937 engine(11);
+        const auto unit = [&] { return engine() / 4294967296.0; };
+        std::size_t met = 0;
+        for (int i = 0; i < 300; ++i) {
+            const Vector3 origin(unit(), unit(), unit());
+            Vector3 direction = Vector3(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalized();
+            if (i % 3 == 0) direction = i % 2 ? Vector3(0, 0, -1) : Vector3(0, 1, 0);
+            std::vector<int> expected(faces, 0), found(faces, 0);
+            for (Index f = 0; f < faces; ++f) {
+                // The point on the plane has barycentric coordinates of one sign.
+                const auto corner = [&](std::size_t k) {
+                    return faqem::engine::to_eigen(soup.positions[soup.triangles[f][k]]);
+                };
+                const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+                const double slope = normal.dot(direction), t = normal.dot(corner(0) - origin) / slope;
+                if (!(std::abs(slope) > 0 && t > 0)) continue;
+                const Vector3 p = origin + t * direction;
+                bool inside = true;
+                for (std::size_t k = 0; k < 3; ++k)
+                    inside = inside && (corner((k + 1) % 3) - corner(k)).cross(p - corner(k)).dot(normal) >= 0;
+                if (inside) expected[f] = slope < 0 ? 1 : 2;
+            }
+            const bool any = tree.meets(faqem::engine::to_array(origin), faqem::engine::to_array(direction),
+                                        [&](Index f, Bvh::Side side) {
+                                            found[f] = side == Bvh::Side::front ? 1 : 2;
+                                            return false;
+                                        });
+            CHECK_FALSE(any);
+            CHECK(found == expected);
+            met += static_cast<std::size_t>(std::count(found.begin(), found.end(), 0)) < faces;
+        }
+        CHECK((faces < 1000 || met > 150));
+    }
 }
 
 TEST_CASE("trees over nothing and over dropped faces answer that there is nothing") {

@@ -58,6 +58,17 @@ TEST_CASE("an error is finite and positive in either unit") {
     CHECK(complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
 }
 
+TEST_CASE("what is hidden weighs less only where faces are counted") {
+    const auto both = [](Options& o) {
+        o.max_error = of_diagonal(0.1);
+        o.visibility = Visibility::weighs;
+    };
+    CHECK(complaint(both) ==
+          "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
+    CHECK(complaint([&](Options& o) { both(o), o.target = faces(10); }) == "accepted");
+    CHECK(complaint([&](Options& o) { both(o), o.visibility = Visibility::ignored; }) == "accepted");
+}
+
 TEST_CASE("without a target a tenth of the faces is meant") {
     CHECK(Options{}.target.kind == Target::Kind::unset);
     CHECK(Options{}.target.value == 0.1);

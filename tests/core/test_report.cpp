@@ -50,6 +50,7 @@ TEST_CASE("the report as JSON holds every count") {
     report.virtual_edges = 11;
     report.components_pruned = 12;
     report.faces_pruned = 13;
+    report.vertices_hidden = 14;
     report.pages = {{"paint", Bake::atlas, 512, 256, 90, 7, 2, 0.5, 0.75, 1.25, {30, 20, 10}, 5}};
     report.warnings = {"a \"quoted\" line\n"};
     report.seconds.weld = 0.25;
@@ -84,6 +85,7 @@ TEST_CASE("the report as JSON holds every count") {
     CHECK(json["virtual_edges"] == 11);
     CHECK(json["components_pruned"] == 12);
     CHECK(json["faces_pruned"] == 13);
+    CHECK(json["vertices_hidden"] == 14);
     CHECK(json["warnings"][0] == "a \"quoted\" line\n");
     CHECK(json["seconds"]["weld"] == 0.25);
     CHECK(json["peak_rss_bytes"] > 0);

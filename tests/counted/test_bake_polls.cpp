@@ -10,6 +10,7 @@
 #include "bake/fill.hpp"
 #include "bake/sampling.hpp"
 #include "bake/tangents.hpp"
+#include "bake/visibility.hpp"
 #include "counted/silence.hpp"
 
 using namespace faqem;
@@ -48,6 +49,16 @@ TEST_CASE("polls: no part of the work on images is silent for long") {
     std::vector<std::uint8_t> known(std::size_t{side} * side, 0);
     for (std::size_t i = 0; i < known.size(); i += 1000) known[i] = 1;
     CHECK(longest_silence([&](engine::Poll poll) { push_pull(pixels, known, {0, 4}, poll); }) < most_steps);
+}
+
+TEST_CASE("polls: no part of looking around is silent for long") {
+    Asset asset;
+    for (const TriangleMesh& mesh : {test::icosphere(6), test::scaled(test::icosphere(2), 2)}) {
+        Part& part = asset.parts.emplace_back();
+        part.positions = mesh.positions;
+        part.triangles = mesh.triangles;
+    }
+    CHECK(longest_silence([&](engine::Poll poll) { seen_shares(asset, Workers(1, poll)); }) < most_steps);
 }
 
 TEST_CASE("polls: no part of making tangents is silent for long") {

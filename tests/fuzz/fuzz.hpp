@@ -101,6 +101,7 @@ inline Options options_of(Input& in) {
     if (more & 1) o.topology.group_borders = GroupBorders::kept;
     if (more & 2) o.topology.weld_distance = std::abs(in.real());
     if (more & 4) o.topology.prune = of_diagonal(0.25);
+    if (more & 16) o.visibility = Visibility::weighs;
     if (more & 8) {
         o.weights = {in.real(), in.real(), in.real(), in.real(), in.real()};
     }

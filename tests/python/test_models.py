@@ -35,11 +35,12 @@ class Models(unittest.TestCase):
         source = faqem.load(self.painted())
         self.assertIsNone(source.report)
         light = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle", normals="flat", normal_map="off",
-                           image_format="png")
+                           visibility="weighs", image_format="png")
         self.assertEqual(len(source.parts[0].triangles), 288)
         self.assertLessEqual(len(light.parts[0].triangles), 50)
         self.assertEqual(light.report["faces_out"], len(light.parts[0].triangles))
         self.assertEqual(light.report["pages"][0]["width"], 64)
+        self.assertEqual(light.report["vertices_hidden"], 0)
         faqem.save(light, self.folder / "light.glb")
         self.assertEqual(len(faqem.load(self.folder / "light.glb").parts), 1)
 

@@ -76,7 +76,8 @@ TEST_CASE("a run stays below the peak that was predicted, and the prediction is 
     const Folder folder;
     faqem::save(sheet(150), folder / "in.glb");  // 45,000 faces
     for (const std::string options : {"--preset fast --bake none", "--preset balanced --bake vertex",
-                                      "--preset balanced --bake keep", "--preset qem --bake none"}) {
+                                      "--preset balanced --bake keep", "--preset qem --bake none",
+                                      "--visibility weighs --bake none"}) {
         CAPTURE(options);
         const auto simplify = [&](const std::string& memory) {
             return run(folder, "simplify in.glb out.glb --force --report r.json " + options + memory);

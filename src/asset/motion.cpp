@@ -1,0 +1,15 @@
+#include "asset/motion.hpp"
+
+#include <algorithm>
+
+#include "asset/source_document.hpp"
+
+namespace faqem::detail {
+
+bool moves(const Asset& asset) {
+    if (asset.source && !member(asset.source->document, "animations").empty()) return true;
+    return std::any_of(asset.parts.begin(), asset.parts.end(),
+                       [](const Part& part) { return !part.joints.empty() || !part.morph_targets.empty(); });
+}
+
+}  // namespace faqem::detail

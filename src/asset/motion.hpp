@@ -1,0 +1,13 @@
+#pragma once
+/// \file
+/// What moves in a scene.
+
+#include "faqem/asset.hpp"
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// Whether the scene has animations, or parts with skins or morph targets. O(parts)
+FAQEM_EXPORT bool moves(const Asset& asset);
+
+}  // namespace faqem::detail
