@@ -42,5 +42,32 @@ TEST_CASE("distance: of several triangles the nearest is found, the first of equ
         {a, b, c}, {a + up, b + up, c + up}, {a + up, b + up, c + up}};
     CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.4}) == 0);
     CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.6}) == 1);
-    CHECK(engine::nearest_of({}, a) == 0);
+    CHECK(engine::nearest_of(std::vector<TriangleDistance>(), a) == 0);
+}
+
+TEST_CASE(
+    "distance: a segment's is that of the triangle with two equal corners, a point's that of the point") {
+    test::Random random(5);
+    const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
+    for (int i = 0; i < 500; ++i) {
+        const Vector3 a = point(), b = i % 5 == 0 ? a : point(), p = 3 * point();
+        CHECK(engine::SegmentDistance(a, b)(p) == Approx(TriangleDistance(a, b, b)(p)));
+    }
+}
+
+TEST_CASE("distance: the farthest point is that with the largest smallest distance, in any order") {
+    test::Random random(7);
+    const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
+    for (int i = 0; i < 100; ++i) {
+        std::vector<engine::SegmentDistance> segments;
+        for (int k = 0; k < 1 + i % 9; ++k) segments.emplace_back(point(), point());
+        engine::FarthestPoint farthest(segments);
+        double expected = 0;
+        for (int k = 0; k < i % 13; ++k) {
+            const Vector3 p = 2 * point();
+            farthest.add(p);
+            expected = std::max(expected, segments[engine::nearest_of(segments, p)](p));
+            CHECK(farthest.squared_distance() == expected);
+        }
+    }
 }

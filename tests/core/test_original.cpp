@@ -18,6 +18,20 @@ TEST_CASE("original: distances around a vertex are those to its faces and no oth
     CHECK(original.surface.open_edges().size() == 6);
 }
 
+TEST_CASE("original: the open ends of a vertex are in order, and there are none on a closed surface") {
+    const test::OriginalOf fan(test::fan(6));
+    const auto ends = [&](Index v) {
+        const auto all = fan.surface.open_ends(v);
+        return std::vector<Index>(all.begin(), all.end());
+    };
+    CHECK(ends(0).empty());
+    CHECK(ends(1) == std::vector<Index>{2, 6});
+    CHECK(ends(3) == std::vector<Index>{2, 4});
+    CHECK(ends(6) == std::vector<Index>{1, 5});
+    const test::OriginalOf closed(test::cube());
+    for (Index v = 0; v < 8; ++v) CHECK(closed.surface.open_ends(v).empty());
+}
+
 TEST_CASE("original: a lineage leaves out what has gone into nothing") {
     const Lineage lineage(std::vector<Index>{4, no_index, 2});
     CHECK(lineage.original == std::vector<Index>{0, 2});

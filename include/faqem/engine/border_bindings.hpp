@@ -3,7 +3,6 @@
 /// Which part of the original's border each open edge of today stands for.
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -51,18 +50,17 @@ public:
         ends_.clear();
         for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
             const Vector3& end = complex.position(edge.vertex);
-            edges_.emplace_back(p, end, end);
+            edges_.emplace_back(p, end);
             ends_.push_back(edge.vertex);
         });
         if (edges_.empty()) return 0;
-        double worst = 0;
-        for (const Index i : bound_)
-            worst = std::max(worst, edges_[nearest_of(edges_, points_[i].position)](points_[i].position));
+        FarthestPoint farthest(edges_);
+        for (const Index i : bound_) farthest.add(points_[i].position);
         if (bound_.empty()) {
             for (const Index n : ends_) gather_at(pairs, n, no_index);
         }
         if (bound_.empty()) return 0;
-        worst = std::max(worst, squared_distance_back(p));
+        double worst = std::max(farthest.squared_distance(), squared_distance_back(p));
         for (const Index n : ends_)
             worst = std::max(worst, squared_distance_back(0.5 * (p + complex.position(n))));
         return worst;
@@ -89,7 +87,7 @@ public:
         for (const PairTable::Change& change : around) {
             const auto [n, pair] = change.neighbour;
             if (pair == no_index || pairs.face_count(pair) != 1) continue;
-            edges_.emplace_back(complex.position(survivor), complex.position(n), complex.position(n));
+            edges_.emplace_back(complex.position(survivor), complex.position(n));
             edge_pairs_.push_back(pair);
         }
         if (edges_.empty()) return;
@@ -106,23 +104,14 @@ private:
     // Makes the points and their segments. \return the vertex of the complex that each point has gone into
     std::vector<Index> collect(const Original& original, const Lineage& lineage, Poll poll) {
         std::vector<Index> today;
-        std::vector<std::array<Index, 2>> both_ways;
-        for (const auto& [a, b] : original.open_edges()) {
-            both_ways.push_back({a, b});
-            both_ways.push_back({b, a});
-        }
-        std::sort(both_ways.begin(), both_ways.end());
-        std::size_t i = 0;
-        for (const auto& [v, other] : both_ways) {
+        for (std::size_t i = 0; i < lineage.original.size(); ++i) {
             poll();
-            while (i < lineage.original.size() && lineage.original[i] < v) ++i;
-            if (i == lineage.original.size()) break;
-            if (lineage.original[i] != v) continue;
-            if (points_.empty() || points_.back().vertex != v) {
-                points_.push_back({original.position(v), v, segments_.size()});
-                today.push_back(lineage.today[i]);
-            }
-            segments_.push_back(original.position(other));
+            const Index v = lineage.original[i];
+            const std::span<const Index> ends = original.open_ends(v);
+            if (ends.empty()) continue;
+            points_.push_back({original.position(v), v, segments_.size()});
+            today.push_back(lineage.today[i]);
+            for (const Index other : ends) segments_.push_back(original.position(other));
         }
         return today;
     }
@@ -169,7 +158,7 @@ private:
             point + 1 < points_.size() ? points_[point + 1].first_segment : segments_.size();
         double nearest = (x - p).squaredNorm();
         for (std::size_t k = points_[point].first_segment; k < end; ++k) {
-            nearest = std::min(nearest, TriangleDistance(x, segments_[k], segments_[k])(p));
+            nearest = std::min(nearest, SegmentDistance(x, segments_[k])(p));
         }
         return nearest;
     }
@@ -182,8 +171,7 @@ private:
             const Index before = best;
             pairs.for_each_pair(v, [&](Neighbour n) {
                 if (pairs.face_count(n.pair) != 1) return;
-                const double d = TriangleDistance(complex.position(v), complex.position(n.vertex),
-                                                  complex.position(n.vertex))(x);
+                const double d = SegmentDistance(complex.position(v), complex.position(n.vertex))(x);
                 if (d < nearest) nearest = d, best = n.pair;
             });
             return best != before;
@@ -200,7 +188,7 @@ private:
     std::vector<Vector3> segments_;
     std::vector<Index> first_, next_;       // lists of points bound to each pair
     std::vector<Index> bound_;              // points around the pair in hand
-    std::vector<TriangleDistance> edges_;   // open edges there would be, or are
+    std::vector<SegmentDistance> edges_;    // open edges there would be, or are
     std::vector<Index> edge_pairs_, ends_;  // their pairs, their far ends
 };
 

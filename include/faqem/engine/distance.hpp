@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Squared distance from many points to one triangle.
+/// Squared distances from many points to one triangle or segment, or to several.
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
+#include <vector>
 
 #include "faqem/engine/vector.hpp"
 
@@ -54,15 +54,64 @@ private:
     double per_det_ = 0, per_ab2_ = 0, per_ac2_ = 0, per_bc2_ = 0;  // reciprocals; 0 where there is none
 };
 
-/// The index of the one nearest to p, the first of several; 0 where there is none. O(n)
-inline std::size_t nearest_of(std::span<const TriangleDistance> triangles, const Vector3& p) {
+/// A segment prepared for distance queries; one without length is a point.
+class SegmentDistance {
+public:
+    SegmentDistance(const Vector3& a, const Vector3& b) : a_(a), ab_(b - a) {
+        const double square = ab_.squaredNorm();
+        if (square > 0) per_square_ = 1 / square;
+    }
+
+    /// Squared distance of p. O(1)
+    double operator()(const Vector3& p) const {
+        const Vector3 from_a = p - a_;
+        return (from_a - std::clamp(ab_.dot(from_a) * per_square_, 0.0, 1.0) * ab_).squaredNorm();
+    }
+
+private:
+    Vector3 a_, ab_;
+    double per_square_ = 0;
+};
+
+/// The index of the shape nearest to p, the first of several; 0 where there is none. O(n)
+template <class Shape>
+std::size_t nearest_of(const std::vector<Shape>& shapes, const Vector3& p) {
     std::size_t at = 0;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const double d = triangles[k](p);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+        const double d = shapes[k](p);
         if (d < nearest) nearest = d, at = k;
     }
     return at;
 }
+
+/// The largest squared distance that a point has from shapes, each from the nearest of them. Neighbours have
+/// their nearest shape in common: the last one's is tried first, and a point that is nearer to any than the
+/// farthest is from its own says nothing.
+template <class Shape>
+class FarthestPoint {
+public:
+    /// \param shapes  borrowed, at least one
+    explicit FarthestPoint(const std::vector<Shape>& shapes) : shapes_(shapes) {}
+
+    /// O(shapes) at worst, one distance typically
+    void add(const Vector3& p) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t j = 0; j < shapes_.size() && nearest > worst_; ++j) {
+            const std::size_t k = first_ + j < shapes_.size() ? first_ + j : first_ + j - shapes_.size();
+            const double d = shapes_[k](p);
+            if (d < nearest) nearest = d;
+            if (d <= worst_) first_ = k;
+        }
+        if (nearest > worst_) worst_ = nearest;
+    }
+
+    double squared_distance() const { return worst_; }
+
+private:
+    const std::vector<Shape>& shapes_;
+    double worst_ = 0;
+    std::size_t first_ = 0;
+};
 
 }  // namespace faqem::engine

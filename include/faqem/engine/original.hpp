@@ -41,7 +41,7 @@ class Original {
 public:
     /// \param positions, triangles  borrowed; triangles of different corners
     /// \throws what the poll throws
-    /// O(triangles); 20 bytes per triangle
+    /// O(triangles); 20 bytes per triangle, and 4 per vertex where there is a border
     Original(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll = {})
         : positions_(positions),
           triangles_(triangles),
@@ -59,11 +59,17 @@ public:
         // Each is where the next begins now.
         std::copy_backward(rings_.begin(), rings_.end() - 1, rings_.end());
         rings_.front() = 0;
+        find_open_ends(poll);
     }
 
     const Vector3& position(Index v) const { return positions_[v]; }
     /// Edges with one face, as find_open_edges() gives them.
     std::span<const std::array<Index, 2>> open_edges() const { return open_edges_; }
+    /// The other ends of these edges at vertex v, ascending.
+    std::span<const Index> open_ends(Index v) const {
+        if (open_edges_.empty()) return {};
+        return std::span(open_ends_).subspan(open_rings_[v], open_rings_[v + 1] - open_rings_[v]);
+    }
 
     /// Squared distance of p to the faces around vertex v, or `at_most` where that is smaller. O(valence)
     double squared_distance_around(Index v, const Vector3& p, double at_most) const {
@@ -76,11 +82,29 @@ public:
     }
 
 private:
+    // The edges are in order, so that each vertex gets the smaller ends first.
+    void find_open_ends(Poll poll) {
+        if (open_edges_.empty()) return;
+        open_rings_.assign(positions_.size() + 1, 0);
+        for (const auto& [a, b] : open_edges_) ++open_rings_[a + 1], ++open_rings_[b + 1];
+        std::partial_sum(open_rings_.begin(), open_rings_.end(), open_rings_.begin());
+        open_ends_.resize(open_rings_.back());
+        for (const auto& [a, b] : open_edges_) {
+            poll();
+            open_ends_[open_rings_[a]++] = b;
+            open_ends_[open_rings_[b]++] = a;
+        }
+        std::copy_backward(open_rings_.begin(), open_rings_.end() - 1, open_rings_.end());
+        open_rings_.front() = 0;
+    }
+
     std::span<const Vector3> positions_;
     std::span<const Triangle> triangles_;
     std::vector<std::array<Index, 2>> open_edges_;
     std::vector<std::uint32_t> rings_;  // where the faces of each vertex begin
     std::vector<Index> ring_faces_;
+    std::vector<std::uint32_t> open_rings_;  // where the open ends of each vertex begin; empty: no border
+    std::vector<Index> open_ends_;
 };
 
 }  // namespace faqem::engine

@@ -143,20 +143,9 @@ private:
 
     // Largest squared distance from a bound vertex to the faces there would be.
     double forward() const {
-        double worst = 0;
-        std::size_t first = 0;  // neighbours have their nearest face in common: try the last one's first
-        for_each_bound([&](Index i) {
-            const Vector3& x = bindings_->position(i);
-            double nearest = std::numeric_limits<double>::infinity();
-            for (std::size_t j = 0; j < after_.size() && nearest > worst; ++j) {
-                const std::size_t k = first + j < after_.size() ? first + j : first + j - after_.size();
-                const double d = after_[k](x);
-                if (d < nearest) nearest = d;
-                if (d <= worst) first = k;
-            }
-            if (nearest > worst) worst = nearest;
-        });
-        return worst;
+        FarthestPoint farthest(after_);
+        for_each_bound([&](Index i) { farthest.add(bindings_->position(i)); });
+        return farthest.squared_distance();
     }
 
     // Squared distance from p to the original around the nearest bound vertex; 0 where none is bound.
