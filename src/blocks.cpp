@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "faqem/engine/engine.hpp"
-#include "faqem/engine/memoryless.hpp"
-#include "faqem/engine/round_queue.hpp"
-#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {

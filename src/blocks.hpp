@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "faqem/engine/loop.hpp"
-#include "faqem/engine/original.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/options.hpp"
 #include "parallel.hpp"
 #include "reduced.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "triangle.hpp"

@@ -7,10 +7,10 @@
 
 #include "arrange.hpp"
 #include "better_edges.hpp"
-#include "faqem/engine/complex.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/loop.hpp"
-#include "faqem/engine/poll.hpp"
-#include "faqem/engine/wedges.hpp"
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/simplify.hpp"
 #include "presets.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "buckets.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 #include "parallel.hpp"
 #include "spots.hpp"

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "faces_around.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "final_versions.hpp"
 #include "triangle.hpp"
 

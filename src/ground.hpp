@@ -9,7 +9,7 @@
 
 #include "arrange.hpp"
 #include "blocks.hpp"
-#include "faqem/engine/original.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
 #include "gaps.hpp"
 
 namespace faqem::detail {

@@ -1,6 +1,6 @@
 #include "mapping_lineage.hpp"
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 

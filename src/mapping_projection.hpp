@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bvh.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
 #include "mapping_replay.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/history.hpp"
 #include "parallel.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "sides.hpp"
 
 namespace faqem::detail {

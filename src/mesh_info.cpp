@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "faqem/compare.hpp"
-#include "faqem/engine/disjoint_sets.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {

@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

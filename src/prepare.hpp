@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "presets.hpp"

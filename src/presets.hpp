@@ -2,7 +2,7 @@
 /// \file
 /// The table of presets: what each name stands for.
 
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {

@@ -1,7 +1,7 @@
 #include "prune.hpp"
 
-#include "faqem/engine/disjoint_sets.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 

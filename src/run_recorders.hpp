@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cost_curve.hpp"
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/placement.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/quadric/placement.hpp"
 #include "reduced.hpp"
 
 namespace faqem::detail {

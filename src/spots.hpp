@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {

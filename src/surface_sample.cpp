@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/engine/scrambled.hpp"
+#include "faqem/engine/util/hash.hpp"
 
 namespace faqem::detail {
 

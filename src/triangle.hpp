@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 

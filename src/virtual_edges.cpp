@@ -7,8 +7,8 @@
 #include <nanoflann.hpp>
 #include <tuple>
 
-#include "faqem/engine/components.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/components.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 namespace faqem::detail {
 

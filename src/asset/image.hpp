@@ -7,7 +7,7 @@
 #include <string>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "faqem/engine/disjoint_sets.hpp"
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "target.hpp"
 
 namespace faqem::detail {

@@ -8,7 +8,7 @@
 
 #include "bake/chart_outline.hpp"
 #include "bake/chart_overlap.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

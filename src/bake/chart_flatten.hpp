@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/chart_face.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/box_grid.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "bake/chart_face.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

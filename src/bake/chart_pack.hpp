@@ -9,7 +9,7 @@
 
 #include "bake/atlas_per_triangle.hpp"
 #include "bake/chart_face.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

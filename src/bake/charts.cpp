@@ -9,7 +9,7 @@
 
 #include "bake/chart_flatten.hpp"
 #include "bake/chart_grow.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {

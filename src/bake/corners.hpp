@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {

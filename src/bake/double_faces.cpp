@@ -6,7 +6,7 @@
 
 #include "bake/directions.hpp"
 #include "bake/groups.hpp"
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 

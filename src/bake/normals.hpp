@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/corners.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {

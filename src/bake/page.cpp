@@ -7,7 +7,7 @@
 
 #include "bake/fill.hpp"
 #include "bake/painter.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bake/charts.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "morton.hpp"
 
 namespace faqem::detail {

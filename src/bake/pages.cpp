@@ -9,7 +9,7 @@
 #include "bake/page.hpp"
 #include "bake/page_material.hpp"
 #include "bake/vertex_transfer.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -11,7 +11,7 @@
 #include "bake/page_atlas.hpp"
 #include "bake/source_normals.hpp"
 #include "bake/trail.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 

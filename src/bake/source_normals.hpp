@@ -6,7 +6,7 @@
 
 #include "bake/sampling.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace faqem::detail {

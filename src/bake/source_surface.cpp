@@ -6,7 +6,7 @@
 
 #include "asset/image.hpp"
 #include "bake/job.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

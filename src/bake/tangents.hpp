@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "parallel.hpp"
 
 namespace faqem::detail {

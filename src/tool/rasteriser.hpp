@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "tool/texture.hpp"
 
 namespace faqem::tool {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bvh.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::bench {
 

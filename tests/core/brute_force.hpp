@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 #include "triangle.hpp"
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::test {

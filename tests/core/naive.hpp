@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/meshes.hpp"
-#include "faqem/engine/legality.hpp"
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/constraints/legality.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/history.hpp"
 
 namespace faqem::test {

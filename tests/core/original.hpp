@@ -3,7 +3,7 @@
 /// The original of a test mesh, with the arrays it looks at.
 
 #include "core/meshes.hpp"
-#include "faqem/engine/original.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
 
 namespace faqem::test {
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/bindings.hpp"
+#include "faqem/engine/tracking/vertex_bindings.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -9,8 +9,8 @@
 #include "arrange.hpp"
 #include "core/original.hpp"
 #include "faqem/engine/engine.hpp"
-#include "faqem/engine/round_queue.hpp"
-#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,4 +1,4 @@
-#include "faqem/engine/border_bindings.hpp"
+#include "faqem/engine/tracking/boundary_bindings.hpp"
 
 #include <catch2/catch.hpp>
 

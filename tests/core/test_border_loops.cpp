@@ -1,4 +1,4 @@
-#include "faqem/engine/border_loops.hpp"
+#include "faqem/engine/constraints/boundary_loops.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "faqem/engine/bucket_queue.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "faqem/engine/complex.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -1,4 +1,4 @@
-#include "faqem/engine/components.hpp"
+#include "faqem/engine/mesh/components.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

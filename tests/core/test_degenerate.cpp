@@ -1,4 +1,4 @@
-#include "faqem/engine/degenerate.hpp"
+#include "faqem/engine/mesh/degenerate.hpp"
 
 #include <catch2/catch.hpp>
 

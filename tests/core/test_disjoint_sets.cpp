@@ -1,4 +1,4 @@
-#include "faqem/engine/disjoint_sets.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 
 #include <catch2/catch.hpp>
 

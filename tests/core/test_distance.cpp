@@ -1,4 +1,4 @@
-#include "faqem/engine/distance.hpp"
+#include "faqem/engine/tracking/distance.hpp"
 
 #include <catch2/catch.hpp>
 

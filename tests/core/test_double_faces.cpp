@@ -1,4 +1,4 @@
-#include "faqem/engine/double_faces.hpp"
+#include "faqem/engine/mesh/duplicate_faces.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,11 @@
-#include "faqem/engine/folds.hpp"
+#include "faqem/engine/constraints/fold_test.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
 #include "core/meshes.hpp"
-#include "faqem/engine/legality.hpp"
+#include "faqem/engine/constraints/legality.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

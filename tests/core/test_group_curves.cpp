@@ -1,4 +1,4 @@
-#include "faqem/engine/group_curves.hpp"
+#include "faqem/engine/constraints/feature_curves.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>

@@ -1,12 +1,12 @@
-#include "faqem/engine/importance.hpp"
+#include "faqem/engine/metric/weighted.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "core/original.hpp"
 #include "faqem/compare.hpp"
-#include "faqem/engine/memoryless.hpp"
-#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/legality.hpp"
+#include "faqem/engine/constraints/legality.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

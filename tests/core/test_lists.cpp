@@ -1,4 +1,4 @@
-#include "faqem/engine/lists.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 
 #include <catch2/catch.hpp>
 

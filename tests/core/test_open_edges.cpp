@@ -1,4 +1,4 @@
-#include "faqem/engine/open_edges.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -1,4 +1,4 @@
-#include "faqem/engine/original.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,4 +1,4 @@
-#include "faqem/engine/placement.hpp"
+#include "faqem/engine/quadric/placement.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/quadric.hpp"
+#include "faqem/engine/quadric/quadric.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

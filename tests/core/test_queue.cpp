@@ -1,11 +1,11 @@
-#include "faqem/engine/queue.hpp"
+#include "faqem/engine/queue/heap_queue.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>
 #include <utility>
 
 #include "core/meshes.hpp"
-#include "faqem/engine/bucket_queue.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

@@ -1,4 +1,4 @@
-#include "faqem/engine/round_queue.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "faqem/engine/scrambled.hpp"
+#include "faqem/engine/util/hash.hpp"
 
 #include <bit>
 #include <catch2/catch.hpp>

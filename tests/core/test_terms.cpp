@@ -1,4 +1,4 @@
-#include "faqem/engine/terms.hpp"
+#include "faqem/engine/quadric/terms.hpp"
 
 #include <catch2/catch.hpp>
 

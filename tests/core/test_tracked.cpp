@@ -1,4 +1,4 @@
-#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 
 #include <catch2/catch.hpp>
 

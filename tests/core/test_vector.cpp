@@ -1,4 +1,4 @@
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

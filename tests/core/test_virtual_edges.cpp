@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/meshes.hpp"
-#include "faqem/engine/components.hpp"
+#include "faqem/engine/mesh/components.hpp"
 
 using namespace faqem;
 using detail::virtual_edges;

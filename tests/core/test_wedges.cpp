@@ -1,4 +1,4 @@
-#include "faqem/engine/wedges.hpp"
+#include "faqem/engine/constraints/wedges.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

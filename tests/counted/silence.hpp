@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "counted/steps.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::test {
 

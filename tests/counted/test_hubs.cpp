@@ -5,9 +5,9 @@
 #include "core/original.hpp"
 #include "counted/steps.hpp"
 #include "faqem/engine/engine.hpp"
-#include "faqem/engine/memoryless.hpp"
-#include "faqem/engine/round_queue.hpp"
-#include "faqem/engine/tracked.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

@@ -4,13 +4,13 @@
 #include "core/meshes.hpp"
 #include "core/original.hpp"
 #include "counted/silence.hpp"
-#include "faqem/engine/components.hpp"
-#include "faqem/engine/double_faces.hpp"
+#include "faqem/engine/mesh/components.hpp"
+#include "faqem/engine/mesh/duplicate_faces.hpp"
 #include "faqem/engine/engine.hpp"
-#include "faqem/engine/memoryless.hpp"
-#include "faqem/engine/round_queue.hpp"
-#include "faqem/engine/tracked.hpp"
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

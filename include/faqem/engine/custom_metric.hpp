@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 
 namespace faqem::engine {
 

@@ -20,20 +20,20 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/border_loops.hpp"
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/components.hpp"
-#include "faqem/engine/degenerate.hpp"
-#include "faqem/engine/double_faces.hpp"
-#include "faqem/engine/group_curves.hpp"
+#include "faqem/engine/constraints/boundary_loops.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/components.hpp"
+#include "faqem/engine/mesh/degenerate.hpp"
+#include "faqem/engine/mesh/duplicate_faces.hpp"
+#include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/ladder.hpp"
-#include "faqem/engine/legality.hpp"
+#include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/loop.hpp"
-#include "faqem/engine/metric.hpp"
-#include "faqem/engine/pairs.hpp"
-#include "faqem/engine/queue.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/recorder.hpp"
-#include "faqem/engine/wedges.hpp"
+#include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/report.hpp"
 
 namespace faqem::engine {

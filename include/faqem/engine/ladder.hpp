@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "faqem/engine/legality.hpp"
+#include "faqem/engine/constraints/legality.hpp"
 #include "faqem/report.hpp"
 
 namespace faqem::engine {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "faqem/engine/legality.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/constraints/legality.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
 

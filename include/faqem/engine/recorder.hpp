@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/placement.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/quadric/placement.hpp"
 #include "faqem/history.hpp"
 
 namespace faqem::engine {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "faqem/engine/engine.hpp"
-#include "faqem/engine/weld.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::engine {

@@ -6,7 +6,7 @@
 
 #include "asset/repair.hpp"
 #include "bvh.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "parallel.hpp"
 #include "surface.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/queue.hpp"
+#include "faqem/engine/queue/heap_queue.hpp"
 
 namespace faqem::engine {
 

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/pairs.hpp"
-#include "faqem/engine/placement.hpp"
-#include "faqem/engine/scrambled.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/quadric/placement.hpp"
+#include "faqem/engine/util/hash.hpp"
 
 namespace faqem::engine {
 

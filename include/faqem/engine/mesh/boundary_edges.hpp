@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 namespace faqem::engine {
 

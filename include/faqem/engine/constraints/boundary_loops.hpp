@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/disjoint_sets.hpp"
-#include "faqem/engine/open_edges.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 namespace faqem::engine {
 

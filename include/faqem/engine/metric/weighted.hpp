@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 
 namespace faqem::engine {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
 
 namespace faqem::engine {
 

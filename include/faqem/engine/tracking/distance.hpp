@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::engine {
 

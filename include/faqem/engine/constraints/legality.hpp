@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/degenerate.hpp"
-#include "faqem/engine/folds.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/degenerate.hpp"
+#include "faqem/engine/constraints/fold_test.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/report.hpp"
 
 namespace faqem::engine {

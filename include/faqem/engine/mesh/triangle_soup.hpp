@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/lists.hpp"
-#include "faqem/engine/poll.hpp"
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::engine {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/distance.hpp"
-#include "faqem/engine/original.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/tracking/distance.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
 
 namespace faqem::engine {
 

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/engine/bucket_queue.hpp"
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::engine {
 

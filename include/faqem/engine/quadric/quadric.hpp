@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "faqem/engine/vector.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::engine {
 

@@ -11,8 +11,8 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/placement.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/quadric/placement.hpp"
 
 namespace faqem::engine {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 namespace faqem::engine {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <optional>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/pairs.hpp"
-#include "faqem/engine/quadric.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/quadric/quadric.hpp"
 
 namespace faqem::engine {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/bindings.hpp"
-#include "faqem/engine/border_bindings.hpp"
-#include "faqem/engine/distance.hpp"
-#include "faqem/engine/memoryless.hpp"
+#include "faqem/engine/tracking/vertex_bindings.hpp"
+#include "faqem/engine/tracking/boundary_bindings.hpp"
+#include "faqem/engine/tracking/distance.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
 
 namespace faqem::engine {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/distance.hpp"
-#include "faqem/engine/open_edges.hpp"
-#include "faqem/engine/original.hpp"
-#include "faqem/engine/pairs.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/tracking/distance.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/tracking/reference_surface.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 
 namespace faqem::engine {
 

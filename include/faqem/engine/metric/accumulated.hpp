@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/group_curves.hpp"
-#include "faqem/engine/pairs.hpp"
-#include "faqem/engine/placement.hpp"
-#include "faqem/engine/quadric.hpp"
-#include "faqem/engine/terms.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/constraints/feature_curves.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/quadric/placement.hpp"
+#include "faqem/engine/quadric/quadric.hpp"
+#include "faqem/engine/quadric/terms.hpp"
 
 namespace faqem::engine {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/distance.hpp"
-#include "faqem/engine/open_edges.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/tracking/distance.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
 
 namespace faqem::engine {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
 
 namespace faqem::engine {
 

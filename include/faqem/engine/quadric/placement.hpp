@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "faqem/engine/quadric.hpp"
+#include "faqem/engine/quadric/quadric.hpp"
 
 namespace faqem::engine {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "faqem/engine/poll.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::engine {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/complex.hpp"
-#include "faqem/engine/degenerate.hpp"
+#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/degenerate.hpp"
 
 namespace faqem::engine {
 

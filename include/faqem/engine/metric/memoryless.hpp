@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 
 namespace faqem::engine {
 
