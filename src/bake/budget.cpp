@@ -6,7 +6,7 @@
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
-#include "target.hpp"
+#include "faqem/detail/simplify/target.hpp"
 
 namespace faqem::detail {
 

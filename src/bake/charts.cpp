@@ -10,7 +10,7 @@
 #include "bake/chart_flatten.hpp"
 #include "bake/chart_grow.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {

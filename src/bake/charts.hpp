@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bake/chart_face.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 

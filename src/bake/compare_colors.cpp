@@ -8,8 +8,8 @@
 #include "asset/flatten.hpp"
 #include "asset/srgb.hpp"
 #include "bake/source_surface.hpp"
-#include "parallel.hpp"
-#include "surface_sample.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/random_sampling.hpp"
 
 namespace faqem {
 namespace {

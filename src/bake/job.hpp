@@ -11,8 +11,8 @@
 #include "bake/normals.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/export.hpp"
-#include "parallel.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::detail {
 

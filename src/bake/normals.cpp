@@ -5,7 +5,7 @@
 
 #include "bake/directions.hpp"
 #include "bake/source_normals.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {

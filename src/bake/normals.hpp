@@ -7,7 +7,7 @@
 
 #include "bake/corners.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 

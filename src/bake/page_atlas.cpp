@@ -7,7 +7,7 @@
 
 #include "bake/charts.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "morton.hpp"
+#include "faqem/detail/base/morton.hpp"
 
 namespace faqem::detail {
 namespace {

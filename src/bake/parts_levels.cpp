@@ -5,7 +5,7 @@
 #include "bake/parts_within_error.hpp"
 #include "bake/shared_texture.hpp"
 #include "bake/step_progress.hpp"
-#include "chain.hpp"
+#include "faqem/detail/lod/lod_chain.hpp"
 #include "faqem/bake_levels.hpp"
 
 namespace faqem {

@@ -7,7 +7,7 @@
 
 #include "bake/scene_size.hpp"
 #include "faqem/bake.hpp"
-#include "within_error.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
 
 namespace faqem::detail {
 

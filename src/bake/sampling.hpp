@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "surface.hpp"
+#include "faqem/detail/geometry/surface.hpp"
 
 namespace faqem::detail {
 

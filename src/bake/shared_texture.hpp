@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/parts_within_error.hpp"
-#include "chain.hpp"
+#include "faqem/detail/lod/lod_chain.hpp"
 #include "faqem/bake_levels.hpp"
 
 namespace faqem::detail {

@@ -12,11 +12,11 @@
 #include "bake/parts_within_error.hpp"
 #include "bake/scene_size.hpp"
 #include "bake/visibility.hpp"
-#include "cost_curve.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/bake.hpp"
-#include "run.hpp"
-#include "target.hpp"
-#include "within_error.hpp"
+#include "faqem/detail/simplify/run.hpp"
+#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
 
 namespace faqem {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "faqem/engine/mesh/vector.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {

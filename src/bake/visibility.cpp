@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "asset/motion.hpp"
-#include "bvh.hpp"
-#include "faces_around.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/error.hpp"
-#include "surface.hpp"
+#include "faqem/detail/geometry/surface.hpp"
 
 namespace faqem::detail {
 

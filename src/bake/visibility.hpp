@@ -8,7 +8,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "faqem/version.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 #include "tool/batch_file.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"

@@ -6,7 +6,7 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "tool/batch_stamp.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/output.hpp"

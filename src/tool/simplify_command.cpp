@@ -10,7 +10,7 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "tool/byte_budget.hpp"
 #include "tool/commands.hpp"
 #include "tool/exit_code.hpp"

@@ -5,7 +5,7 @@
 
 #include "bake/job.hpp"
 #include "faqem/error.hpp"
-#include "prepare.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
 
 namespace faqem::tool {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "faqem/error.hpp"
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::tool {
 

@@ -13,7 +13,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

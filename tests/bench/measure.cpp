@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bvh.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::bench {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "simplifier.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "simplifier.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

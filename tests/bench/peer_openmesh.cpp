@@ -4,7 +4,7 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include "simplifier.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "simplifier.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

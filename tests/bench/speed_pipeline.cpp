@@ -4,7 +4,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/report.hpp"
 #include "speed.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 

@@ -16,7 +16,7 @@
 #include "isosurface.hpp"
 #include "simplifier.hpp"
 #include "speed.hpp"
-#include "stopwatch.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "wasm.hpp"
 
 namespace faqem::bench {

@@ -8,7 +8,7 @@
 
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
-#include "triangle.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 
 namespace faqem::test {
 

@@ -1,4 +1,4 @@
-#include "arrange.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,11 +1,11 @@
-#include "better_edges.hpp"
+#include "faqem/detail/fitting/edge_flip_search.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/meshes.hpp"
-#include "edge_swap.hpp"
+#include "faqem/detail/geometry/edge_flip.hpp"
 
 using namespace faqem;
 using detail::EdgeSwap;

@@ -1,4 +1,4 @@
-#include "blocks.hpp"
+#include "faqem/detail/simplify/block_decimation.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "arrange.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
 #include "core/original.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"

@@ -1,4 +1,4 @@
-#include "buckets.hpp"
+#include "faqem/detail/base/bucketed.hpp"
 
 #include <catch2/catch.hpp>
 #include <utility>

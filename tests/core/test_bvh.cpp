@@ -1,4 +1,4 @@
-#include "bvh.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

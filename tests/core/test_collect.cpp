@@ -1,4 +1,4 @@
-#include "collect.hpp"
+#include "faqem/detail/simplify/build_result.hpp"
 
 #include <catch2/catch.hpp>
 

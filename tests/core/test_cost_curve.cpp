@@ -1,4 +1,4 @@
-#include "cost_curve.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

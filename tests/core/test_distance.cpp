@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/meshes.hpp"
-#include "triangle.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 
 using namespace faqem;
 using engine::TriangleDistance;

@@ -1,4 +1,4 @@
-#include "edge_swap.hpp"
+#include "faqem/detail/geometry/edge_flip.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "face_count_search.hpp"
+#include "faqem/detail/simplify/face_count_search.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "faces_around.hpp"
+#include "faqem/detail/geometry/vertex_faces.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "fit.hpp"
+#include "faqem/detail/fitting/gauss_newton.hpp"
 
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "fold_guard.hpp"
+#include "faqem/detail/fitting/fold_guard.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "faqem/forward_map.hpp"
 #include "faqem/simplify.hpp"
 #include "hand_history.hpp"
-#include "triangle.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 
 using namespace faqem;
 using namespace faqem::test;

@@ -1,4 +1,4 @@
-#include "gaps.hpp"
+#include "faqem/detail/fitting/closest_point_tracker.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ground.hpp"
+#include "faqem/detail/simplify/run_state.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "core/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
-#include "hausdorff.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
 
 using namespace faqem;
 using test::square;

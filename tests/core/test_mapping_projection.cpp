@@ -1,4 +1,4 @@
-#include "mapping_projection.hpp"
+#include "faqem/detail/mapping/successive_projection.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

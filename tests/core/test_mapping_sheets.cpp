@@ -1,4 +1,4 @@
-#include "mapping_sheets.hpp"
+#include "faqem/detail/mapping/surface_patches.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

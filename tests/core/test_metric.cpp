@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/meshes.hpp"
-#include "presets.hpp"
+#include "faqem/detail/simplify/presets.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

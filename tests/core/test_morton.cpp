@@ -1,4 +1,4 @@
-#include "morton.hpp"
+#include "faqem/detail/base/morton.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

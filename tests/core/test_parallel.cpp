@@ -1,4 +1,4 @@
-#include "parallel.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

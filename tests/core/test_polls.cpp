@@ -4,18 +4,18 @@
 #include <stdexcept>
 #include <thread>
 
-#include "arrange.hpp"
-#include "bvh.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "core/meshes.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/simplify.hpp"
-#include "hausdorff.hpp"
-#include "mapping_replay.hpp"
-#include "mapping_sheets.hpp"
-#include "parallel.hpp"
-#include "prepare.hpp"
-#include "relax.hpp"
-#include "sides.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/detail/mapping/replay.hpp"
+#include "faqem/detail/mapping/surface_patches.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/fitting/vertex_fitting.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 
 using namespace faqem;
 using detail::Poll;

@@ -1,4 +1,4 @@
-#include "prepare.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "presets.hpp"
+#include "faqem/detail/simplify/presets.hpp"
 
 #include <catch2/catch.hpp>
 

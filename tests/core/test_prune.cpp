@@ -1,4 +1,4 @@
-#include "prune.hpp"
+#include "faqem/detail/simplify/prune_components.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

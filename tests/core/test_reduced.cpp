@@ -1,4 +1,4 @@
-#include "reduced.hpp"
+#include "faqem/detail/simplify/compaction.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "relax.hpp"
+#include "faqem/detail/fitting/vertex_fitting.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "sides.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "spots.hpp"
+#include "faqem/detail/geometry/surface_samples.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "surface.hpp"
+#include "faqem/detail/geometry/surface.hpp"
 
 #include <catch2/catch.hpp>
 

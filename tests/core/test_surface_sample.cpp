@@ -1,4 +1,4 @@
-#include "surface_sample.hpp"
+#include "faqem/detail/geometry/random_sampling.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

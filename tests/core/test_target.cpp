@@ -1,4 +1,4 @@
-#include "target.hpp"
+#include "faqem/detail/simplify/target.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "two_sided.hpp"
+#include "faqem/detail/fitting/two_sided_error.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "virtual_edges.hpp"
+#include "faqem/detail/simplify/virtual_edges.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

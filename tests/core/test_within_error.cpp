@@ -1,4 +1,4 @@
-#include "within_error.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "arrange.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
 #include "core/meshes.hpp"
 #include "counted/silence.hpp"
-#include "prepare.hpp"
-#include "sides.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

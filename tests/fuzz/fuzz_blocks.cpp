@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "blocks.hpp"
+#include "faqem/detail/simplify/block_decimation.hpp"
 #include "fuzz/fuzz.hpp"
-#include "ground.hpp"
-#include "presets.hpp"
+#include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/detail/simplify/presets.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "asset/repair.hpp"
-#include "bvh.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "parallel.hpp"
-#include "surface.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/surface.hpp"
 
 namespace faqem::tool {
 

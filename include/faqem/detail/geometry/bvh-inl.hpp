@@ -1,0 +1,287 @@
+#include "faqem/detail/geometry/bvh.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Poll;
+using engine::Vector3;
+
+constexpr int bins = 16;
+/// Ranges up to this long are halved, so that the last nodes are full.
+constexpr std::uint32_t short_range = 16;
+/// Beyond that lengths in the frame would overflow, or their squares would be lost.
+constexpr double largest_scale = 1e90;
+
+struct Box {
+    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+    Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
+
+    void add(const Vector3& p) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    void add(const Box& other) {
+        low = low.cwiseMin(other.low);
+        high = high.cwiseMax(other.high);
+    }
+    /// Half the surface; 0 for a box nothing was added to.
+    double half_area() const {
+        if (!(low.x() <= high.x())) return 0;
+        const Vector3 d = high - low;
+        return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+    }
+};
+
+}  // namespace
+
+/// The state of one construction.
+struct Bvh::Build {
+    struct Item {
+        Box box;
+        Vector3 centre;  ///< of the box
+        std::uint32_t triangle;
+    };
+    struct Range {
+        std::uint32_t begin, end;
+        std::size_t depth;  ///< splits so far
+        std::uint32_t size() const { return end - begin; }
+    };
+    struct Todo {
+        Range range;
+        std::uint32_t node;
+    };
+
+    std::vector<Item> items;
+    Poll poll;
+
+    /// Surface-area heuristic over bins of the longest axis; returns begin where it finds no split.
+    std::uint32_t split_by_area(const Range& range, const Box& centres, int axis) {
+        // Halved: the difference of the largest doubles is beyond them.
+        const double low = 0.5 * centres.low[axis], extent = 0.5 * centres.high[axis] - low;
+        if (!(extent > 0)) return range.begin;
+        const auto bin_of = [&](const Item& item) {
+            return std::clamp(static_cast<int>((0.5 * item.centre[axis] - low) / extent * bins), 0, bins - 1);
+        };
+        std::array<Box, bins> boxes;
+        std::array<std::uint32_t, bins> counts = {};
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            poll();
+            const auto bin = static_cast<std::size_t>(bin_of(items[i]));
+            boxes[bin].add(items[i].box);
+            ++counts[bin];
+        }
+        std::array<double, bins> right_cost = {};
+        Box box;
+        std::uint32_t count = 0;
+        for (std::size_t b = bins - 1; b > 0; --b) {
+            box.add(boxes[b]);
+            count += counts[b];
+            right_cost[b] = box.half_area() * count;
+        }
+        const std::uint32_t total = range.end - range.begin;
+        double best_cost = std::numeric_limits<double>::infinity();
+        int best = -1;
+        box = {};
+        count = 0;
+        for (std::size_t b = 0; b + 1 < bins; ++b) {
+            box.add(boxes[b]);
+            count += counts[b];
+            if (count == 0 || count == total) continue;
+            const double cost = box.half_area() * count + right_cost[b + 1];
+            if (cost < best_cost) {
+                best_cost = cost;
+                best = static_cast<int>(b);
+            }
+        }
+        if (best < 0) return range.begin;
+        const auto middle =
+            std::partition(items.begin() + range.begin, items.begin() + range.end, [&](const Item& item) {
+                poll();
+                return bin_of(item) <= best;
+            });
+        return static_cast<std::uint32_t>(middle - items.begin());
+    }
+
+    /// Halves, of which the first has a multiple of four where it can.
+    std::uint32_t halve(const Range& range, int axis) {
+        const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
+        const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
+        poll(range.size());
+        std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
+                         [axis](const Item& a, const Item& b) {
+                             return std::pair(a.centre[axis], a.triangle) <
+                                    std::pair(b.centre[axis], b.triangle);
+                         });
+        return middle;
+    }
+
+    std::uint32_t split(const Range& range) {
+        Box centres;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            poll();
+            centres.add(items[i].centre);
+        }
+        int axis = 0;
+        (centres.high - centres.low).maxCoeff(&axis);
+        if (range.size() > short_range && range.depth < sah_levels) {
+            const std::uint32_t middle = split_by_area(range, centres, axis);
+            if (middle != range.begin) return middle;
+        }
+        return halve(range, axis);
+    }
+
+    /// Up to four parts of a range: the longest one is split first.
+    std::vector<Range> parts(const Range& range) {
+        std::vector<Range> all = {range};
+        while (all.size() < width) {
+            const auto longest = std::max_element(
+                all.begin(), all.end(), [](const Range& a, const Range& b) { return a.size() < b.size(); });
+            if (longest->size() == 1) break;
+            const std::uint32_t middle = split(*longest);
+            const std::size_t depth = longest->depth + 1;
+            const Range rest{middle, longest->end, depth};
+            *longest = {longest->begin, middle, depth};
+            all.insert(longest + 1, rest);
+        }
+        return all;
+    }
+};
+
+template <class Positions>
+std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles,
+                                       Poll poll) {
+    std::vector<Corners> all;
+    all.reserve(triangles.size());
+    const auto place = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+        poll();
+        const auto [a, b, c] = triangles[f];
+        if (a == no_index || b == no_index || c == no_index) continue;
+        all.push_back({place(a), place(b), place(c), static_cast<Index>(f)});
+    }
+    return all;
+}
+
+Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, Poll poll)
+    : Bvh(corners(positions, triangles, poll), poll) {}
+
+Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll)
+    : Bvh(corners(positions, triangles, poll), poll) {}
+
+namespace {
+
+float below(double x) {
+    const auto rounded = static_cast<float>(x);
+    return rounded > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
+}
+
+float above(double x) { return -below(-x); }
+
+}  // namespace
+
+Bvh::Query::Query(const Vector3& p, const Frame& frame) {
+    const Vector3 local = frame(p);
+    for (int i = 0; i < 3; ++i) {
+        const auto x = static_cast<float>(local[i]);
+        const float error =
+            1.5e-7f * std::abs(x) + 1e-15f;  // of single precision here, of double in the frame
+        low[static_cast<std::size_t>(i)] = x - error;
+        high[static_cast<std::size_t>(i)] = x + error;
+    }
+}
+
+Bvh::Ray::Ray(const Query& from, const Vector3& direction) : origin(from) {
+    for (int i = 0; i < 3; ++i) {
+        const auto x = static_cast<float>(direction[i]);
+        constexpr float least = 1e-18f;
+        inverse[static_cast<std::size_t>(i)] = 1 / (std::abs(x) >= least ? x : std::copysign(least, x));
+    }
+}
+
+float Bvh::limit_in_frame(double distance_squared) const {
+    return static_cast<float>(distance_squared * frame_.scale * frame_.scale * (1 + 1e-6)) +
+           std::numeric_limits<float>::min();
+}
+
+Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
+    if (triangles.empty()) return;
+    assert(triangles.size() < leaf_bit);
+    Build build{{}, poll};
+    build.items.reserve(triangles.size());
+    Box whole;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        poll();
+        Build::Item item;
+        for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
+        item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
+        item.triangle = i;
+        whole.add(item.box);
+        build.items.push_back(item);
+    }
+    frame_.centre = 0.5 * whole.low + 0.5 * whole.high;
+    const double half_width = (0.5 * whole.high - 0.5 * whole.low).maxCoeff();
+    if (half_width > 0) frame_.scale = std::min(1 / half_width, largest_scale);
+
+    triangles_.reserve(triangles.size());
+    nodes_.resize(1);
+    std::vector<Build::Todo> todo = {{{0, static_cast<std::uint32_t>(triangles.size()), 0}, 0}};
+    while (!todo.empty()) {
+        const auto [range, at] = todo.back();
+        todo.pop_back();
+        for (const Build::Range& part : build.parts(range)) {
+            const std::uint32_t k = nodes_[at].count++;
+            if (part.size() == 1) {
+                nodes_[at].child[k] = static_cast<std::uint32_t>(triangles_.size()) | leaf_bit;
+                triangles_.push_back(triangles[build.items[part.begin].triangle]);
+            } else {
+                nodes_[at].child[k] = static_cast<std::uint32_t>(nodes_.size());
+                todo.push_back({part, nodes_[at].child[k]});
+                nodes_.emplace_back();
+            }
+        }
+    }
+    fit_boxes(poll);
+}
+
+void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll) {
+    for (Corners& t : triangles_) {
+        poll();
+        const auto [a, b, c] = triangles[t.face];
+        t.a = positions[a], t.b = positions[b], t.c = positions[c];
+    }
+    fit_boxes(poll);
+}
+
+void Bvh::fit_boxes(Poll poll) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
+        poll();
+        Node& node = nodes_[n];
+        for (std::size_t i = 0; i < 3; ++i) node.low[i].fill(infinity), node.high[i].fill(-infinity);
+        for (std::uint32_t k = 0; k < node.count; ++k) {
+            if (node.child[k] & leaf_bit) {
+                const Corners& t = triangles_[node.child[k] & ~leaf_bit];
+                Box box;
+                for (const Vector3& p : {t.a, t.b, t.c}) box.add(frame_(p));
+                for (int i = 0; i < 3; ++i) {
+                    node.low[static_cast<std::size_t>(i)][k] = below(box.low[i]);
+                    node.high[static_cast<std::size_t>(i)][k] = above(box.high[i]);
+                }
+            } else {
+                const Node& child = nodes_[node.child[k]];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    node.low[i][k] = child.low[i].minCoeff();
+                    node.high[i][k] = child.high[i].maxCoeff();
+                }
+            }
+        }
+    }
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Area-uniform, stratified samples of a surface that depend on their number and a seed only.
+
+#include <cstdint>
+
+#include "faqem/export.hpp"
+#include "faqem/detail/geometry/surface.hpp"
+
+namespace faqem::detail {
+
+/// A point of a surface.
+struct SurfaceSample {
+    Index face = no_index;  ///< into Surface::triangles
+    Vec3 barycentric = {};  ///< weights of its corners, sum 1
+    Vec3 point = {};
+};
+
+/// Sample i of n: a uniform point of the face that a uniform place in the i-th of n equal slices of the area
+/// falls into. O(log faces)
+/// \param s     with a face
+/// \param i     < n
+/// \param seed  another seed, other places
+FAQEM_EXPORT SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
+
+}  // namespace faqem::detail

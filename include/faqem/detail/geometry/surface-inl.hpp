@@ -1,0 +1,106 @@
+#include "faqem/detail/geometry/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Vector3;
+
+/// Faces lower than this share of their longest edge have no normal worth comparing.
+constexpr double least_height = 1e-12;
+
+void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
+    for (const Index v : t) {
+        if (v >= vertices) {
+            throw InputError({}, "face " + std::to_string(f),
+                             "refers to vertex " + std::to_string(v) + " of " + std::to_string(vertices));
+        }
+    }
+}
+
+/// Keeps the used positions, each once, and makes the triangles refer to them.
+void weld(Surface& s, engine::Poll poll) {
+    std::vector<Index> new_index(s.positions.size(), no_index), order;
+    for (const Triangle& t : s.triangles) {
+        poll();
+        for (const Index v : t) {
+            if (new_index[v] != no_index) continue;
+            new_index[v] = 0;
+            order.push_back(v);
+        }
+    }
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        poll();
+        if (s.positions[a] != s.positions[b]) return s.positions[a] < s.positions[b];
+        return a < b;
+    });
+    std::vector<Vec3> kept;
+    for (const Index v : order) {
+        poll();
+        if (kept.empty() || kept.back() != s.positions[v]) kept.push_back(s.positions[v]);
+        new_index[v] = static_cast<Index>(kept.size() - 1);
+    }
+    for (Triangle& t : s.triangles) {
+        poll();
+        for (Index& v : t) v = new_index[v];
+    }
+    s.positions = std::move(kept);
+}
+
+}  // namespace
+
+Surface surface_of(const MeshView& mesh, engine::Poll poll) {
+    Surface s;
+    s.positions.resize(mesh.positions.size());
+    for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
+    double area = 0;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        poll();
+        const Triangle t = mesh.triangles[f];
+        check_indices(t, f, s.positions.size());
+        const Vector3 a = engine::to_eigen(s.positions[t[0]]), b = engine::to_eigen(s.positions[t[1]]),
+                      c = engine::to_eigen(s.positions[t[2]]);
+        const Vector3 n = engine::area_vector(a, b, c);
+        const double longest =
+            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        const double twice_area = n.norm();
+        if (!(twice_area > least_height * longest) || !std::isfinite(twice_area)) continue;
+        area += twice_area / 2;
+        s.triangles.push_back(t);
+        s.faces.push_back(static_cast<Index>(f));
+        s.normals.push_back(n / twice_area);
+        s.area_up_to.push_back(area);
+    }
+    weld(s, poll);
+    if (s.positions.empty()) return s;
+    s.low = s.high = engine::to_eigen(s.positions.front());
+    for (const Vec3& p : s.positions) {
+        s.low = s.low.cwiseMin(engine::to_eigen(p));
+        s.high = s.high.cwiseMax(engine::to_eigen(p));
+    }
+    return s;
+}
+
+Surface make_surface(const MeshView& mesh, const char* name) {
+    Surface s = surface_of(mesh);
+    if (s.triangles.empty()) throw InputError({}, name, "has no face with area");
+    return s;
+}
+
+double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p, const Bvh::Hit& hit,
+                   const Vector3& normal, double tolerance) {
+    double best = normal.dot(normals[hit.face]);
+    const double reach = std::sqrt(hit.distance_squared) + tolerance;
+    tree.visit_within(p, reach * reach, [&](Index face, const ClosestPoint&) {
+        best = std::max(best, normal.dot(normals[face]));
+    });
+    return std::min(best, 1.0);
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,93 @@
+#include "faqem/detail/geometry/surface_samples.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Vector3;
+
+/// The k-th point of a sequence that fills the triangle evenly.
+Vec3 even_weight(std::size_t k) {
+    const auto fraction = [&](double step) {
+        const double x = 0.5 + step * static_cast<double>(k);
+        return x - std::floor(x);
+    };
+    double v = fraction(0.75487766624669276), w = fraction(0.56984029099805327);
+    if (v + w > 1) v = 1 - v, w = 1 - w;
+    return {1 - v - w, v, w};
+}
+
+}  // namespace
+
+std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
+    std::vector<Vector3> normals;
+    normals.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        poll();
+        normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
+                                           : area_vector(mesh.positions, t).normalized());
+    }
+    return normals;
+}
+
+std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll) {
+    std::vector<double> area_up_to;
+    double area = 0;
+    for (const Triangle& t : mesh.triangles) {
+        poll();
+        if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
+        area_up_to.push_back(area);
+    }
+    std::vector<Spot> spots;
+    if (!(area > 0)) return spots;
+    Index face = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        poll();
+        const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
+        while (face + 1 < area_up_to.size() && !(area_up_to[face] > place)) ++face;
+        spots.push_back({face, even_weight(k)});
+    }
+    return spots;
+}
+
+std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll) {
+    std::vector<Spot> spots;
+    std::vector<std::uint8_t> seen;
+    for (Index f = 0; f < triangles.size(); ++f) {
+        poll();
+        const Triangle& t = triangles[f];
+        if (t[0] == no_index) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            Spot corner{f, {0, 0, 0}};
+            corner.weight[k] = 1;
+            if (seen.size() <= t[k]) seen.resize(std::size_t{t[k]} + 1, 0);
+            if (!std::exchange(seen[t[k]], std::uint8_t{1})) spots.push_back(corner);
+            corner.weight[k] = corner.weight[(k + 1) % 3] = 0.5;
+            spots.push_back(corner);
+        }
+    }
+    return spots;
+}
+
+std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll) {
+    std::vector<Vector3> normal(mesh.positions.size(), Vector3::Zero());
+    std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+    for (const Triangle& t : mesh.triangles) {
+        if (t[0] == no_index) continue;
+        poll();
+        const Vector3 n = area_vector(mesh.positions, t);
+        for (const Index v : t) normal[v] += n, used[v] = 1;
+    }
+    std::vector<OrientedPoint> points;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        poll();
+        if (used[v]) points.push_back({mesh.positions[v], normal[v].normalized()});
+    }
+    return points;
+}
+
+}  // namespace faqem::detail

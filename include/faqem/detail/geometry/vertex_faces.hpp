@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// The faces around each vertex of a mesh that stays as it is.
+
+#include <cstddef>
+#include <span>
+
+#include "faqem/detail/base/bucketed.hpp"
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// The faces around each vertex, in their order.
+using FacesAround = Buckets<Index>;
+
+/// \param vertices   their number
+/// \param triangles  a triangle with no_index corners is none
+/// \throws what the poll throws
+/// O(vertices + faces)
+inline FacesAround faces_around(std::size_t vertices, std::span<const Triangle> triangles,
+                                engine::Poll poll = {}) {
+    return FacesAround(vertices, [&](auto&& put) {
+        for (Index f = 0; f < triangles.size(); ++f) {
+            poll();
+            if (triangles[f][0] == no_index) continue;
+            for (const Index v : triangles[f]) put(v, f);
+        }
+    });
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,229 @@
+#include "faqem/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "faqem/detail/geometry/edge_flip.hpp"
+#include "faqem/detail/history/final_versions.hpp"
+#include "faqem/detail/history/binary_io.hpp"
+
+namespace faqem {
+
+namespace {
+
+using detail::get_array;
+using detail::put_array;
+
+// Collapses and deletions are written as parallel arrays: their structs have padding.
+template <class T, class Member>
+auto column(const std::vector<T>& rows, Member member) {
+    std::vector<std::decay_t<decltype(rows.front().*member)>> values;
+    values.reserve(rows.size());
+    for (const T& row : rows) values.push_back(row.*member);
+    return values;
+}
+
+template <class T, class Value>
+void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value>& values,
+                 const char* section) {
+    if (rows.size() != values.size()) detail::fail_history(section, "columns of different length");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values[i];
+}
+
+std::string numbered(const char* what, std::size_t i) {
+    return std::string(what) + "[" + std::to_string(i) + "]";
+}
+
+void check_position(const Vec3& position, const char* section, std::size_t i) {
+    for (const double x : position) {
+        if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "a position that is not finite");
+    }
+}
+
+void check_positions(const CollapseHistory& h) {
+    for (std::size_t i = 0; i < h.positions.size(); ++i) check_position(h.positions[i], "positions", i);
+    for (std::size_t k = 0; k < h.collapses.size(); ++k)
+        check_position(h.collapses[k].position, "collapses", k);
+    for (std::size_t i = 0; i < h.kept_positions.size(); ++i)
+        check_position(h.kept_positions[i], "kept_positions", i);
+}
+
+void check_faces(const CollapseHistory& h) {
+    for (std::size_t f = 0; f < h.triangles.size(); ++f) {
+        const Triangle& t = h.triangles[f];
+        const bool dropped = t[0] == no_index && t[1] == no_index && t[2] == no_index;
+        const bool inside =
+            t[0] < h.positions.size() && t[1] < h.positions.size() && t[2] < h.positions.size();
+        if (!dropped && !inside) detail::fail_history(numbered("triangles", f), "vertex index out of range");
+    }
+    if (!h.face_groups.empty() && h.face_groups.size() != h.triangles.size()) {
+        detail::fail_history("face_groups", "needs one entry per face or none");
+    }
+}
+
+// Marks the versions that collapses use up; each is used once, after it was made.
+std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
+    const std::size_t versions = h.positions.size() + h.collapses.size();
+    if (versions >= no_index) detail::fail_history("collapses", "too many");
+    std::vector<std::uint8_t> used(versions, 0);
+    for (std::size_t k = 0; k < h.collapses.size(); ++k) {
+        const Collapse& c = h.collapses[k];
+        for (const Index v : {c.first, c.second}) {
+            if (!(v < h.positions.size() + k))
+                detail::fail_history(numbered("collapses", k), "version not made yet");
+            if (used[v]) detail::fail_history(numbered("collapses", k), "version collapsed twice");
+            used[v] = 1;
+        }
+    }
+    return used;
+}
+
+void check_patches(const CollapseHistory& h) {
+    if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
+        h.patch_begin.back() != h.patch_faces.size() ||
+        !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end())) {
+        detail::fail_history("patch_begin", "must rise from 0 to the number of patch faces");
+    }
+    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
+        if (h.patch(k).size() != 2) detail::fail_history(numbered("patch_begin", k), "a swap has two faces");
+    }
+    for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
+        const Index f = h.patch_faces[i];
+        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index) {
+            detail::fail_history(numbered("patch_faces", i), "no such face");
+        }
+    }
+    for (std::size_t i = 0; i < h.deleted_faces.size(); ++i) {
+        if (!(h.deleted_faces[i].face < h.triangles.size()) ||
+            !(h.deleted_faces[i].time <= h.collapses.size())) {
+            detail::fail_history(numbered("deleted_faces", i), "out of range");
+        }
+    }
+}
+
+// Vertex of the small mesh for each version that is kept.
+std::vector<Index> kept_vertex(const CollapseHistory& h) {
+    std::vector<Index> vertex(h.positions.size() + h.collapses.size(), no_index);
+    for (std::size_t i = 0; i < h.kept_versions.size(); ++i)
+        vertex[h.kept_versions[i]] = static_cast<Index>(i);
+    return vertex;
+}
+
+// All faces over the vertices of the small mesh after the last swap; what was not kept has no_index corners.
+std::vector<Triangle> small_faces(const CollapseHistory& h) {
+    const std::vector<Index> vertex = kept_vertex(h);
+    const std::vector<Index> last = detail::final_versions(h);
+    std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
+    for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
+        const Index f = h.kept_faces[i];
+        const Triangle& t = h.triangles[f];
+        faces[f] = {vertex[last[t[0]]], vertex[last[t[1]]], vertex[last[t[2]]]};
+        for (const Index v : faces[f]) {
+            if (v == no_index)
+                detail::fail_history(numbered("kept_faces", i), "has a vertex that was not kept");
+        }
+    }
+    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
+        Triangle &s = faces[h.patch(k)[0]], &t = faces[h.patch(k)[1]];
+        if (s[0] == no_index || t[0] == no_index || !detail::swap_edge(s, t))
+            detail::fail_history(numbered("patch_begin", k), "a swap of faces that share no edge");
+    }
+    return faces;
+}
+
+void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
+    for (std::size_t i = 0; i < h.kept_versions.size(); ++i) {
+        const Index v = h.kept_versions[i];
+        if (!(v < used.size()) || used[v])
+            detail::fail_history(numbered("kept_versions", i), "not a living version");
+    }
+    if (!h.kept_positions.empty() && h.kept_positions.size() != h.kept_versions.size()) {
+        detail::fail_history("kept_positions", "needs one entry per kept version or none");
+    }
+    for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
+        const Index f = h.kept_faces[i];
+        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
+            detail::fail_history(numbered("kept_faces", i), "no such face");
+    }
+    small_faces(h);
+}
+
+}  // namespace
+
+void validate(const CollapseHistory& history) {
+    const CollapseHistory& h = history;
+    const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
+                         h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
+                         h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty() &&
+                         h.kept_positions.empty();
+    if (nothing) return;
+    check_positions(history);
+    check_faces(history);
+    const std::vector<std::uint8_t> used = check_collapses(history);
+    check_patches(history);
+    check_kept(history, used);
+}
+
+TriangleMesh replay(const CollapseHistory& history) {
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        mesh.positions.push_back(history.kept_position(i));
+    }
+    const std::vector<Triangle> faces = small_faces(history);
+    for (const Index f : history.kept_faces) {
+        mesh.triangles.push_back(faces[f]);
+        if (!history.face_groups.empty()) mesh.face_groups.push_back(history.face_groups[f]);
+    }
+    return mesh;
+}
+
+void write(const CollapseHistory& h, std::ostream& out) {
+    detail::put(out, detail::history_magic);
+    put_array(out, h.positions);
+    put_array(out, h.triangles);
+    put_array(out, h.face_groups);
+    put_array(out, column(h.collapses, &Collapse::first));
+    put_array(out, column(h.collapses, &Collapse::second));
+    put_array(out, column(h.collapses, &Collapse::position));
+    put_array(out, h.patch_begin);
+    put_array(out, h.patch_faces);
+    put_array(out, h.kept_positions);
+    put_array(out, column(h.deleted_faces, &DeletedFace::time));
+    put_array(out, column(h.deleted_faces, &DeletedFace::face));
+    put_array(out, h.kept_versions);
+    put_array(out, h.kept_faces);
+    out.flush();
+    if (!out) throw WriteError("the history could not be written");
+}
+
+CollapseHistory read_history(std::istream& in) {
+    if (detail::get<detail::HistoryMagic>(in, "header") != detail::history_magic)
+        detail::fail_history("header", "not a collapse history of this version");
+    return detail::read_history_body(in);
+}
+
+CollapseHistory detail::read_history_body(std::istream& in) {
+    CollapseHistory h;
+    h.positions = get_array<Vec3>(in, "positions");
+    h.triangles = get_array<Triangle>(in, "triangles");
+    h.face_groups = get_array<Index>(in, "face_groups");
+    const auto firsts = get_array<Index>(in, "collapses");
+    h.collapses.resize(firsts.size());
+    fill_column(h.collapses, &Collapse::first, firsts, "collapses");
+    fill_column(h.collapses, &Collapse::second, get_array<Index>(in, "collapses"), "collapses");
+    fill_column(h.collapses, &Collapse::position, get_array<Vec3>(in, "collapses"), "collapses");
+    h.patch_begin = get_array<std::uint64_t>(in, "patch_begin");
+    h.patch_faces = get_array<Index>(in, "patch_faces");
+    h.kept_positions = get_array<Vec3>(in, "kept_positions");
+    const auto times = get_array<std::uint64_t>(in, "deleted_faces");
+    h.deleted_faces.resize(times.size());
+    fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
+    fill_column(h.deleted_faces, &DeletedFace::face, get_array<Index>(in, "deleted_faces"), "deleted_faces");
+    h.kept_versions = get_array<Index>(in, "kept_versions");
+    h.kept_faces = get_array<Index>(in, "kept_faces");
+    validate(h);
+    return h;
+}
+
+}  // namespace faqem

@@ -1,0 +1,298 @@
+#include "faqem/cut.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "faqem/error.hpp"
+#include "faqem/detail/history/final_versions.hpp"
+#include "faqem/detail/history/binary_io.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+
+namespace faqem {
+
+namespace {
+
+using detail::fail_history;
+
+std::string numbered(std::size_t level) { return "level " + std::to_string(level); }
+
+bool is_same(const Collapse& a, const Collapse& b) {
+    return a.first == b.first && a.second == b.second && a.position == b.position;
+}
+
+bool is_same(const DeletedFace& a, const DeletedFace& b) { return a.time == b.time && a.face == b.face; }
+
+// Does a run that had done `part` go on to `whole`?
+bool goes_on_to(const CollapseHistory& part, const CollapseHistory& whole) {
+    const auto begins = [](const auto& a, const auto& b, auto&& same) {
+        return a.size() <= b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
+    };
+    return part.positions == whole.positions && part.triangles == whole.triangles &&
+           part.face_groups == whole.face_groups &&
+           begins(part.collapses, whole.collapses,
+                  [](const Collapse& a, const Collapse& b) { return is_same(a, b); }) &&
+           begins(part.deleted_faces, whole.deleted_faces,
+                  [](const DeletedFace& a, const DeletedFace& b) { return is_same(a, b); });
+}
+
+HistoryLevel level_of(const CollapseHistory& history) {
+    HistoryLevel level;
+    level.collapses = history.collapses.size();
+    level.deleted = history.deleted_faces.size();
+    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k)
+        level.swaps.push_back({history.patch(k)[0], history.patch(k)[1]});
+    level.kept_versions = history.kept_versions;
+    level.kept_faces = history.kept_faces;
+    level.kept_positions = history.kept_positions;
+    return level;
+}
+
+// The first collapses and deletions.
+CollapseHistory beginning(const CollapseHistory& whole, std::size_t collapses, std::size_t deleted) {
+    CollapseHistory h;
+    if (whole.patch_begin.empty()) return h;  // of nothing
+    h.positions = whole.positions;
+    h.triangles = whole.triangles;
+    h.face_groups = whole.face_groups;
+    const auto first = [](const auto& of, std::size_t n) {
+        return std::decay_t<decltype(of)>(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(n));
+    };
+    h.collapses = first(whole.collapses, collapses);
+    h.patch_begin = first(whole.patch_begin, collapses + 1);
+    h.patch_faces = first(whole.patch_faces, static_cast<std::size_t>(h.patch_begin.back()));
+    h.deleted_faces = first(whole.deleted_faces, deleted);
+    return h;
+}
+
+// How far a history goes.
+struct Moment {
+    std::size_t collapses = 0, deleted = 0;
+    bool operator==(const Moment&) const = default;
+};
+
+Moment end_of_level(const ChainHistory& history, std::size_t level) {
+    if (level == history.before.size())
+        return {history.last.collapses.size(), history.last.deleted_faces.size()};
+    return {static_cast<std::size_t>(history.before[level].collapses),
+            static_cast<std::size_t>(history.before[level].deleted)};
+}
+
+std::size_t faces_at_level(const ChainHistory& history, std::size_t level) {
+    return level == history.before.size() ? history.last.kept_faces.size()
+                                          : history.before[level].kept_faces.size();
+}
+
+// Where a run to so many faces would have stopped, as an engine counts: what has lost its area counts too.
+// What is deleted between two collapses goes together.
+Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
+    const Index made = static_cast<Index>(h.positions.size());
+    std::vector<Triangle> corners = h.triangles;
+    std::size_t left = static_cast<std::size_t>(
+        std::count_if(corners.begin(), corners.end(), [](const Triangle& t) { return t[0] != no_index; }));
+    const auto remove = [&](Index f) {
+        if (corners[f][0] == no_index) return;
+        corners[f][0] = no_index;
+        --left;
+    };
+    Moment now;
+    const auto remove_deleted = [&] {
+        while (now.deleted < h.deleted_faces.size() && h.deleted_faces[now.deleted].time == now.collapses)
+            remove(h.deleted_faces[now.deleted++].face);
+    };
+    remove_deleted();  // what was pruned is among it
+    while (left > faces && now.collapses < h.collapses.size()) {
+        const Collapse& c = h.collapses[now.collapses];
+        for (const Index f : h.patch(now.collapses)) {
+            if (corners[f][0] == no_index) continue;
+            Index replaced = 0;
+            for (Index& v : corners[f]) {
+                if (v != c.first && v != c.second) continue;
+                v = made + static_cast<Index>(now.collapses);
+                ++replaced;
+            }
+            if (replaced > 1) remove(f);
+        }
+        ++now.collapses;
+        if (left > faces) remove_deleted();
+    }
+    return now;
+}
+
+// Fills what is kept as a run would that ended there: vertices and faces in the order of the input, none
+// without area.
+void keep_what_is_left(CollapseHistory& h) {
+    const std::vector<Index> last = detail::final_versions(h);
+    std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
+    for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
+    // Vertices are in the order of the slots, and each version has the slot of the first it was made of.
+    std::vector<Index> slot(last.size());
+    std::iota(slot.begin(), slot.end(), Index{0});
+    for (std::size_t k = 0; k < h.collapses.size(); ++k)
+        slot[h.positions.size() + k] = slot[h.collapses[k].first];
+    std::vector<Index> version_at(h.positions.size(), no_index);
+    for (Index f = 0; f < h.triangles.size(); ++f) {
+        const Triangle& t = h.triangles[f];
+        if (t[0] == no_index || is_deleted[f]) continue;
+        const Triangle now = {last[t[0]], last[t[1]], last[t[2]]};
+        if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
+        if (detail::has_no_area(h.position(now[0]), h.position(now[1]), h.position(now[2]))) continue;
+        h.kept_faces.push_back(f);
+        for (const Index v : now) version_at[slot[v]] = v;
+    }
+    for (const Index v : version_at) {
+        if (v != no_index) h.kept_versions.push_back(v);
+    }
+}
+
+void check_same_count(std::span<const ChainHistory> parts) {
+    for (const ChainHistory& part : parts) {
+        if (part.level_count() != parts.front().level_count())
+            throw InputError("history", "levels", "the parts have not the same number of them");
+    }
+}
+
+}  // namespace
+
+ChainHistory join(std::span<const CollapseHistory> levels) {
+    if (levels.empty()) throw InputError("history", "levels", "there are none");
+    ChainHistory result;
+    result.last = levels.back();
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        if (!goes_on_to(levels[i], levels[i + 1]))
+            fail_history(numbered(i), "the next one is of another run");
+        result.before.push_back(level_of(levels[i]));
+    }
+    return result;
+}
+
+CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level) {
+    if (level == history.before.size()) return history.last;
+    const HistoryLevel& end = history.before[level];
+    const Moment moment = end_of_level(history, level);
+    CollapseHistory h = beginning(history.last, moment.collapses, moment.deleted);
+    for (const auto& [s, t] : end.swaps) {
+        h.patch_faces.insert(h.patch_faces.end(), {s, t});
+        h.patch_begin.push_back(h.patch_faces.size());
+    }
+    h.kept_versions = end.kept_versions;
+    h.kept_faces = end.kept_faces;
+    h.kept_positions = end.kept_positions;
+    return h;
+}
+
+CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces) {
+    const std::size_t levels = history.level_count();
+    for (std::size_t i = 0; i < levels; ++i) {
+        if (faces_at_level(history, i) == faces) return cut_at_level(history, i);
+    }
+    const Moment moment = moment_of(history.last, faces);
+    for (std::size_t i = 0; i < levels; ++i) {
+        if (end_of_level(history, i) == moment) return cut_at_level(history, i);
+    }
+    CollapseHistory h = beginning(history.last, moment.collapses, moment.deleted);
+    keep_what_is_left(h);
+    return h;
+}
+
+std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces) {
+    std::vector<CollapseHistory> result;
+    if (parts.empty()) return result;
+    check_same_count(parts);
+    // Of each level, the first of them the original.
+    const auto faces_of = [](const ChainHistory& part, std::size_t level) -> std::uint64_t {
+        if (level > 0) return faces_at_level(part, level - 1);
+        return static_cast<std::uint64_t>(std::count_if(part.last.triangles.begin(),
+                                                        part.last.triangles.end(),
+                                                        [](const Triangle& t) { return t[0] != no_index; }));
+    };
+    const auto faces_of_all = [&](std::size_t level) {
+        std::uint64_t sum = 0;
+        for (const ChainHistory& part : parts) sum += faces_of(part, level);
+        return sum;
+    };
+    const std::size_t levels = parts.front().level_count();
+    std::size_t below = 0;
+    while (below < levels && faces_of_all(below) > faces) ++below;
+    const bool is_level = below > 0 && faces_of_all(below) >= faces;  // above it only at the last
+    if (is_level) {
+        for (const ChainHistory& part : parts) result.push_back(cut_at_level(part, below - 1));
+        return result;
+    }
+    if (parts.size() == 1 || below == 0) {
+        for (const ChainHistory& part : parts)
+            result.push_back(cut_to(part, below == 0 ? faces_of(part, 0) : faces));
+        return result;
+    }
+    const std::uint64_t fewer = faces_of_all(below), more = faces_of_all(below - 1);
+    const double share = static_cast<double>(faces - fewer) / static_cast<double>(more - fewer);
+    for (const ChainHistory& part : parts) {
+        const std::uint64_t least = faces_of(part, below);
+        const auto extra = static_cast<double>(faces_of(part, below - 1) - least);
+        result.push_back(cut_to(part, least + static_cast<std::uint64_t>(share * extra)));
+    }
+    return result;
+}
+
+SimplifyResult restore(CollapseHistory history) {
+    SimplifyResult result;
+    result.mesh = replay(history);
+    Report& report = result.report;
+    report.faces_in = history.triangles.size();
+    report.faces_out = result.mesh.triangles.size();
+    report.vertices_in = history.positions.size();
+    report.vertices_out = result.mesh.positions.size();
+    report.collapses = history.collapses.size();
+    result.face_origin = history.kept_faces;
+    result.history = std::move(history);
+    return result;
+}
+
+void write(const ChainHistory& history, std::ostream& out) {
+    detail::put(out, detail::chain_magic);
+    write(history.last, out);
+    detail::put(out, static_cast<std::uint64_t>(history.before.size()));
+    for (const HistoryLevel& level : history.before) {
+        detail::put(out, level.collapses);
+        detail::put(out, level.deleted);
+        detail::put_array(out, level.swaps);
+        detail::put_array(out, level.kept_positions);
+        detail::put_array(out, level.kept_versions);
+        detail::put_array(out, level.kept_faces);
+    }
+    out.flush();
+    if (!out) throw WriteError("the history could not be written");
+}
+
+ChainHistory read_chain_history(std::istream& in) {
+    ChainHistory history;
+    const auto magic = detail::get<detail::HistoryMagic>(in, "header");
+    if (magic == detail::history_magic) {
+        history.last = detail::read_history_body(in);
+        return history;
+    }
+    if (magic != detail::chain_magic) fail_history("header", "not a collapse history of this version");
+    history.last = read_history(in);
+    const auto count = detail::get<std::uint64_t>(in, "levels");
+    Moment latest;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        HistoryLevel& level = history.before.emplace_back();
+        level.collapses = detail::get<std::uint64_t>(in, "levels");
+        level.deleted = detail::get<std::uint64_t>(in, "levels");
+        level.swaps = detail::get_array<std::array<Index, 2>>(in, "levels");
+        level.kept_positions = detail::get_array<Vec3>(in, "levels");
+        level.kept_versions = detail::get_array<Index>(in, "levels");
+        level.kept_faces = detail::get_array<Index>(in, "levels");
+        const bool rises = level.collapses >= latest.collapses && level.deleted >= latest.deleted &&
+                           level.collapses <= history.last.collapses.size() &&
+                           level.deleted <= history.last.deleted_faces.size();
+        if (!rises)
+            fail_history(numbered(i), "goes not as far as the one before it, or farther than the last");
+        latest = end_of_level(history, static_cast<std::size_t>(i));
+        validate(cut_at_level(history, static_cast<std::size_t>(i)));
+    }
+    return history;
+}
+
+}  // namespace faqem

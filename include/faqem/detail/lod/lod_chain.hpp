@@ -1,0 +1,134 @@
+#pragma once
+/// \file
+/// A chain of levels: from counts and distances to targets, results and their errors.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "faqem/export.hpp"
+#include "faqem/levels.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
+
+namespace faqem::detail {
+
+/// A level in numbers.
+struct Goal {
+    std::optional<std::uint64_t> faces;  ///< else a distance
+    double allowed = std::numeric_limits<double>::infinity();
+};
+
+/// Checks the levels, and that options say nothing else, and takes all lengths to one unit.
+/// \param faces     of the original
+/// \param diagonal  of the original
+/// \throws OptionError  see simplify_levels()
+FAQEM_EXPORT std::vector<Goal> goals(const std::vector<Level>& levels, const Options& options, double faces,
+                                     double diagonal);
+
+/// A result, and the target that it was run to.
+template <class Result>
+struct Attempt : Result {
+    std::uint64_t target = 0;
+};
+
+/// Runs and measures the levels. A door brings the runs.
+/// \tparam Out     has the members of SimplifiedLevel
+/// \param faces    of the original
+/// \param run      (targets, Options) -> results, as run_to()
+/// \param measure  (Result, allowed, Look, Poll) -> Distance
+template <class Out, class Run, class Measure>
+std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, std::uint64_t faces,
+                           Run&& run, Measure&& measure) {
+    using Result = decltype(Out::result);
+    const auto searches = std::count_if(goals.begin(), goals.end(), [](const Goal& g) { return !g.faces; });
+    double steps_done = 0;  // searches, and at last a run
+    Options own = options;
+    if (options.progress) {
+        own.progress = [&](Phase phase, double fraction) {
+            const double done = phase == Phase::simplify ? fraction : 0;
+            return options.progress(Phase::simplify, (steps_done + done) / static_cast<double>(searches + 1));
+        };
+    }
+
+    std::vector<Out> out(goals.size());
+    std::vector<std::uint64_t> targets;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+        const std::uint64_t most = targets.empty() ? faces : targets.back();
+        if (goals[i].faces) {
+            targets.push_back(std::min(*goals[i].faces, most));
+            continue;
+        }
+        Options search = own;
+        search.max_error = model_units(goals[i].allowed);
+        auto found = run_within<Attempt<Result>>(
+            search, most, goals[i].allowed,
+            [&](const Options& tried) {
+                const std::uint64_t target = faces_wanted(tried.target, static_cast<double>(most));
+                targets.push_back(target);
+                Attempt<Result> attempt{std::move(run(targets, tried).back()), target};
+                targets.pop_back();
+                return attempt;
+            },
+            [&](const Result& result, Look look, Poll poll) {
+                return measure(result, goals[i].allowed, look, poll);
+            });
+        targets.push_back(found.target);
+        out[i].result = std::move(found);
+        if (out[i].result.report.stop == StopReason::cancelled) {
+            out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i));
+            out.resize(1);
+            return out;
+        }
+        const MeasuredError& error = *out[i].result.report.max_error;
+        out[i].distance = error.value;
+        out[i].error = error.bound;
+        ++steps_done;
+    }
+
+    std::vector<Result> results;
+    if (static_cast<std::size_t>(searches) < goals.size()) {
+        Options half = own;
+        if (own.progress)
+            half.progress = [&](Phase phase, double fraction) { return own.progress(phase, fraction / 2); };
+        results = run(targets, half);
+        out.resize(results.size());
+    }
+    const bool is_cancelled = !results.empty() && results.back().report.stop == StopReason::cancelled;
+    double largest = 0;
+    const auto done = [&](std::size_t levels) {
+        return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out.size());
+    };
+    // False: cancelled.
+    const auto take_measure = [&](std::size_t i) {
+        try {
+            const AskMeanwhile meanwhile(own, done(i));
+            const Distance found = measure(out[i].result, goals[i].allowed, Look::in_full, meanwhile.poll());
+            out[i].distance = found.value;
+            out[i].error = found.bound;
+            return true;
+        } catch (const engine::Cancelled&) {
+            return false;
+        }
+    };
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (goals[i].faces) out[i].result = std::move(results[i]);
+        if (is_cancelled && i + 1 == out.size()) {
+            out[i].result.report.stop = StopReason::cancelled;
+            break;
+        }
+        const bool goes_on = !goals[i].faces || take_measure(i);
+        largest = out[i].error = std::max(out[i].error, largest);
+        if (!goes_on || (own.progress && own.progress(Phase::simplify, done(i + 1)) == Continue::cancel)) {
+            out[i].result.report.stop = StopReason::cancelled;
+            out.resize(i + 1);
+        }
+    }
+    return out;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,33 @@
+#include "faqem/detail/mapping/closest_point.hpp"
+
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+
+using engine::to_eigen;
+
+ClosestPoints::ClosestPoints(const CollapseHistory& history, engine::Poll poll)
+    : history_(history),
+      replay_(replay_vertices(history, poll)),
+      tree_(history.positions, history.triangles, poll) {}
+
+SurfacePoint ClosestPoints::found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const {
+    if (hit.face == no_index) return {history_.kept_faces[face], barycentric, MapStep::closest};
+    return {hit.face, hit.barycentric, MapStep::closest};
+}
+
+SurfacePoint ClosestPoints::map(Index face, const Vec3& barycentric) const {
+    return found(tree_.closest(engine::to_array(replay_.place(face, barycentric))), face, barycentric);
+}
+
+SurfacePoint ClosestPoints::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
+    const Triangle& t = history_.triangles[near.face];
+    if (t[0] == no_index) return map(face, barycentric);
+    const auto& positions = history_.positions;
+    return found(
+        tree_.closest_from(engine::to_array(replay_.place(face, barycentric)), near.face,
+                           to_eigen(positions[t[0]]), to_eigen(positions[t[1]]), to_eigen(positions[t[2]])),
+        face, barycentric);
+}
+
+}  // namespace faqem::detail

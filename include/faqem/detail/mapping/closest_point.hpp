@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// From the small surface to the original by closest points: what a baker without history does.
+
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/history.hpp"
+#include "faqem/surface_map.hpp"
+#include "faqem/detail/mapping/replay.hpp"
+
+namespace faqem::detail {
+
+/// The closest point of the whole original, with no regard to sides, sheets or groups. On thin walls that is
+/// the wrong side as often as not.
+class ClosestPoints {
+public:
+    /// \throws what the poll throws
+    explicit ClosestPoints(const CollapseHistory& history, engine::Poll poll = {});
+
+    /// Of faces at the same distance the one with the smallest index. O(log faces) typically
+    SurfacePoint map(Index face, const Vec3& barycentric) const;
+
+    /// The same answer, sooner: `near` bounds the distance.
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
+
+private:
+    SurfacePoint found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const;
+
+    const CollapseHistory& history_;
+    Replay replay_;
+    Bvh tree_;
+};
+
+}  // namespace faqem::detail

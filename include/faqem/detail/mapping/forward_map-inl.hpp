@@ -1,0 +1,97 @@
+#include "faqem/forward_map.hpp"
+
+#include <array>
+#include <cassert>
+#include <limits>
+#include <tuple>
+
+#include "faqem/detail/geometry/vertex_faces.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/history/final_versions.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
+
+namespace faqem {
+
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+}  // namespace
+
+std::vector<Index> small_vertices(const CollapseHistory& history) {
+    const std::vector<Index> last = detail::final_versions(history);
+    std::vector<Index> number(last.size(), no_index);
+    for (Index v = 0; v < history.kept_versions.size(); ++v) number[history.kept_versions[v]] = v;
+    std::vector<Index> vertex;
+    vertex.reserve(history.positions.size());
+    for (std::size_t v = 0; v < history.positions.size(); ++v) vertex.push_back(number[last[v]]);
+    return vertex;
+}
+
+struct ForwardMap::Impl {
+    // The best place so far.
+    struct Best {
+        Index face = no_index;
+        bool looks_away = true;
+        double distance_squared = std::numeric_limits<double>::infinity();
+        Vector3 barycentric = Vector3::Zero();
+    };
+
+    explicit Impl(const CollapseHistory& h)
+        : history(h),
+          small(replay(h)),
+          vertex(small_vertices(h)),
+          around(detail::faces_around(small.positions.size(), small.triangles)) {}
+
+    Vector3 corner(Index face, std::size_t k) const {
+        return to_eigen(small.positions[small.triangles[face][k]]);
+    }
+
+    // A face that looks the other way is the back of a thin wall, and taken only where there is no other. Of
+    // faces at the same distance it is the one with the smallest index, whichever way led to it.
+    void look_around(Index v, const Vector3& p, const Vector3& normal, Best& best) const {
+        for (const Index f : around[v]) {
+            const Vector3 a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
+            const Vector3 own = engine::area_vector(a, b, c);
+            const bool looks_away = own.dot(normal) < -0.5 * own.norm();
+            const detail::ClosestPoint at = detail::closest_point_on_triangle(p, a, b, c);
+            if (std::tie(looks_away, at.distance_squared, f) <
+                std::tie(best.looks_away, best.distance_squared, best.face))
+                best = {f, looks_away, at.distance_squared, at.barycentric};
+        }
+    }
+
+    const CollapseHistory& history;
+    TriangleMesh small;
+    std::vector<Index> vertex;
+    detail::FacesAround around;
+};
+
+ForwardMap::ForwardMap(const CollapseHistory& history) : impl_(std::make_unique<const Impl>(history)) {}
+ForwardMap::~ForwardMap() = default;
+ForwardMap::ForwardMap(ForwardMap&&) noexcept = default;
+ForwardMap& ForwardMap::operator=(ForwardMap&&) noexcept = default;
+
+SmallPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
+    assert(face < impl_->history.triangles.size());
+    const Triangle& corners = impl_->history.triangles[face];
+    if (corners[0] == no_index) return {};
+    std::array<Vector3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = to_eigen(impl_->history.positions[corners[k]]);
+    const Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
+    const Vector3 normal = engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
+    Impl::Best best;
+    for (const Index v : corners) {
+        if (impl_->vertex[v] != no_index) impl_->look_around(impl_->vertex[v], p, normal, best);
+    }
+    Index from = no_index;
+    while (best.face != from) {
+        from = best.face;
+        for (const Index v : impl_->small.triangles[from]) impl_->look_around(v, p, normal, best);
+    }
+    if (best.face == no_index) return {};
+    return {best.face, engine::to_array(best.barycentric)};
+}
+
+}  // namespace faqem

@@ -1,0 +1,189 @@
+#include "faqem/detail/mapping/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "faqem/detail/geometry/edge_flip.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
+
+namespace faqem::detail {
+namespace {
+
+struct PatchEdge {
+    std::uint64_t key;
+    std::size_t entry;  // within the patch
+    bool operator<(const PatchEdge& o) const { return key != o.key ? key < o.key : entry < o.entry; }
+};
+
+// Buffers that live as long as the replay.
+struct Labeller {
+    std::vector<PatchEdge> edges;
+    std::vector<std::size_t> parent;
+
+    std::size_t root(std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    }
+
+    // Labels the patch's components over edges that join two faces: 0, 1, ... in the order of their first
+    // faces. sheet(e): of face e of the patch
+    template <class Sheet>
+    void label(std::span<const Triangle> corners, Sheet&& sheet, std::span<std::uint8_t> labels) {
+        edges.clear();
+        parent.resize(corners.size());
+        std::iota(parent.begin(), parent.end(), std::size_t{0});
+        for (std::size_t e = 0; e < corners.size(); ++e) {
+            for (int c = 0; c < 3; ++c) {
+                const Index a = corners[e][c], b = corners[e][(c + 1) % 3];
+                edges.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), e});
+            }
+        }
+        std::sort(edges.begin(), edges.end());
+        for (std::size_t i = 0, end; i < edges.size(); i = end) {
+            for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
+            const auto sheet_of_side = [&](std::size_t k) { return sheet(edges[i + k].entry); };
+            for_each_pair(end - i, sheet_of_side, [&](std::size_t first, std::size_t second) {
+                const std::size_t a = root(edges[i + first].entry), b = root(edges[i + second].entry);
+                parent[std::max(a, b)] = std::min(a, b);
+            });
+        }
+        std::uint8_t next = 0;
+        for (std::size_t e = 0; e < corners.size(); ++e) {
+            const std::size_t r = root(e);  // never behind e
+            labels[e] = r == e ? next : labels[r];
+            if (r == e && next < 255) ++next;
+        }
+    }
+};
+
+double distance(const Vec3& a, const Vec3& b) {
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return std::sqrt(x * x + y * y + z * z);
+}
+
+float mean_edge_length(const std::vector<Vec3>& positions, std::span<const Triangle> corners) {
+    double sum = 0;
+    for (const Triangle& t : corners) {
+        for (int c = 0; c < 3; ++c) sum += distance(positions[t[c]], positions[t[(c + 1) % 3]]);
+    }
+    return corners.empty() ? 0.0f : static_cast<float>(sum / (3.0 * static_cast<double>(corners.size())));
+}
+
+std::vector<Vec3> version_positions(const CollapseHistory& history) {
+    std::vector<Vec3> result = history.positions;
+    result.reserve(result.size() + history.collapses.size());
+    for (const Collapse& c : history.collapses) result.push_back(c.position);
+    return result;
+}
+
+Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const Vec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
+    Bound bound;
+    Vec3 centre;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double middle = 0.5 * std::min({a[i], b[i], c[i]}) + 0.5 * std::max({a[i], b[i], c[i]});
+        bound.centre[i] = static_cast<float>(middle);
+        centre[i] = bound.centre[i];
+        if (!std::isfinite(bound.centre[i])) return {{}, infinity};
+    }
+    const double radius = std::max({distance(a, centre), distance(b, centre), distance(c, centre)});
+    bound.radius = std::nextafter(static_cast<float>(radius * (1 + 1e-12)), infinity);
+    return bound;
+}
+
+// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or swaps
+// its edge.
+template <class Before>
+std::vector<Triangle> replay_forward(const CollapseHistory& history, engine::Poll poll, Before&& before) {
+    std::vector<Triangle> now = history.triangles;
+    for (std::size_t k = 0; k < history.collapses.size(); ++k) {
+        const Collapse& c = history.collapses[k];
+        const Index made = static_cast<Index>(history.positions.size() + k);
+        for (std::uint64_t e = history.patch_begin[k]; e < history.patch_begin[k + 1]; ++e) {
+            poll();
+            Triangle& t = now[history.patch_faces[e]];
+            before(k, e, t);
+            for (Index& v : t) {
+                if (v == c.first || v == c.second) v = made;
+            }
+        }
+    }
+    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
+        const std::span<const Index> patch = history.patch(k);
+        const std::uint64_t begin = history.patch_begin[k];
+        for (std::size_t i = 0; i < 2; ++i) before(k, begin + i, now[patch[i]]);
+        swap_edge(now[patch[0]], now[patch[1]]);
+    }
+    return now;
+}
+
+// The faces of the small mesh: their corners' versions, and where those are in the end.
+void keep(const CollapseHistory& history, const std::vector<Triangle>& last, engine::Poll poll,
+          Replay& result) {
+    std::vector<Vec3> in_the_end = result.positions;
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        in_the_end[history.kept_versions[i]] = history.kept_position(i);
+    }
+    for (const Index f : history.kept_faces) {
+        poll();
+        const Triangle& t = last[f];
+        result.kept_corners.push_back(t);
+        result.kept_positions.push_back({in_the_end[t[0]], in_the_end[t[1]], in_the_end[t[2]]});
+    }
+}
+
+}  // namespace
+
+Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
+    Replay result;
+    result.positions = version_positions(history);
+    const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
+    keep(history, replay_forward(history, poll, nothing), poll, result);
+    return result;
+}
+
+Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
+    const std::size_t entries = history.patch_faces.size();
+    Replay result;
+    result.positions = version_positions(history);
+    result.corners.resize(entries);
+    result.previous.resize(entries);
+
+    std::vector<Index> touched(history.triangles.size(), no_index);
+    const std::vector<Triangle> last =
+        replay_forward(history, poll, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
+            result.corners[e] = t;
+            Index& latest = touched[history.patch_faces[e]];
+            result.previous[e] = latest;
+            latest = static_cast<Index>(k);
+        });
+    keep(history, last, poll, result);
+    for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
+    return result;
+}
+
+void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
+                      Replay& replay) {
+    replay.bounds.resize(replay.corners.size());
+    replay.umbrella.resize(replay.corners.size());
+    replay.mean_edge.resize(history.patch_count());
+    parallel_blocks(history.patch_count(), 1024, workers, [&](std::size_t first, std::size_t last, Poll poll) {
+        Labeller labeller;
+        for (std::size_t k = first; k < last; ++k) {
+            const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
+            poll(size);
+            const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
+            for (std::size_t e = 0; e < size; ++e)
+                replay.bounds[begin + e] = bound_of(replay.positions, corners[e]);
+            const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
+            labeller.label(corners, sheet, std::span(replay.umbrella).subspan(begin, size));
+            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
+        }
+    });
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// From the small surface to the original by successive projection through the collapse history.
+
+#include <span>
+#include <vector>
+
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/history.hpp"
+#include "faqem/surface_map.hpp"
+#include "faqem/detail/mapping/replay.hpp"
+#include "faqem/detail/mapping/surface_patches.hpp"
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::detail {
+
+/// After Liu et al. 2024 (arXiv 2409.15458), with rules that keep a sample on its side of thin walls.
+///
+/// The point p0 and the normal n0 of its small face stay fixed. Backwards over the collapses that touched the
+/// face at hand, the walk moves to the best face of the patch as it was before:
+/// - of the small face's material group, always (the face at hand is one of them);
+/// - looking the way n0 does, where any does: s(f0) s(g) N_g . n0 >= 0.17, s: Sheets::sign;
+/// - with the least distance from p0, plus 0.3 mean patch edges outside the umbrella of the face at hand,
+/// plus one mean patch edge on another sheet than the small face's.
+///
+/// A face at hand that p0 lies on is kept. Walks that get too long are given up for the closest face of the
+/// small face's sheet.
+///
+/// The faces that a walk moves over are those that were there at the time: where they were far from the
+/// original, neighbouring samples part ways. So in the end the closest point is taken, of all original faces
+/// around the small one that pass the same tests. Where that one is close by and no face is closer that passes,
+/// around or not, the walk could not change the answer and is left out.
+class ProjectionWalk {
+public:
+    /// \param unwelded  as in find_sheets()
+    /// \throws what the poll throws
+    explicit ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded = {},
+                            Workers workers = {});
+
+    SurfacePoint map(Index face, const Vec3& barycentric) const;
+
+    /// As map(), but without the walk where it can do without: the answer for a sample close by on the same
+    /// small face bounds the distance instead. The same answer, but where the walk would find a face that is
+    /// not around the small one and looks another way or is of another sheet. Where `near` fails the tests of
+    /// sheet, group or side, or a closer face passes them that is not around, map() answers.
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
+
+private:
+    struct Query;
+    struct Best;
+    struct Patch;
+
+    Query start(Index face, const Vec3& barycentric) const;
+    bool faces_away(Index candidate, const engine::Vector3& area_vector, const Query& query) const;
+    Best best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& walked) const;
+    void consider(std::uint64_t entry, Patch& patch) const;
+    Best walk(Index face, const Query& query) const;
+    SurfacePoint by_walk(Index face, const Query& query) const;
+    SurfacePoint settle(const Query& query, Index face, MapStep step) const;
+    template <class Filter>
+    Bvh::Hit closest_that(const Query& query, double distance_squared, Filter&& filter) const;
+    Bvh::Hit closest_passing(const Query& query, double distance_squared) const;
+    SurfacePoint closest_around(const Query& query, double distance_squared) const;
+    bool is_around(Index original_face, const Query& query) const;
+    ClosestPoint on_original(Index face, const engine::Vector3& p0) const;
+    bool passes(Index original_face, const Query& query) const;
+    Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
+
+    const CollapseHistory& history_;
+    Bvh tree_;  // first, and alone: making it takes more for a while than it keeps
+    Sheets sheets_;
+    Replay replay_;
+    std::vector<Index> last_;  ///< by version: what became of it in the end
+};
+
+}  // namespace faqem::detail

@@ -1,0 +1,120 @@
+#include "faqem/compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/error.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/random_sampling.hpp"
+
+namespace faqem {
+
+namespace {
+
+using detail::Bvh;
+using detail::CoherentQuery;
+using detail::Surface;
+using engine::Vector3;
+
+constexpr std::size_t block = 4096;
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+/// Neighbouring faces whose distances differ by less than this share of the diagonal are tied.
+constexpr double tie_tolerance = 1e-9;
+
+struct Sums {
+    double max_squared = 0, distance = 0, squared = 0, degrees = 0;
+};
+
+/// Calls work(sums, begin, end) for blocks of [0, size) and returns the blocks' sums in order.
+template <class Work>
+std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
+    std::vector<Sums> sums((size + block - 1) / block);
+    detail::parallel_blocks(size, block, threads, [&](std::size_t begin, std::size_t end) {
+        work(sums[begin / block], begin, end);
+    });
+    return sums;
+}
+
+detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
+    if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
+    return {.tolerance = tolerance,
+            .floor = detail::gap_floor * diagonal,
+            .max_pieces = HausdorffOptions{}.max_pieces,
+            .workers = threads};
+}
+
+OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, const CompareOptions& options,
+                   std::uint64_t seed, double tie, const detail::SearchLimits& limits) {
+    const std::vector<Sums> sums =
+        sum_blocks(options.samples, options.threads, [&](Sums& sum, std::size_t begin, std::size_t end) {
+            CoherentQuery query(to, tree);
+            for (std::size_t i = begin; i < end; ++i) {
+                const detail::SurfaceSample s = sample(from, i, options.samples, seed);
+                const Bvh::Hit hit = query(s.point);
+                const double cosine =
+                    detail::best_cosine(tree, to.normals, s.point, hit, from.normals[s.face], tie);
+                sum.max_squared = std::max(sum.max_squared, hit.distance_squared);
+                sum.distance += std::sqrt(hit.distance_squared);
+                sum.squared += hit.distance_squared;
+                sum.degrees += std::acos(std::max(cosine, -1.0)) * degrees_per_radian;
+            }
+        });
+    Sums total;
+    for (const Sums& s : sums) {
+        total.max_squared = std::max(total.max_squared, s.max_squared);
+        total.distance += s.distance;
+        total.squared += s.squared;
+        total.degrees += s.degrees;
+    }
+    const detail::Farthest most =
+        detail::farthest(from, to, tree, detail::nearest_of_vertices(from, to, tree, options.threads),
+                         std::sqrt(total.max_squared), limits);
+    const double n = static_cast<double>(std::max<std::uint64_t>(options.samples, 1));
+    return {.max = most.value,
+            .max_bound = most.bound,
+            .mean = total.distance / n,
+            .mean_squared = total.squared / n,
+            .mean_normal_degrees = total.degrees / n};
+}
+
+}  // namespace
+
+Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options) {
+    const Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+    Comparison result;
+    result.diagonal = sa.diagonal();
+    const detail::SearchLimits limits = search_limits(options.tolerance, result.diagonal, options.threads);
+    const Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
+    const double tie = tie_tolerance * result.diagonal;
+    result.a_to_b = one_sided(sa, sb, tb, options, 2 * options.seed, tie, limits);
+    result.b_to_a = one_sided(sb, sa, ta, options, 2 * options.seed + 1, tie, limits);
+    result.hausdorff = std::max(result.a_to_b.max, result.b_to_a.max);
+    result.hausdorff_bound = std::max(result.a_to_b.max_bound, result.b_to_a.max_bound);
+    result.chamfer = result.a_to_b.mean_squared + result.b_to_a.mean_squared;
+    result.mean_normal_degrees = (result.a_to_b.mean_normal_degrees + result.b_to_a.mean_normal_degrees) / 2;
+    return result;
+}
+
+DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options) {
+    const Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+    detail::SearchLimits limits = search_limits(options.tolerance, sa.diagonal(), options.threads);
+    limits.stop_above = options.stop_above;
+    limits.stop_below = options.stop_below;
+    limits.max_pieces = options.max_pieces;
+    const Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
+    const detail::Farthest most = detail::farthest_both_ways(sa, ta, sb, tb, limits);
+    return {most.value, most.bound, most.pieces};
+}
+
+Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads) {
+    const DistanceBound found =
+        hausdorff(a, b, {.tolerance = 0, .threads = threads, .stop_above = distance, .stop_below = distance});
+    if (found.bound <= distance) return Within::yes;
+    return found.value > distance ? Within::no : Within::undecided;
+}
+
+}  // namespace faqem

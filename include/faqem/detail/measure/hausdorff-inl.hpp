@@ -1,0 +1,335 @@
+#include "faqem/detail/measure/hausdorff.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Vector3;
+
+constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128;
+/// Pieces taken at once: a multiple of the block, so that several threads have work.
+constexpr std::size_t batch_size = 16 * piece_block;
+constexpr std::size_t stop_interval = 16 * vertex_block;
+
+/// Part of a face, with faces of the other surface that may be near all of it.
+struct Piece {
+    std::array<Vector3, 3> corner;
+    std::array<Index, 3> nearest;                          ///< face nearest to the corner
+    std::array<Index, 2> near_all = {no_index, no_index};  ///< the faces that gave the bound
+    double bound_squared = std::numeric_limits<double>::infinity();
+};
+
+/// Up to 8 different faces.
+struct Candidates {
+    std::array<Index, 8> face;
+    std::size_t size = 0;
+
+    void add(Index f) {
+        if (f == no_index || std::find(face.begin(), face.begin() + size, f) != face.begin() + size) return;
+        face[size++] = f;
+    }
+    explicit Candidates(const Piece& piece) {
+        for (const Index f : piece.nearest) add(f);
+        for (const Index f : piece.near_all) add(f);
+    }
+};
+
+/// Squared distances of a point to candidates.
+using Distances = std::array<double, 8>;
+
+Distances distances(const Surface& to, const Vector3& p, const Candidates& candidates) {
+    Distances result;
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+        result[i] = to.distance_squared(p, candidates.face[i]);
+    }
+    return result;
+}
+
+/// Bound of a piece whose corners are nearer to f or to g: the polygon on f's side is bounded by its corners'
+/// distances to f, that on g's side by theirs to g. The cut is where parallel surfaces that meet in a
+/// straight edge would have it; any cut gives a bound.
+double bound_by_two(const Surface& to, const Piece& piece, Index f, Index g,
+                    const std::array<double, 3>& to_f, const std::array<double, 3>& to_g) {
+    double bound = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        bound = std::max(bound, std::min(to_f[k], to_g[k]));
+        const std::size_t n = (k + 1) % 3;
+        if ((to_f[k] <= to_g[k]) == (to_f[n] <= to_g[n])) continue;
+        const double here = std::sqrt(std::abs(to_g[k] - to_f[k]));
+        const double there = std::sqrt(std::abs(to_g[n] - to_f[n]));
+        const Vector3 cut = piece.corner[k] + here / (here + there) * (piece.corner[n] - piece.corner[k]);
+        const double at_cut = std::max(to.distance_squared(cut, f), to.distance_squared(cut, g));
+        if (!(at_cut < piece.bound_squared))
+            return std::numeric_limits<double>::infinity();  // no use, or NaN
+        bound = std::max(bound, at_cut);
+    }
+    return bound;
+}
+
+/// Lowers the bound of a piece by what the candidates prove.
+/// \param at      the corners' distances to the candidates
+/// \param enough  a bound as low as this need not be lowered
+void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
+             const std::array<const Distances*, 3>& at, double enough) {
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+        const double bound = std::max({(*at[0])[i], (*at[1])[i], (*at[2])[i]});
+        if (!(bound < piece.bound_squared)) continue;
+        piece.bound_squared = bound;
+        piece.near_all = {candidates.face[i], no_index};
+    }
+    const auto column = [&](std::size_t i) { return std::array{(*at[0])[i], (*at[1])[i], (*at[2])[i]}; };
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+        for (std::size_t j = i + 1; j < candidates.size; ++j) {
+            if (piece.bound_squared <= enough) return;
+            const std::array to_f = column(i), to_g = column(j);
+            double least = 0;
+            for (std::size_t k = 0; k < 3; ++k) least = std::max(least, std::min(to_f[k], to_g[k]));
+            if (!(least < piece.bound_squared)) continue;
+            const Index f = candidates.face[i], g = candidates.face[j];
+            const double bound = bound_by_two(to, piece, f, g, to_f, to_g);
+            if (!(bound < piece.bound_squared)) continue;
+            piece.bound_squared = bound;
+            piece.near_all = {f, g};
+        }
+    }
+}
+
+/// Squared distance below which a bound is good enough while `value_squared` is the largest found.
+double enough_squared(double value_squared, const SearchLimits& limits) {
+    const double enough =
+        std::max(std::sqrt(value_squared) * (1 + limits.tolerance) + limits.floor, limits.stop_below);
+    return enough * enough;
+}
+
+/// What a block of work found.
+struct Found {
+    double value_squared = 0;
+    double closed_squared = 0;  ///< largest bound of the pieces that are not kept
+    std::vector<Piece> open;
+
+    void keep(const Piece& piece, double enough) {
+        if (piece.bound_squared <= enough) {
+            closed_squared = std::max(closed_squared, piece.bound_squared);
+        } else {
+            open.push_back(piece);
+        }
+    }
+};
+
+/// Bounds whole faces.
+/// \param refine  keep those whose bound is not low enough; else they are bounded as well as their corners
+///                allow
+void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
+                 const std::vector<Nearest>& at_vertices, double enough, bool refine, std::size_t begin,
+                 std::size_t end, Poll poll, Found& found) {
+    CoherentQuery query(to, tree);
+    for (std::size_t f = begin; f < end; ++f) {
+        poll();
+        Piece piece;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = from.triangles[f][k];
+            piece.corner[k] = engine::to_eigen(from.positions[v]);
+            piece.nearest[k] = at_vertices[v].face;
+        }
+        piece.near_all[0] = piece.nearest[0];
+        const auto bound = [&](const Candidates& candidates) {
+            std::array<Distances, 3> at;
+            for (std::size_t k = 0; k < 3; ++k) at[k] = distances(to, piece.corner[k], candidates);
+            tighten(to, piece, candidates, {&at[0], &at[1], &at[2]}, enough);
+        };
+        bound(Candidates(piece));
+        if (refine && !(piece.bound_squared <= enough)) {
+            // Where the surfaces coincide the corners' faces are any around them, the centre's is the right
+            // one.
+            const Vector3 centre = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
+            const Bvh::Hit hit = query(engine::to_array(centre), piece.near_all[0]);
+            found.value_squared = std::max(found.value_squared, hit.distance_squared);
+            Candidates candidates(piece);
+            candidates.add(hit.face);
+            bound(candidates);
+        }
+        found.keep(piece, refine ? enough : std::numeric_limits<double>::infinity());
+    }
+}
+
+/// Splits a piece at the middle of its longest edge.
+void split(const Surface& to, CoherentQuery& query, const Piece& piece, double enough, Found& found) {
+    std::size_t longest = 0;
+    double length = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double squared = (piece.corner[(k + 1) % 3] - piece.corner[k]).squaredNorm();
+        if (!(squared > length)) continue;
+        length = squared;
+        longest = k;
+    }
+    const std::size_t next = (longest + 1) % 3;
+    const Vector3 middle = 0.5 * piece.corner[longest] + 0.5 * piece.corner[next];
+    const Bvh::Hit hit = query(engine::to_array(middle), piece.near_all[0]);
+    found.value_squared = std::max(found.value_squared, hit.distance_squared);
+
+    Candidates candidates(piece);
+    candidates.add(hit.face);
+    std::array<Distances, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = distances(to, piece.corner[k], candidates);
+    const Distances at_middle = distances(to, middle, candidates);
+    for (const std::size_t replaced : {longest, next}) {
+        Piece child = piece;
+        child.corner[replaced] = middle;
+        child.nearest[replaced] = hit.face;
+        std::array<const Distances*, 3> child_at = {&at[0], &at[1], &at[2]};
+        child_at[replaced] = &at_middle;
+        tighten(to, child, candidates, child_at, enough);
+        found.keep(child, enough);
+    }
+}
+
+/// Open pieces, the one with the largest bound first, of equals the one that came first.
+class OpenPieces {
+public:
+    bool empty() const { return heap_.empty(); }
+    double largest_squared() const { return heap_.front().bound_squared; }
+
+    void push(const Piece& piece) {
+        std::uint32_t slot = static_cast<std::uint32_t>(pieces_.size());
+        if (free_.empty()) {
+            pieces_.push_back(piece);
+        } else {
+            slot = free_.back();
+            free_.pop_back();
+            pieces_[slot] = piece;
+        }
+        heap_.push_back({piece.bound_squared, count_++, slot});
+        std::push_heap(heap_.begin(), heap_.end());
+    }
+
+    Piece pop() {
+        std::pop_heap(heap_.begin(), heap_.end());
+        const std::uint32_t slot = heap_.back().slot;
+        heap_.pop_back();
+        free_.push_back(slot);
+        return pieces_[slot];
+    }
+
+private:
+    struct Entry {
+        double bound_squared;
+        std::uint64_t order;
+        std::uint32_t slot;
+        bool operator<(const Entry& other) const {
+            if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
+            return order > other.order;
+        }
+    };
+    std::vector<Piece> pieces_;
+    std::vector<std::uint32_t> free_;
+    std::vector<Entry> heap_;
+    std::uint64_t count_ = 0;
+};
+
+}  // namespace
+
+std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
+                                         Workers workers, double stop_above) {
+    const std::size_t size = from.positions.size();
+    std::vector<Nearest> result;
+    result.reserve(size);
+    const std::size_t interval = stop_above < std::numeric_limits<double>::infinity() ? stop_interval : size;
+    while (result.size() < size) {
+        const std::size_t first = result.size();
+        result.resize(std::min(size, first + interval));
+        parallel_blocks(result.size() - first, vertex_block, workers,
+                        [&](std::size_t begin, std::size_t end) {
+                            CoherentQuery query(to, tree);
+                            for (std::size_t i = first + begin; i < first + end; ++i) {
+                                const Bvh::Hit hit = query(from.positions[i]);
+                                result[i] = {hit.face, hit.distance_squared};
+                            }
+                        });
+        for (std::size_t i = first; i < result.size(); ++i) {
+            if (std::sqrt(result[i].distance_squared) > stop_above) return result;
+        }
+    }
+    return result;
+}
+
+Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
+                  const std::vector<Nearest>& at_vertices, double known, const SearchLimits& limits) {
+    double value_squared = known * known, closed_squared = 0;
+    for (const Nearest& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
+
+    OpenPieces open;
+    const auto join = [&](std::vector<Found>& blocks) {
+        for (Found& found : blocks) {
+            value_squared = std::max(value_squared, found.value_squared);
+            closed_squared = std::max(closed_squared, found.closed_squared);
+            for (const Piece& piece : found.open) {
+                limits.workers.poll();
+                open.push(piece);
+            }
+            found = {};
+        }
+    };
+    const auto enough = [&] { return enough_squared(value_squared, limits); };
+
+    const bool refine = std::isfinite(limits.tolerance);
+    std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
+    const double enough_at_first = refine ? enough() : 0;
+    parallel_blocks(from.triangles.size(), face_block, limits.workers,
+                    [&](std::size_t begin, std::size_t end, Poll poll) {
+                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end, poll,
+                                    blocks[begin / face_block]);
+                    });
+    join(blocks);
+
+    Farthest result;
+    std::vector<Piece> batch;
+    const auto needs_work = [&] { return !open.empty() && open.largest_squared() > enough(); };
+    while (needs_work() && result.pieces < limits.max_pieces &&
+           !(std::sqrt(value_squared) > limits.stop_above)) {
+        batch.clear();
+        while (needs_work() && batch.size() < batch_size) batch.push_back(open.pop());
+        const double enough_now = enough();
+        blocks.resize((batch.size() + piece_block - 1) / piece_block);
+        parallel_blocks(batch.size(), piece_block, limits.workers, [&](std::size_t begin, std::size_t end) {
+            CoherentQuery query(to, tree);
+            for (std::size_t i = begin; i < end; ++i) {
+                split(to, query, batch[i], enough_now, blocks[begin / piece_block]);
+            }
+        });
+        result.pieces += 2 * batch.size();
+        join(blocks);
+    }
+    if (!open.empty()) closed_squared = std::max(closed_squared, open.largest_squared());
+    result.value = std::sqrt(value_squared);
+    result.bound = std::sqrt(std::max(value_squared, closed_squared));
+    return result;
+}
+
+Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
+                            const SearchLimits& limits) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const auto largest = [](const std::vector<Nearest>& nearest, double value) {
+        for (const Nearest& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
+        return value;
+    };
+    const auto there = nearest_of_vertices(a, b, tree_b, limits.workers, limits.stop_above);
+    double value = largest(there, 0);
+    if (value > limits.stop_above) return {value, unknown, 0};
+    const auto back = nearest_of_vertices(b, a, tree_a, limits.workers, limits.stop_above);
+    value = largest(back, value);
+    if (value > limits.stop_above) return {value, unknown, 0};
+
+    // What one direction finds, the other need not beat.
+    const Farthest first = farthest(a, b, tree_b, there, value, limits);
+    if (first.value > limits.stop_above) return {first.value, unknown, first.pieces};
+    const Farthest second = farthest(b, a, tree_a, back, first.value, limits);
+    return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
+}
+
+}  // namespace faqem::detail

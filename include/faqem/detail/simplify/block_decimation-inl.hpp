@@ -1,0 +1,440 @@
+#include "faqem/detail/simplify/block_decimation.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "faqem/engine/engine.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Complex;
+using engine::Poll;
+using engine::Vector3;
+
+// Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
+// more.
+constexpr double local_share = 0.8;
+
+/// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
+struct Blocks {
+    Blocks(const BlockInput& input, Poll poll)
+        : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
+        for_each(input, poll, [&](std::size_t block, Index) { ++begin[block + 1]; });
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        faces.resize(begin.back());
+        std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
+        for_each(input, poll, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
+    }
+
+    template <class Visit>
+    static void for_each(const BlockInput& input, Poll poll, Visit&& visit) {
+        for (Index f = 0; f < input.triangles.size(); ++f) {
+            poll();
+            const Triangle& t = input.triangles[f];
+            const std::size_t a = input.block_of(t[0]), b = input.block_of(t[1]), c = input.block_of(t[2]);
+            visit(a, f);
+            if (b != a) visit(b, f);
+            if (c != a && c != b) visit(c, f);
+        }
+    }
+
+    std::size_t count() const { return begin.size() - 1; }
+    std::span<const Index> of(std::size_t b) const {
+        return std::span(faces).subspan(begin[b], begin[b + 1] - begin[b]);
+    }
+
+    std::vector<std::size_t> begin;  ///< of each block in faces
+    std::vector<Index> faces;
+};
+
+/// Number of faces with a vertex that must stay because it has faces in several blocks.
+std::size_t count_waiting(const BlockInput& input) {
+    std::vector<std::uint8_t> waits(input.positions.size(), 0);
+    for (const Triangle& t : input.triangles) {
+        if (!input.is_between_blocks(t)) continue;
+        for (const Index v : t) waits[v] = 1;
+    }
+    return static_cast<std::size_t>(
+        std::count_if(input.triangles.begin(), input.triangles.end(),
+                      [&](const Triangle& t) { return waits[t[0]] || waits[t[1]] || waits[t[2]]; }));
+}
+
+/// One block as a complex of its own: its vertices, then those of others that its faces have.
+class Block {
+public:
+    Block(const BlockInput& input, const Blocks& blocks, std::size_t b)
+        : faces(blocks.of(b)),
+          first_(static_cast<Index>(b * input.per_block)),
+          own_(static_cast<Index>(std::min(input.per_block, input.positions.size() - first_))) {
+        for (const Index f : faces) {
+            for (const Index v : input.triangles[f]) {
+                if (!is_own(v)) others_.push_back(v);
+            }
+        }
+        std::sort(others_.begin(), others_.end());
+        others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+        positions.reserve(own_ + others_.size());
+        locked.reserve(own_ + others_.size());
+        triangles.reserve(faces.size());
+        for (Index v = 0; v < own_ + others_.size(); ++v) {
+            positions.push_back(input.positions[slot(v)]);
+            locked.push_back(v >= own_ || input.locked[slot(v)]);
+        }
+        for (const Index f : faces) {
+            const Triangle& t = input.triangles[f];
+            triangles.push_back({local(t[0]), local(t[1]), local(t[2])});
+            if (!input.is_between_blocks(t)) continue;
+            ++between;
+            for (const Index v : triangles.back()) locked[v] = 1;
+        }
+    }
+
+    Index own() const { return own_; }
+    /// Of the whole.
+    Index slot(Index v) const { return v < own_ ? first_ + v : others_[v - own_]; }
+
+    /// Gives back the memory of what a complex has copied.
+    void forget_surface() {
+        std::vector<Vector3>().swap(positions);
+        std::vector<Triangle>().swap(triangles);
+    }
+
+    std::span<const Index> faces;  ///< of the whole
+    std::vector<Vector3> positions;
+    std::vector<Triangle> triangles;
+    std::vector<std::uint8_t> locked;
+    std::size_t between = 0;  ///< faces that have a corner elsewhere
+
+    /// \param v  a vertex of the whole that the block has
+    Index local(Index v) const {
+        if (is_own(v)) return v - first_;
+        const auto at = std::lower_bound(others_.begin(), others_.end(), v);
+        return own_ + static_cast<Index>(at - others_.begin());
+    }
+
+private:
+    bool is_own(Index v) const { return v >= first_ && v - first_ < own_; }
+
+    Index first_, own_;
+    std::vector<Index> others_;
+};
+
+/// What was done in a block.
+struct Done {
+    std::vector<BlockStep> steps;
+    /// After each step: the largest cost so far, and the number of faces that had gone.
+    std::vector<double> costs;
+    std::vector<std::uint32_t> removed;
+    std::vector<Index> patch_faces;  ///< of the whole
+    std::vector<std::size_t> patch_begin;
+    engine::LoopResult result;
+
+    /// In patch_faces, of so many of the steps.
+    std::size_t patch_end(std::size_t count) const {
+        return count < patch_begin.size() ? patch_begin[count] : patch_faces.size();
+    }
+};
+
+class StepRecorder {
+public:
+    /// \param faces  that will go, about; two with each step, mostly
+    StepRecorder(const Block& block, Recording patches, std::size_t faces, Done& done)
+        : block_(block), patches_(patches), done_(done) {
+        const std::size_t steps = faces / 2 + faces / 32;  // to grow would take twice the memory
+        done.steps.reserve(steps);
+        done.costs.reserve(steps);
+        done.removed.reserve(steps);
+        if (patches == Recording::off) return;
+        done.patch_begin.reserve(steps);
+        done.patch_faces.reserve(steps * usual_patch);
+    }
+
+    void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
+        if (done_.steps.empty()) before_ = complex.face_count();
+        end_step(complex);
+        done_.steps.push_back({block_.slot(survivor), block_.slot(gone), to.point});
+        done_.costs.push_back(done_.costs.empty() ? to.cost : std::max(done_.costs.back(), to.cost));
+        if (patches_ == Recording::off) return;
+        done_.patch_begin.push_back(done_.patch_faces.size());
+        complex.for_each_face_around(
+            survivor, gone, [&](Index f, unsigned) { done_.patch_faces.push_back(block_.faces[f]); });
+    }
+    void end_step(const Complex& complex) {
+        if (!done_.steps.empty())
+            done_.removed.push_back(static_cast<std::uint32_t>(before_ - complex.face_count()));
+    }
+    void deleting(Index) {}
+
+private:
+    /// Faces around an edge, and some more.
+    static constexpr std::size_t usual_patch = 10;
+
+    const Block& block_;
+    Recording patches_;
+    Done& done_;
+    std::size_t before_ = 0;
+};
+
+/// Tells the user's callback on the calling thread how far all blocks are; the others ask their poll.
+class SharedProgress {
+public:
+    SharedProgress(const engine::LoopOptions& loop, std::size_t all) : loop_(loop), all_(all) {}
+
+    /// \param known  what the caller had removed when it called last
+    /// \throws what the poll throws, and what the callback does
+    Continue operator()(std::size_t removed, std::size_t& known, Poll poll) {
+        removed_ += removed - std::exchange(known, removed);
+        if (std::this_thread::get_id() != caller_)
+            poll.now();
+        else if (loop_.progress && !is_cancelled_)
+            ask();
+        return is_cancelled_ ? Continue::cancel : Continue::yes;
+    }
+    bool is_cancelled() const { return is_cancelled_; }
+
+private:
+    void ask() {
+        struct CancelOnThrow {
+            ~CancelOnThrow() {
+                if (!answered) cancelled = true;
+            }
+            std::atomic<bool>& cancelled;
+            bool answered = false;
+        } guard{is_cancelled_};
+        const double share =
+            static_cast<double>(removed_) / static_cast<double>(std::max<std::size_t>(all_, 1));
+        const Continue answer = loop_.progress(std::min(share, 1.0));
+        guard.answered = answer == Continue::yes;
+    }
+
+    const engine::LoopOptions& loop_;
+    std::size_t all_;
+    std::thread::id caller_ = std::this_thread::get_id();
+    std::atomic<std::size_t> removed_{0};
+    std::atomic<bool> is_cancelled_{false};
+};
+
+/// Of each original vertex: nonzero is looked after.
+std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
+    const bool all = tracking.watched == Watched::borders_and_surface;
+    std::vector<std::uint8_t> watched(tracking.into.size(), all);
+    for (const auto& edge : tracking.original.open_edges()) {
+        for (const Index v : edge) watched[v] = 1;
+    }
+    for (Index v = 0; v < watched.size(); ++v) watched[v] &= tracking.into[v] != no_index;
+    return watched;
+}
+
+/// Which original vertices have gone into those of each block.
+struct Lineages {
+    Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
+        : begin(blocks + 1, 0), into(tracking ? tracking->into : std::span<const Index>()) {
+        if (!tracking) return;
+        const std::vector<std::uint8_t> watched = watched_vertices(*tracking);
+        const auto for_each = [&](auto&& visit) {
+            for (Index v = 0; v < into.size(); ++v) {
+                if (watched[v]) visit(input.block_of(into[v]), v);
+            }
+        };
+        for_each([&](std::size_t b, Index) { ++begin[b + 1]; });
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        vertices.resize(begin.back());
+        std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
+        for_each([&](std::size_t b, Index v) { vertices[place[b]++] = v; });
+    }
+
+    engine::Lineage of(std::size_t b, const Block& block) const {
+        engine::Lineage lineage;
+        for (std::size_t i = begin[b]; i < begin[b + 1]; ++i)
+            lineage.add(vertices[i], block.local(into[vertices[i]]));
+        return lineage;
+    }
+
+    std::vector<std::size_t> begin;  ///< of each block in vertices
+    std::vector<Index> vertices;
+    std::span<const Index> into;
+};
+
+template <class Metric>
+Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
+                    Recording patches, SharedProgress& progress, Poll poll) {
+    Done done;
+    Complex complex(block.positions, block.triangles, poll);
+    block.forget_surface();
+    engine::PairTable pairs(complex, {}, poll);
+    engine::Wedges wedges;
+    engine::LoopOptions options = block_options(loop, complex.face_count(), block.between, share);
+    options.first_context = block.own();
+    const std::size_t to_remove = complex.face_count() - std::min(options.target_faces, complex.face_count());
+    StepRecorder recorder(block, patches, to_remove, done);
+    std::size_t known = 0;
+    options.progress = [&](double fraction) {
+        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
+    };
+    engine::Engine<Metric, engine::RoundQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
+                                                                    metric, recorder);
+    done.result = engine.run(options);
+    recorder.end_step(complex);
+    progress(to_remove, known, poll);
+    return done;
+}
+
+/// Which steps are kept: those below a cost, and so many of those at it, in millionths of each block's.
+struct Cut {
+    double cost = std::numeric_limits<double>::infinity();
+    std::uint32_t millionths = 1'000'000;
+
+    std::size_t steps(const Done& block) const {
+        const auto [begin, end] = std::equal_range(block.costs.begin(), block.costs.end(), cost);
+        const auto below = static_cast<std::uint64_t>(begin - block.costs.begin());
+        return below + static_cast<std::uint64_t>(end - begin) * millionths / 1'000'000;
+    }
+
+    std::size_t removed(const std::vector<Done>& blocks) const {
+        std::size_t sum = 0;
+        for (const Done& block : blocks) {
+            if (const std::size_t n = steps(block)) sum += block.removed[n - 1];
+        }
+        return sum;
+    }
+};
+
+/// The last number in [0, last] for which `is_kept` is true. \pre it is for 0, and for none after the first
+/// for which it is not
+template <class IsKept>
+std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
+    std::uint64_t low = 0;
+    while (low < last) {
+        const std::uint64_t middle = low + (last - low + 1) / 2;
+        is_kept(middle) ? low = middle : last = middle - 1;
+    }
+    return low;
+}
+
+/// Keeps as many steps as remove no more than `most` faces. The cost at the cut is one that some blocks have.
+Cut cut(const std::vector<Done>& blocks, std::size_t most) {
+    // Doubles >= 0 are in the order of their bits.
+    const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+    const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
+    const std::uint64_t bits = last_kept(infinity, [&](std::uint64_t b) {
+        return keeps({std::bit_cast<double>(b), 0});
+    });
+    const double cost = std::bit_cast<double>(bits);
+    const std::uint64_t millionths = last_kept(1'000'000, [&](std::uint64_t m) {
+        return keeps({cost, static_cast<std::uint32_t>(m)});
+    });
+    return {cost, static_cast<std::uint32_t>(millionths)};
+}
+
+/// Appends the first steps of a block, and what was counted.
+void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& to) {
+    to.steps.insert(to.steps.end(), block.steps.begin(),
+                    block.steps.begin() + static_cast<std::ptrdiff_t>(steps));
+    for (std::size_t i = 0; i < refusal_kinds; ++i) {
+        if (i != static_cast<std::size_t>(Refusal::locked)) to.refusals[i] += block.result.refusals[i];
+    }
+    for (std::size_t i = 0; i < rung_kinds; ++i) to.rungs[i] += block.result.rungs[i];
+    if (patches == Recording::off || steps == 0) return;
+    const std::size_t first = to.patch_faces.size();
+    const std::size_t end = block.patch_end(steps);
+    for (std::size_t i = 0; i < steps; ++i) to.patch_begin.push_back(first + block.patch_begin[i]);
+    to.patch_faces.insert(to.patch_faces.end(), block.patch_faces.begin(),
+                          block.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+}  // namespace
+
+std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
+    if (vertices <= few) return vertices;
+    constexpr std::size_t most = 4 * most_vertices_per_block;
+    const std::size_t blocks = 4 * ((vertices + most - 1) / most);
+    return (vertices + blocks - 1) / blocks;
+}
+
+engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
+                                  double share) {
+    engine::LoopOptions options = loop;
+    options.ladder = engine::Ladder::stay;
+    const auto inside = static_cast<double>(faces - between);
+    options.target_faces = between + static_cast<std::size_t>(local_share * share * inside);
+    return options;
+}
+
+BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
+                              const BlockTracking* tracking, Recording patches, Workers workers) {
+    BlockSteps result;
+    if (input.positions.size() <= 2 * input.per_block) return result;
+    const std::size_t faces = input.triangles.size();
+    const double waiting = static_cast<double>(count_waiting(input)) / static_cast<double>(faces);
+    const double share = spare_share * static_cast<double>(least) / static_cast<double>(faces);
+    const double kept_share = waiting + (1 - waiting) * share;
+    if (!(kept_share < 0.75)) return result;
+    const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
+    const Blocks blocks(input, workers.poll);
+    SharedProgress progress(loop, removable);
+    const Lineages lineages(input, tracking, blocks.count());
+    std::vector<Done> done(blocks.count());
+    parallel_blocks(blocks.count(), 1, workers, [&](std::size_t b, std::size_t, Poll poll) {
+        if (progress.is_cancelled()) return;
+        Block block(input, blocks, b);
+        const auto simplify = [&](auto metric) {
+            return simplify_block(block, std::move(metric), loop, share, patches, progress, poll);
+        };
+        if (!tracking) {
+            done[b] = simplify(engine::MemorylessMetric());
+            return;
+        }
+        const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
+        done[b] = simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block), begin_at,
+                                                 loop.distance_weight));
+    });
+    result.is_cancelled = progress.is_cancelled();
+    const Cut kept = cut(done, removable);
+    std::size_t steps = 0, patch_faces = 0;
+    for (const Done& block : done) {
+        steps += kept.steps(block);
+        if (patches == Recording::on) patch_faces += block.patch_end(kept.steps(block));
+    }
+    result.steps.reserve(steps);
+    if (patches == Recording::on) result.patch_begin.reserve(steps);
+    result.patch_faces.reserve(patch_faces);
+    for (Done& block : done) {
+        take(block, kept.steps(block), patches, result);
+        block = {};
+    }
+    return result;
+}
+
+Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll poll) {
+    SlotTrace trace(input.positions.size());
+    std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
+    for (const auto& [survivor, gone, to] : steps) {
+        poll();
+        trace.collapsing(survivor, gone, positions[survivor], positions[gone], to);
+        positions[survivor] = to;
+    }
+    std::vector<Index> faces;
+    std::vector<Triangle> triangles;
+    for (Index f = 0; f < input.triangles.size(); ++f) {
+        poll();
+        const Triangle& t = input.triangles[f];
+        const Triangle now = {trace.root(t[0]), trace.root(t[1]), trace.root(t[2])};
+        if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
+        faces.push_back(f);
+        triangles.push_back(now);
+    }
+    return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
+}
+
+}  // namespace faqem::detail

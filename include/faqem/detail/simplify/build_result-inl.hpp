@@ -1,0 +1,159 @@
+#include "faqem/detail/simplify/build_result.hpp"
+
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace faqem::detail {
+
+std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
+                           const engine::Complex& complex, const engine::Wedges& wedges,
+                           std::span<const Index> places, engine::Poll poll, SimplifyResult& result) {
+    std::vector<Index> slots;
+    std::vector<Vec3> position(complex.vertex_slots());
+    for (Index v = 0; v < position.size(); ++v) {
+        poll();
+        const Index at = places[v];
+        position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(complex.position(v));
+    }
+    std::vector<Index> slot_of_face(mesh.triangles.size(), no_index);
+    std::vector<Index> slot_of_vertex(prepared.positions.size(), no_index);
+    for (Index f = 0; f < complex.face_slots(); ++f) {
+        poll();
+        if (!complex.alive(f)) continue;
+        const Triangle& t = complex.triangle(f);
+        if (has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
+            ++result.report.faces_dropped;
+            continue;
+        }
+        for (const Index v : t) slot_of_vertex[now.vertex[v]] = v;
+        slot_of_face[now.face[f]] = f;
+    }
+    TriangleMesh& out = result.mesh;
+    std::vector<Index> vertex(complex.vertex_slots(), no_index);
+    for (Index v = 0; v < slot_of_vertex.size(); ++v) {
+        poll();
+        const Index slot = slot_of_vertex[v];
+        if (slot == no_index) continue;
+        vertex[slot] = static_cast<Index>(out.positions.size());
+        out.positions.push_back(position[slot]);
+        result.vertex_origin.push_back(prepared.vertex_origin[v]);
+        slots.push_back(slot);
+    }
+    for (Index f = 0; f < slot_of_face.size(); ++f) {
+        poll();
+        const Index slot = slot_of_face[f];
+        if (slot == no_index) continue;
+        const Triangle& t = complex.triangle(slot);
+        result.face_origin.push_back(f);
+        out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
+        if (!mesh.face_groups.empty()) out.face_groups.push_back(mesh.face_groups[f]);
+        for (unsigned corner = 0; corner < 3 && !wedges.empty(); ++corner) {
+            const float* values = wedges.values(slot, corner);
+            out.attributes.values.insert(out.attributes.values.end(), values, values + wedges.width());
+        }
+    }
+    out.attributes.width = wedges.width();
+    return slots;
+}
+
+// What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
+// whichever level of a chain comes first to ask.
+void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions(poll);
+    std::vector<Index> place(at.size());
+    std::iota(place.begin(), place.end(), Index{0});
+    at.reserve(at.size() + collapses.size());
+    place.reserve(at.capacity());
+    for (Collapse& collapse : collapses) {
+        poll();
+        const engine::Vector3 to = engine::to_eigen(collapse.position);
+        Index original = no_index;
+        if (to == at[collapse.first])
+            original = place[collapse.first];
+        else if (to == at[collapse.second])
+            original = place[collapse.second];
+        collapse.position = original != no_index ? prepared.positions[original] : prepared.to_model(to);
+        at.push_back(to);
+        place.push_back(original);
+    }
+}
+
+void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
+                    std::vector<Triangle> triangles, SimplifyResult& result) {
+    CollapseHistory& history = result.history;
+    history.positions = std::move(positions);
+    history.triangles = std::move(triangles);
+    // What was pruned is deleted before the first collapse.
+    std::vector<DeletedFace> pruned_faces;
+    for (const PrunedFace& face : pruned.faces) {
+        history.triangles[face.face] = face.corners;
+        pruned_faces.push_back({0, face.face});
+    }
+    history.deleted_faces.insert(history.deleted_faces.begin(), pruned_faces.begin(), pruned_faces.end());
+    history.face_groups.assign(mesh.face_groups.begin(), mesh.face_groups.end());
+    history.kept_faces = result.face_origin;
+}
+
+bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now) {
+    while (true) {
+        bool is_good = true, is_changed = false;
+        for (const Triangle& t : triangles) {
+            if (!has_no_area(now[t[0]], now[t[1]], now[t[2]])) continue;
+            is_good = false;
+            for (const Index v : t) {
+                is_changed = is_changed || now[v] != before[v];
+                now[v] = before[v];
+            }
+        }
+        if (is_good || !is_changed) return is_good;
+    }
+}
+
+void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
+    CollapseHistory& history = result.history;
+    if (result.report.vertices_relaxed > 0) history.kept_positions = result.mesh.positions;
+    for (const auto& [s, t] : swaps) {
+        history.patch_faces.insert(history.patch_faces.end(), {history.kept_faces[s], history.kept_faces[t]});
+        history.patch_begin.push_back(history.patch_faces.size());
+    }
+}
+
+void count(const engine::LoopResult& looped, Report& report) {
+    report.collapses += looped.collapses;
+    for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
+    for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
+    report.components_deleted += looped.components_deleted;
+}
+
+void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
+                   SimplifyResult& result) {
+    Report& report = result.report;
+    const Weights& w = options.weights;
+    if (settings.carry != Settings::Carry::memory &&
+        (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
+        report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
+                                  std::string(name(options.preset)) + " has none of their terms");
+    }
+    report.faces_out = result.mesh.triangles.size();
+    report.vertices_out = result.mesh.positions.size();
+    if (report.faces_dropped > 0) {
+        report.warnings.push_back(std::to_string(report.faces_dropped) +
+                                  " faces without area, or doubles of another face, were dropped");
+    }
+    report.components_pruned = prepared.pruned.components;
+    report.faces_pruned = prepared.pruned.faces.size();
+    if (report.components_pruned > 0) {
+        report.warnings.push_back(std::to_string(report.components_pruned) +
+                                  " components smaller than asked for were pruned, with " +
+                                  std::to_string(report.faces_pruned) + " faces");
+    }
+    if (report.components_deleted > 0) {
+        report.warnings.push_back(std::to_string(report.components_deleted) +
+                                  " small components were deleted to reach the target");
+    }
+    if (report.faces_out == 0 && report.faces_in > 0 && report.stop != StopReason::cancelled)
+        report.warnings.push_back("nothing is left: no face that remained had an area");
+}
+
+}  // namespace faqem::detail

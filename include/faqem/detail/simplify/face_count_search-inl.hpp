@@ -1,0 +1,86 @@
+#include "faqem/detail/simplify/face_count_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faqem::detail {
+
+namespace {
+
+constexpr double first_share = 0.1;
+constexpr double narrow_enough = 1.02;
+
+/// A guess from one point alone goes this much beyond it, so that the next point is more often on the other
+/// side.
+constexpr double beyond = 1.1;
+
+/// Share of the bracket that guesses stay away from its ends; more where both are measured.
+constexpr double margin = 0.05, measured_margin = 0.1;
+
+}  // namespace
+
+FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
+    : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{smallest_target - 1} {}
+
+bool FaceCountSearch::bracketing() const {
+    return step_ == 0 && runs_ < bracket_runs && good_.faces > bad_.faces * narrow_enough &&
+           good_.faces - bad_.faces > 1;
+}
+
+// The error of a smooth surface falls like 1 / faces. With both ends measured: regula falsi, or the middle
+// where the last guess did not halve the bracket. All in logarithms.
+double FaceCountSearch::guess() const {
+    const double low = std::log(bad_.faces), high = std::log(good_.faces);
+    // How far an error is above what is allowed; perfect, infinite and unknown ones have a say too.
+    const auto excess = [&](double error) {
+        if (error <= 0) return std::log(1e-6);
+        return error <= 1e6 * allowed_ ? std::log(std::max(error / allowed_, 1e-6)) : std::log(1e6);
+    };
+    double at;
+    if (good_.error && bad_.error) {
+        const double g = excess(*good_.error), b = excess(*bad_.error);
+        double share = high - low > last_width_ / 2 ? 0.5 : g / (g - b);
+        if (!(share >= measured_margin)) share = measured_margin;
+        at = high + std::min(share, 1 - measured_margin) * (low - high);
+    } else if (bad_.error) {
+        at = low + excess(*bad_.error) + std::log(beyond);
+    } else if (good_.error) {
+        at = high + excess(*good_.error) - std::log(beyond);
+    } else {
+        at = high + std::log(first_share);
+    }
+    const double space = margin * (high - low);
+    return std::exp(at > low + space ? std::min(at, high - space) : low + space);
+}
+
+std::optional<std::uint64_t> FaceCountSearch::next() {
+    if (bracketing()) {
+        ++runs_;
+        // Between the ends: there is a whole number.
+        const double count = std::clamp(std::round(guess()), bad_.faces + 1, good_.faces - 1);
+        last_width_ = std::log(good_.faces / bad_.faces);
+        target_ = static_cast<std::uint64_t>(count);
+        return target_;
+    }
+    while (step_ < below.size()) {
+        const double count = std::floor(below[step_++] * good_.faces);
+        if (count < reachable_) continue;
+        target_ = static_cast<std::uint64_t>(count);
+        return target_;
+    }
+    return std::nullopt;
+}
+
+void FaceCountSearch::tell(std::uint64_t faces, double error, bool within) {
+    const auto count = static_cast<double>(faces), target = static_cast<double>(target_);
+    if (count > target) reachable_ = std::max(reachable_, std::min(count, good_.faces));
+    if (within && count < good_.faces) {
+        good_ = {count, error};
+    } else if (step_ == 0 && target > bad_.faces) {
+        bad_ = {target, error};
+    }
+    // What does not come out need not be asked for.
+    if (bad_.faces < reachable_ - 1) bad_ = {reachable_ - 1, std::nullopt};
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,271 @@
+#include "faqem/detail/simplify/preprocess.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "faqem/engine/mesh/weld.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Poll;
+using engine::Vector3;
+
+constexpr Triangle dropped = {no_index, no_index, no_index};
+
+bool is_dropped(const Triangle& t) { return t[0] == no_index; }
+
+[[noreturn]] void fail(const std::string& element, const std::string& what) {
+    throw InputError("", element, what);
+}
+
+void check_sizes(const MeshView& mesh, Poll poll) {
+    if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
+    if (mesh.triangles.size() > engine::max_faces) {
+        fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
+    }
+    if (!mesh.face_groups.empty() && mesh.face_groups.size() != mesh.triangles.size()) {
+        fail("face_groups", "needs one entry per face or none");
+    }
+    if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size()) {
+        fail("vertex_locks", "needs one entry per vertex or none");
+    }
+    if (!mesh.vertex_weights.empty() && mesh.vertex_weights.size() != mesh.positions.size()) {
+        fail("vertex_weights", "needs one entry per vertex or none");
+    }
+    for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
+        poll();
+        const float weight = mesh.vertex_weights[v];
+        if (!(weight >= 1e-6f && weight <= 1e6f)) {
+            fail("vertex " + std::to_string(v), "weight is not in [1e-6, 1e6]");
+        }
+    }
+    if (mesh.attributes) {
+        const CornerAttributes& a = *mesh.attributes;
+        if (a.width == 0 || a.values.size() != std::uint64_t{3} * mesh.triangles.size() * a.width) {
+            fail("attributes", "needs width >= 1 and 3 * faces * width values");
+        }
+        for (std::size_t i = 0; i < a.values.size(); ++i) {
+            poll();
+            if (!std::isfinite(a.values[i]))
+                fail("attributes, corner " + std::to_string(i / a.width), "not finite");
+        }
+    }
+}
+
+std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) {
+    std::vector<Vec3> positions(view.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        poll();
+        positions[v] = view[v];
+        for (const double x : positions[v]) {
+            if (!std::isfinite(x)) fail("vertex " + std::to_string(v), "position is not finite");
+        }
+    }
+    return positions;
+}
+
+// Vertices that no face uses stay apart: they must not pull others to their place.
+std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
+                                   const Settings& settings, Poll poll) {
+    std::vector<Index> result(positions.size());
+    std::iota(result.begin(), result.end(), Index{0});
+    if (settings.weld == Weld::none) return result;
+    std::vector<std::uint8_t> is_used(positions.size(), 0);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        poll();
+        for (const Index v : mesh.triangles[f]) is_used[v] = 1;
+    }
+    std::vector<Index> used;
+    std::vector<Vec3> used_positions;
+    for (Index v = 0; v < positions.size(); ++v) {
+        poll();
+        if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
+    }
+    const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance, poll);
+    for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
+    return result;
+}
+
+// A locked vertex stays where it is: what was welded to it comes to it.
+void keep_locked_places(const MeshView& mesh, const std::vector<Vec3>& positions, Prepared& out) {
+    for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
+        if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
+    }
+}
+
+void check_triangles(const MeshView& mesh, Poll poll) {
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        poll();
+        for (const Index v : mesh.triangles[f]) {
+            if (!(v < mesh.positions.size())) {
+                fail("face " + std::to_string(f), "vertex index out of range");
+            }
+        }
+    }
+}
+
+// Numbers the representatives in input order and takes the triangles to them.
+void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
+                 const std::vector<Index>& representative, Poll poll, Prepared& out) {
+    std::vector<Index>& welded = out.welded;
+    welded.assign(positions.size(), no_index);
+    for (Index v = 0; v < positions.size(); ++v) {
+        poll();
+        if (representative[v] != v) continue;
+        welded[v] = static_cast<Index>(out.positions.size());
+        out.positions.push_back(positions[v]);
+        out.vertex_origin.push_back(v);
+    }
+    for (Index v = 0; v < positions.size(); ++v) welded[v] = welded[representative[v]];
+    out.triangles.resize(mesh.triangles.size());
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        poll();
+        const Triangle t = mesh.triangles[f];
+        out.triangles[f] = {welded[t[0]], welded[t[1]], welded[t[2]]};
+    }
+}
+
+void drop_collapsed(Prepared& out) {
+    for (Triangle& t : out.triangles) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped, ++out.dropped_faces;
+    }
+}
+
+// A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
+// back stay.
+void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
+    struct Rest {
+        Index second, third, group, face;               // of a face whose smallest corner is known
+        auto operator<=>(const Rest&) const = default;  // NOLINT(modernize-use-nullptr)
+    };
+    std::vector<std::size_t> place(out.positions.size() + 1, 0);
+    const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+    for (const Triangle& t : out.triangles) {
+        if (!is_dropped(t)) ++place[smallest(t) + 1];
+    }
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    std::vector<Rest> faces(place.back());
+    for (Index f = 0; f < out.triangles.size(); ++f) {
+        poll();
+        Triangle t = out.triangles[f];
+        if (is_dropped(t)) continue;
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        faces[place[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
+    }
+    std::size_t begin = 0;
+    for (const std::size_t end : place) {  // each place is where the next vertex begins now
+        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
+                  faces.begin() + static_cast<std::ptrdiff_t>(end), engine::polled_less(poll));
+        poll();
+        for (std::size_t i = begin + 1; i < end; ++i) {
+            const Rest &a = faces[i - 1], &b = faces[i];
+            if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
+            out.triangles[b.face] = dropped;
+            ++out.dropped_faces;
+        }
+        begin = end;
+    }
+}
+
+// Box of the used vertices; quarters are taken first, so that not even the diagonal of the largest box
+// overflows.
+void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
+    Vec3 low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const Triangle& t : out.triangles) {
+        poll();
+        if (is_dropped(t)) continue;
+        for (const Index v : t) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                low[i] = std::min(low[i], out.positions[v][i]);
+                high[i] = std::max(high[i], out.positions[v][i]);
+            }
+        }
+    }
+    if (!(low[0] <= high[0])) return;
+    double quarter[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.centre[i] = 0.5 * low[i] + 0.5 * high[i];
+        quarter[i] = 0.25 * high[i] - 0.25 * low[i];
+    }
+    const double quarter_diagonal = std::hypot(quarter[0], quarter[1], quarter[2]);
+    const double scale = 0.25 * wanted_diagonal / quarter_diagonal;
+    if (std::isfinite(scale) && scale > 0) out.scale = scale;
+}
+
+}  // namespace
+
+std::vector<Vector3> Prepared::engine_positions(Poll poll) const {
+    std::vector<Vector3> result;
+    result.reserve(positions.size());
+    const Vector3 c = engine::to_eigen(centre);
+    for (const Vec3& p : positions) {
+        poll();
+        result.push_back((engine::to_eigen(p) - c) * scale);
+    }
+    return result;
+}
+
+Vec3 Prepared::to_model(const Vector3& p) const {
+    return engine::to_array(Vector3(p / scale + engine::to_eigen(centre)));
+}
+
+Prepared prepare(const MeshView& mesh, const Settings& settings, Poll poll) {
+    check_sizes(mesh, poll);
+    check_triangles(mesh, poll);
+    const std::vector<Vec3> positions = checked_positions(mesh.positions, poll);
+    Prepared out;
+    take_welded(mesh, positions, representatives(mesh, positions, settings, poll), poll, out);
+    keep_locked_places(mesh, positions, out);
+    drop_collapsed(out);
+    drop_doubles(mesh.face_groups, poll, out);
+    find_scale(settings.diagonal, poll, out);
+    if (settings.prune) {
+        out.pruned = prune(out.positions, locks_of_welded(mesh, out.welded, out.positions.size()),
+                           *settings.prune, out.triangles, poll);
+    }
+    return out;
+}
+
+std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, Poll poll) {
+    std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
+    if (options.topology.prune) {
+        for (const PrunedFace& pruned : prepare(mesh, settings(options), poll).pruned.faces)
+            is_pruned[pruned.face] = 1;
+    }
+    std::vector<Triangle> left;
+    for (std::size_t f = 0; f < is_pruned.size(); ++f) {
+        if (!is_pruned[f]) left.push_back(mesh.triangles[f]);
+    }
+    return left;
+}
+
+std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
+                                          std::size_t vertices) {
+    std::vector<std::uint8_t> locked(vertices, 0);
+    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
+        if (mesh.vertex_locks[v]) locked[welded[v]] = 1;
+    }
+    return locked;
+}
+
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
+    const Vector3 p = 0.5 * engine::to_eigen(a);
+    const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
+    const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());
+    if (!(size > 0)) return true;
+    const Vector3 u = e / size, v = f / size;
+    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+    return !(u.cross(v).norm() > 1e-12 * longest);
+}
+
+}  // namespace faqem::detail

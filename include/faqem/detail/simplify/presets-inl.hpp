@@ -1,0 +1,105 @@
+#include "faqem/detail/simplify/presets.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::AreaTerm;
+using engine::BaseWeight;
+
+// The paper's Table 1. Its terms have different units and only act together at a certain model size; it was
+// tuned on Thingi10K, in millimetres with diagonals near 100.
+Settings paper() {
+    Settings s;
+    s.weights.base = BaseWeight::inverse_area;
+    s.weights.plane_area = 1;
+    s.weights.boundary = 500;
+    s.weights.normal = 0.01;
+    s.weights.area = 100;
+    s.weights.seam = 5000;
+    s.diagonal = 100;
+    s.weld_distance = 1e-6;
+    return s;
+}
+
+Settings qem() {
+    Settings s;
+    s.link = LinkCondition::on;
+    return s;
+}
+
+// Both terms are areas squared, so that they add up at any scale.
+Settings stmw() {
+    Settings s;
+    s.weights.base = BaseWeight::area;
+    s.weights.area = 1;
+    s.weights.area_term = AreaTerm::before_placement;
+    return s;
+}
+
+// Memoryless costs are measured on the surface as it is, so small turns are no longer paid for later: the
+// veto is stricter than the paper's.
+Settings fast() {
+    Settings s;
+    s.carry = Settings::Carry::memoryless;
+    s.link = LinkCondition::by_size;
+    s.least_turn = 0.3;
+    s.least_fold = -0.9;
+    return s;
+}
+
+Settings balanced() {
+    Settings s = fast();
+    s.carry = Settings::Carry::tracked;
+    return s;
+}
+
+Settings best() {
+    Settings s = balanced();
+    s.relax = true;
+    return s;
+}
+
+Settings named(Preset preset) {
+    switch (preset) {
+        case Preset::qem:
+            return qem();
+        case Preset::paper:
+            return paper();
+        case Preset::stmw:
+            return stmw();
+        case Preset::fast:
+            return fast();
+        case Preset::balanced:
+            return balanced();
+        case Preset::best:
+            break;
+    }
+    return best();
+}
+
+}  // namespace
+
+Settings settings(const Options& options) {
+    Settings s = named(options.preset);
+    const Weights& w = options.weights;
+    if (w.plane_area) {
+        s.weights.base = *w.plane_area > 0 ? BaseWeight::inverse_area : BaseWeight::unit;
+        s.weights.plane_area = *w.plane_area;
+    }
+    s.weights.boundary = w.boundary.value_or(s.weights.boundary);
+    s.weights.normal = w.normal.value_or(s.weights.normal);
+    s.weights.area = w.area.value_or(s.weights.area);
+    s.weights.seam = w.uv.value_or(s.weights.seam);
+    if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
+    // Costs that sum up a history are in no unit that a size could be compared with.
+    if (s.link == LinkCondition::by_size && s.carry == Settings::Carry::memory) s.link = LinkCondition::on;
+    s.weld = options.topology.weld;
+    s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
+    s.prune = options.topology.prune;
+    // 1/A stays finite on faces that are thinner than any real one.
+    s.weights.least_area = 1e-12 * s.diagonal * s.diagonal;
+    return s;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,66 @@
+#include "faqem/detail/simplify/prune_components.hpp"
+
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+constexpr Triangle no_face = {no_index, no_index, no_index};
+
+using Box = Eigen::AlignedBox3d;
+
+// Halves are taken first, so that 1e308 does not overflow. \pre not empty
+double half_diagonal(const Box& box) { return (0.5 * box.max() - 0.5 * box.min()).stableNorm(); }
+
+}  // namespace
+
+Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
+             std::vector<Triangle>& triangles, engine::Poll poll) {
+    engine::DisjointSets joined(positions.size());
+    Box all;
+    for (const Triangle& t : triangles) {
+        poll();
+        if (t == no_face) continue;
+        joined.join(t[0], t[1]);
+        joined.join(t[0], t[2]);
+        for (const Index v : t) all.extend(engine::to_eigen(positions[v]));
+    }
+    // By root, those that have faces.
+    std::vector<Box> box(positions.size());
+    std::vector<std::uint8_t> stays(positions.size(), 0);
+    for (const Triangle& t : triangles) {
+        poll();
+        if (t == no_face) continue;
+        const Index root = joined.root(t[0]);
+        for (const Index v : t) {
+            box[root].extend(engine::to_eigen(positions[v]));
+            if (!locked.empty() && locked[v]) stays[root] = 1;
+        }
+    }
+    const double unit = size.unit == Length::Unit::model ? 0.5 : half_diagonal(all);
+    const double least = size.value * unit;
+    Index largest = no_index;
+    for (const Triangle& t : triangles) {
+        poll();
+        if (t == no_face) continue;
+        const Index root = joined.root(t[0]);
+        if (largest == no_index || half_diagonal(box[root]) > half_diagonal(box[largest])) largest = root;
+    }
+    Pruned pruned;
+    std::vector<std::uint8_t> counted(positions.size(), 0);
+    for (Index f = 0; f < triangles.size(); ++f) {
+        poll();
+        if (triangles[f] == no_face) continue;
+        const Index root = joined.root(triangles[f][0]);
+        if (root == largest || stays[root] || !(half_diagonal(box[root]) < least)) continue;
+        pruned.faces.push_back({f, triangles[f]});
+        triangles[f] = no_face;
+        pruned.components += counted[root] == 0;
+        counted[root] = 1;
+    }
+    return pruned;
+}
+
+}  // namespace faqem::detail

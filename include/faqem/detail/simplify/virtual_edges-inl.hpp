@@ -1,0 +1,154 @@
+#include "faqem/detail/simplify/virtual_edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+#include <tuple>
+
+#include "faqem/engine/mesh/components.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+using engine::Complex;
+using engine::Vector3;
+
+// What nanoflann wants to know of the used vertices.
+struct Points {
+    const Complex& complex;
+    std::vector<Index> vertices;
+
+    std::size_t kdtree_get_point_count() const { return vertices.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return complex.position(vertices[i])[static_cast<Eigen::Index>(axis)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points, double, std::size_t>,
+                                        Points, 3, std::size_t>;
+
+// The nearest vertices of other components within a radius; ties by index.
+class NearestElsewhere {
+public:
+    struct Hit {
+        double distance;
+        std::size_t point;
+        bool operator<(const Hit& o) const {
+            return distance < o.distance || (distance == o.distance && point < o.point);
+        }
+    };
+    using DistanceType = double;
+
+    NearestElsewhere(const std::vector<Index>& component_of, Index own, double radius)
+        : component_of_(component_of), own_(own), radius_(radius) {}
+
+    bool full() const { return true; }
+    std::size_t size() const { return count_; }
+    // Only beyond this may the tree prune; equal distances must still come in, to be settled by index.
+    double worstDist() const {
+        const double worst = count_ < hits_.size() ? radius_ : hits_[count_ - 1].distance;
+        return std::nextafter(worst, std::numeric_limits<double>::infinity());
+    }
+    bool addPoint(double distance, std::size_t point) {
+        if (component_of_[point] == own_ || !(distance <= radius_)) return true;
+        const Hit hit{distance, point};
+        if (count_ == hits_.size()) {
+            if (!(hit < hits_.back())) return true;
+        } else {
+            ++count_;
+        }
+        std::size_t i = count_ - 1;
+        for (; i > 0 && hit < hits_[i - 1]; --i) hits_[i] = hits_[i - 1];
+        hits_[i] = hit;
+        return true;
+    }
+
+    std::span<const Hit> hits() const { return std::span(hits_).first(count_); }
+
+private:
+    const std::vector<Index>& component_of_;
+    Index own_;
+    double radius_;
+    std::array<Hit, 4> hits_ = {};
+    std::size_t count_ = 0;
+};
+
+// Do two vertices belong together: a face of each in one group, and their mean normals agree?
+bool compatible(const Complex& complex, std::span<const Index> groups, Index u, Index v) {
+    const auto normal = [&](Index w) {
+        Vector3 n = Vector3::Zero();
+        complex.for_each_face(w, [&](Index f, unsigned) { n += complex.area_vector(f); });
+        return n;
+    };
+    if (!(normal(u).dot(normal(v)) > 0)) return false;
+    if (groups.empty()) return true;
+    return !complex.all_faces(u, [&](Index f, unsigned) {
+        return complex.all_faces(v, [&](Index g, unsigned) { return groups[f] != groups[g]; });
+    });
+}
+
+}  // namespace
+
+std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
+                                                   double distance, double least, engine::Poll poll) {
+    const std::vector<engine::Component> parts = engine::components(complex, poll);
+    if (parts.size() < 2) return {};
+    const engine::PairTable surface(complex, {}, poll);
+    Points points{complex, {}};
+    std::vector<Index> component_of;
+    std::vector<std::uint8_t> seen(complex.vertex_slots(), 0);
+    for (Index part = 0; part < parts.size(); ++part) {
+        for (const Index f : parts[part].faces) {
+            poll();
+            for (const Index v : complex.triangle(f)) {
+                if (std::exchange(seen[v], std::uint8_t{1})) continue;
+                points.vertices.push_back(v);
+                component_of.push_back(part);
+            }
+        }
+    }
+    const Tree tree(3, points);
+
+    struct Edge {
+        double length_squared;
+        Index a, b;
+        bool operator<(const Edge& o) const {
+            return std::tie(length_squared, a, b) < std::tie(o.length_squared, o.a, o.b);
+        }
+    };
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < points.vertices.size(); ++i) {
+        poll();
+        NearestElsewhere nearest(component_of, component_of[i], distance * distance);
+        const Index v = points.vertices[i];
+        if (surface.boundary_degree(v) == 0) continue;
+        tree.findNeighbors(nearest, complex.position(v).data(), nanoflann::SearchParams());
+        for (const auto& hit : nearest.hits()) {
+            const Index w = points.vertices[hit.point];
+            if (!(hit.distance >= least * least) || surface.boundary_degree(w) == 0) continue;
+            if (!compatible(complex, face_groups, v, w)) continue;
+            edges.push_back({hit.distance, std::min(v, w), std::max(v, w)});
+        }
+    }
+    std::sort(edges.begin(), edges.end(), engine::polled_less(poll));
+    edges.erase(std::unique(edges.begin(), edges.end(),
+                            [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; }),
+                edges.end());
+    if (edges.size() > points.vertices.size()) edges.resize(points.vertices.size());
+    std::vector<std::pair<Index, Index>> result;
+    result.reserve(edges.size());
+    for (const Edge& edge : edges) result.emplace_back(edge.a, edge.b);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+}  // namespace faqem::detail
