@@ -5,11 +5,11 @@
 #include <fstream>
 #include <string_view>
 
-#include "asset/gltf.hpp"
-#include "asset/obj.hpp"
-#include "asset/off.hpp"
-#include "asset/ply.hpp"
-#include "asset/stl.hpp"
+#include "asset/gltf/gltf.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/formats/off.hpp"
+#include "asset/formats/ply.hpp"
+#include "asset/formats/stl.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {

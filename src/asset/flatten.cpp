@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "asset/repair.hpp"
+#include "asset/formats/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "asset/gltf_json.hpp"
+#include "asset/gltf/json.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asset/flatten.hpp"
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 #include "bake/source_surface.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image.hpp"
+#include "asset/image/image.hpp"
 
 namespace faqem::detail {
 namespace {

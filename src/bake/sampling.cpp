@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "asset/image.hpp"
+#include "asset/image/image.hpp"
 #include "bake/job.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"

@@ -1,12 +1,12 @@
 // Takes the place of the library's own image_codec(), which is linked to OpenImageIO.
 
-#include "asset/image_codec.hpp"
+#include "asset/image/image_codec.hpp"
 
 #include <dlfcn.h>
 
 #include <filesystem>
 
-#include "images/load.hpp"
+#include "image_plugin/load.hpp"
 
 namespace faqem::detail {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "asset/file.hpp"
-#include "asset/mtl.hpp"
+#include "asset/formats/mtl.hpp"
 #include "faqem/error.hpp"
 #include "tool/json.hpp"
 #include "tool/output.hpp"

@@ -1,10 +1,10 @@
 // Takes the place of the library's own image_codec(), which is linked to OpenImageIO.
 
-#include "asset/image_codec.hpp"
+#include "asset/image/image_codec.hpp"
 
 #include <filesystem>
 
-#include "images/load.hpp"
+#include "image_plugin/load.hpp"
 #include "tool/interrupt.hpp"
 
 namespace faqem::detail {

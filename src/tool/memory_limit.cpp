@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "asset/image_size.hpp"
+#include "asset/image/image_size.hpp"
 #include "bake/groups.hpp"
 #include "tool/batch_stamp.hpp"
 #include "tool/output.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 namespace faqem::tool {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asset/format_support.hpp"
-#include "asset/gltf_json.hpp"
+#include "asset/gltf/json.hpp"
 
 namespace faqem::testing {
 

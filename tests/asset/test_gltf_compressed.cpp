@@ -1,9 +1,9 @@
-#include "asset/gltf_compressed.hpp"
+#include "asset/gltf/compressed.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "asset/gltf_compressed_builder.hpp"
-#include "asset/image.hpp"
+#include "asset/image/image.hpp"
 
 #ifdef FAQEM_WITH_MESHOPT
 #include <meshoptimizer.h>

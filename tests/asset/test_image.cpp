@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "asset/format_support.hpp"
-#include "asset/image.hpp"
+#include "asset/image/image.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;

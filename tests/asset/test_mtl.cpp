@@ -1,11 +1,11 @@
-#include "asset/mtl.hpp"
+#include "asset/formats/mtl.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "asset/format_support.hpp"
-#include "asset/obj.hpp"
-#include "asset/srgb.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/image/srgb.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

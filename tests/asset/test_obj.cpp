@@ -1,10 +1,10 @@
-#include "asset/obj.hpp"
+#include "asset/formats/obj.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "asset/format_support.hpp"
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

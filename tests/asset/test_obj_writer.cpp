@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "asset/format_support.hpp"
-#include "asset/obj.hpp"
-#include "asset/srgb.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/image/srgb.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,9 +1,9 @@
-#include "asset/off.hpp"
+#include "asset/formats/off.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "asset/format_support.hpp"
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

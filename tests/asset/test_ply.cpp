@@ -1,4 +1,4 @@
-#include "asset/ply.hpp"
+#include "asset/formats/ply.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "asset/format_support.hpp"
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 
-#include "asset/polygon.hpp"
+#include "asset/formats/triangulate.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,4 +1,4 @@
-#include "asset/stl.hpp"
+#include "asset/formats/stl.hpp"
 
 #include <bit>
 #include <catch2/catch.hpp>

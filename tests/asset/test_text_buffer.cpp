@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "asset/text_buffer.hpp"
+#include "asset/text/text_buffer.hpp"
 
 using faqem::detail::TextBuffer;
 

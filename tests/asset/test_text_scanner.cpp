@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "asset/format_support.hpp"
-#include "asset/text_scanner.hpp"
+#include "asset/text/text_scanner.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include "asset/format_support.hpp"
-#include "asset/mtl.hpp"
-#include "asset/obj.hpp"
-#include "asset/off.hpp"
-#include "asset/ply.hpp"
-#include "asset/stl.hpp"
+#include "asset/formats/mtl.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/formats/off.hpp"
+#include "asset/formats/ply.hpp"
+#include "asset/formats/stl.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

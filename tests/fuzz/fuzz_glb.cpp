@@ -1,6 +1,6 @@
 // The whole bytes of a GLB or a JSON glTF: framing above all.
 
-#include "asset/gltf.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

@@ -1,4 +1,4 @@
-#include "asset/image_size.hpp"
+#include "asset/image/image_size.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

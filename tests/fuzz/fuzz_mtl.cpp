@@ -1,4 +1,4 @@
-#include "asset/mtl.hpp"
+#include "asset/formats/mtl.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

@@ -1,4 +1,4 @@
-#include "asset/obj.hpp"
+#include "asset/formats/obj.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

@@ -1,4 +1,4 @@
-#include "asset/off.hpp"
+#include "asset/formats/off.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

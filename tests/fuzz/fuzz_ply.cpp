@@ -1,4 +1,4 @@
-#include "asset/ply.hpp"
+#include "asset/formats/ply.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

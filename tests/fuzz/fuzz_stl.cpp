@@ -1,4 +1,4 @@
-#include "asset/stl.hpp"
+#include "asset/formats/stl.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

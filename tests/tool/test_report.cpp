@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string_view>
 
-#include "asset/gltf.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "tool/report/heat_ramp.hpp"
 #include "tool/report/view_model.hpp"
 #include "tool_support.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "asset/repair.hpp"
+#include "asset/formats/repair.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/detail/base/parallel.hpp"

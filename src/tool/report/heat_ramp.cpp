@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "asset/srgb.hpp"
+#include "asset/image/srgb.hpp"
 
 namespace faqem::tool {
 

@@ -1,6 +1,6 @@
 #include "tool/report/view_model.hpp"
 
-#include "asset/gltf.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "tool/report/heat_ramp.hpp"
 
 namespace faqem::tool {

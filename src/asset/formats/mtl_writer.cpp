@@ -1,0 +1,151 @@
+#include "asset/formats/mtl_writer.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+
+#include "asset/image/image.hpp"
+#include "asset/text/number_text.hpp"
+#include "asset/formats/repair.hpp"
+#include "asset/image/srgb.hpp"
+
+namespace faqem::detail {
+namespace {
+
+class Writer {
+public:
+    Writer(const Asset& asset, const std::string& stem) : asset_(asset), stem_(stem) {}
+
+    void add(const Material& material) {
+        std::string& text = library_.text;
+        library_.names.push_back(unique_name(statement_name(material.name, "material")));
+        text += "newmtl " + library_.names.back() + "\n";
+        color("Kd", {material.base_color[0], material.base_color[1], material.base_color[2]});
+        const bool transparent = material.alpha_mode != AlphaMode::opaque;
+        if (transparent && material.base_color[3] < 1) number("d", material.base_color[3]);
+        number("Pr", material.roughness);
+        number("Pm", material.metallic);
+        const bool glows = material.emissive != Vec3f{0, 0, 0};
+        if (glows) color("Ke", material.emissive);
+        texture("map_Kd", material.base_color_texture);
+        if (transparent) texture("map_d", material.base_color_texture);
+        if (glows) texture("map_Ke", material.emissive_texture);
+        texture("norm", material.normal_texture);
+    }
+
+    MtlLibrary finish() { return std::move(library_); }
+
+private:
+    std::string unique_name(const std::string& name) const {
+        const auto taken = [&](const std::string& candidate) {
+            return std::find(library_.names.begin(), library_.names.end(), candidate) != library_.names.end();
+        };
+        std::string candidate = name;
+        for (int i = 2; taken(candidate); ++i) candidate = name + "_" + std::to_string(i);
+        return candidate;
+    }
+
+    void number(const char* key, float value) {
+        library_.text += std::string(key) + " ";
+        append_number(library_.text, value);
+        library_.text += "\n";
+    }
+
+    void color(const char* key, const Vec3f& linear) {
+        library_.text += key;
+        for (const float c : linear) {
+            library_.text += " ";
+            append_number(library_.text, six_decimals(srgb_from_linear(c)));
+        }
+        library_.text += "\n";
+    }
+
+    void texture(const char* key, const TextureRef& ref) {
+        if (!ref) return;
+        const bool clamps = ref.wrap_u == Wrap::clamp && ref.wrap_v == Wrap::clamp;
+        library_.text += std::string(key) + (clamps ? " -clamp on " : " ") + image_name(ref.image) + "\n";
+    }
+
+    std::string image_name(Index image) {
+        for (const MtlImage& known : library_.images)
+            if (known.image == image) return known.name;
+        const std::string ending = file_ending(asset_.images[image].mime_type);
+        library_.images.push_back({stem_ + "_" + std::to_string(library_.images.size()) + ending, image});
+        return library_.images.back().name;
+    }
+
+    const Asset& asset_;
+    const std::string& stem_;
+    MtlLibrary library_;
+};
+
+bool same_uvs(const TextureRef& a, const TextureRef& b) {
+    return a.uv_set == b.uv_set && a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
+}
+
+bool uses_other_uvs(const Material& m) {
+    const auto differs = [&](const TextureRef& ref) { return ref && !same_uvs(ref, leading_texture(m)); };
+    return differs(m.emissive_texture) || differs(m.normal_texture);
+}
+
+bool wraps_otherwise(const Material& m) {
+    const auto unusual = [](const TextureRef& ref) {
+        return ref && (ref.wrap_u != ref.wrap_v || ref.wrap_u == Wrap::mirror);
+    };
+    return unusual(m.base_color_texture) || unusual(m.emissive_texture) || unusual(m.normal_texture);
+}
+
+void add_losses(const std::vector<Material>& materials, std::vector<std::string>& losses) {
+    struct Loss {
+        const char* what;
+        std::function<bool(const Material&)> occurs;
+    };
+    const Loss kinds[] = {
+        {"metallic-roughness textures", [](const Material& m) { return bool(m.metallic_roughness_texture); }},
+        {"occlusion textures", [](const Material& m) { return bool(m.occlusion_texture); }},
+        {"a scale of normal maps", [](const Material& m) { return m.normal_texture && m.normal_scale != 1; }},
+        {"alpha cutoffs: masks become blending",
+         [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
+        {"unlit materials", [](const Material& m) { return m.unlit; }},
+        {"double-sided materials", [](const Material& m) { return m.double_sided; }},
+        {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
+        {"different UVs for the textures of a material", uses_other_uvs},
+        {"mirrored wrapping, or wrapping that differs in u and v", wraps_otherwise}};
+    for (const Loss& kind : kinds) {
+        const auto count = std::count_if(materials.begin(), materials.end(), kind.occurs);
+        if (count)
+            losses.push_back(std::string("OBJ cannot hold ") + kind.what + " (" +
+                             counted(static_cast<std::uint64_t>(count), "material") + ")");
+    }
+}
+
+}  // namespace
+
+const TextureRef& leading_texture(const Material& material) {
+    if (material.base_color_texture) return material.base_color_texture;
+    return material.emissive_texture ? material.emissive_texture : material.normal_texture;
+}
+
+MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,
+                    std::vector<std::string>& losses) {
+    std::vector<Material> materials;
+    for (const Index m : used) {
+        materials.push_back(m == no_index ? Material{} : asset.materials[m]);
+        if (m == no_index) materials.back().name = "default";
+    }
+    add_losses(materials, losses);
+    Writer writer(asset, stem);
+    for (const Material& material : materials) writer.add(material);
+    return writer.finish();
+}
+
+std::string statement_name(const std::string& name, const std::string& fallback) {
+    std::string text = name;
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '_';
+    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\\')) text.pop_back();
+    return text.empty() ? fallback : text;
+}
+
+}  // namespace faqem::detail

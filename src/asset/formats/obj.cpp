@@ -1,0 +1,359 @@
+#include "asset/formats/obj.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string_view>
+
+#include "asset/file.hpp"
+#include "asset/formats/mtl.hpp"
+#include "asset/formats/triangulate.hpp"
+#include "asset/formats/repair.hpp"
+#include "asset/image/srgb.hpp"
+#include "asset/text/text_scanner.hpp"
+#include "asset/text/value_numbers.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+/// What a corner refers to: position, UV, normal; no_index where absent.
+using Corner = std::array<Index, 3>;
+
+constexpr std::array<const char*, 3> corner_nouns = {"position", "texture coordinate", "normal"};
+
+/// The statements of an OBJ file as written, indices from 0.
+struct Statements {
+    std::vector<Vec3> positions;
+    std::vector<Vec3f> colors;  // empty, or one per position
+    std::vector<Vec2f> uvs;
+    std::vector<Vec3f> normals;
+    std::vector<Corner> corners;
+    std::vector<std::uint32_t> sizes;  // corners of each face
+    std::vector<Index> face_material;  // into material_names
+    std::vector<std::string> material_names;
+    std::vector<std::string> libraries;
+    std::string object;
+};
+
+class Parser {
+public:
+    Parser(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
+        : in_(text, file, Continuation::yes), warnings_(warnings) {}
+
+    Statements run() {
+        while (in_.skip_to_content()) {
+            statement(in_.word());
+            in_.next_line();
+        }
+        check_forward_references();
+        add_warnings();
+        return std::move(out_);
+    }
+
+private:
+    void statement(std::string_view key) {
+        if (key == "v")
+            position();
+        else if (key == "f")
+            face();
+        else if (key == "vt")
+            uv();
+        else if (key == "vn")
+            normal();
+        else if (key == "usemtl")
+            use_material(in_.rest_of_line());
+        else if (key == "mtllib")
+            out_.libraries.push_back(in_.rest_of_line());
+        else if (key == "o")
+            name_object(in_.rest_of_line());
+        else if (key == "l" || key == "p")
+            ++lines_and_points_;
+        else if (key != "g" && key != "s" && unknown_++ == 0)
+            first_unknown_ = TextScanner::quoted(key) + " in line " + std::to_string(in_.line());
+    }
+
+    void position() {
+        std::array<double, 7> n;
+        std::size_t count = 0;
+        while (!in_.at_line_end()) {
+            if (count == n.size()) in_.fail("v has more than 7 numbers");
+            n[count++] = in_.number<double>();
+        }
+        if (count < 3 || count == 5) in_.fail("v has " + std::to_string(count) + " numbers, not 3, 4 or 6");
+        weights_ += (count == 4 && n[3] != 1) || count == 7;
+        out_.positions.push_back({n[0], n[1], n[2]});
+        if (count >= 6 && out_.colors.empty()) out_.colors.resize(out_.positions.size() - 1, {1, 1, 1});
+        if (count >= 6)
+            out_.colors.push_back({linear(n[3]), linear(n[4]), linear(n[5])});
+        else if (!out_.colors.empty())
+            out_.colors.push_back({1, 1, 1});
+    }
+
+    static float linear(double display) { return static_cast<float>(linear_from_srgb(display)); }
+
+    void uv() {
+        Vec2f uv = {in_.number<float>(), 0};
+        if (!in_.at_line_end()) uv[1] = in_.number<float>();
+        if (!in_.at_line_end()) in_.number<float>();
+        end_of_statement("vt");
+        out_.uvs.push_back({uv[0], 1 - uv[1]});
+    }
+
+    void normal() {
+        Vec3f n;
+        for (float& x : n) x = in_.number<float>();
+        end_of_statement("vn");
+        out_.normals.push_back(n);
+    }
+
+    void end_of_statement(const char* key) {
+        if (!in_.at_line_end())
+            in_.fail("unexpected " + TextScanner::quoted(in_.word()) + " at the end of " + key);
+    }
+
+    void face() {
+        const std::size_t first = out_.corners.size();
+        while (!in_.at_line_end()) out_.corners.push_back(corner());
+        const std::size_t count = out_.corners.size() - first;
+        if (count > max_index_count)  // the message is not made for every face
+            check_index_count(count, in_.file(), "line " + std::to_string(in_.line()) + ": corner");
+        out_.sizes.push_back(static_cast<std::uint32_t>(count));
+        out_.face_material.push_back(material_);
+    }
+
+    /// v, v/t, v//n or v/t/n. `v/` and `v/t/`, which some exporters write, count as without.
+    Corner corner() {
+        Corner corner = {no_index, no_index, no_index};
+        corner[0] = index(0);
+        for (std::size_t kind = 1; kind < 3 && in_.accept('/'); ++kind)
+            if (!in_.at_word_end() && !in_.remaining().starts_with('/')) corner[kind] = index(kind);
+        if (!in_.at_word_end()) in_.fail(TextScanner::quoted(in_.word()) + " does not belong in a corner");
+        return corner;
+    }
+
+    std::size_t count_of(std::size_t kind) const {
+        return kind == 0 ? out_.positions.size() : kind == 1 ? out_.uvs.size() : out_.normals.size();
+    }
+
+    Index index(std::size_t kind) {
+        std::int64_t number = 0;
+        if (!in_.accept_integer(number)) in_.fail(TextScanner::quoted(in_.word()) + " is not an index");
+        if (number == 0)
+            in_.fail(std::string("index 0 of a ") + corner_nouns[kind] + ": they are numbered from 1");
+        const std::size_t count = count_of(kind);
+        if (number < 0) {
+            if (number < -static_cast<std::int64_t>(count)) out_of_range(kind, number, count, in_.line());
+            return static_cast<Index>(static_cast<std::int64_t>(count) + number);
+        }
+        if (number > static_cast<std::int64_t>(max_index_count))
+            out_of_range(kind, number, count, in_.line());
+        // What comes later in the file may be referred to: known only at its end.
+        if (static_cast<std::size_t>(number) > count && number > highest_[kind].number)
+            highest_[kind] = {number, in_.line()};
+        return static_cast<Index>(number - 1);
+    }
+
+    [[noreturn]] void out_of_range(std::size_t kind, std::int64_t number, std::size_t count,
+                                   std::uint64_t line) const {
+        throw InputError(in_.file(), "line " + std::to_string(line),
+                         std::string("index ") + std::to_string(number) + " of a " + corner_nouns[kind] +
+                             " is out of range: there " + (count == 1 ? "is " : "are ") +
+                             std::to_string(count));
+    }
+
+    void check_forward_references() const {
+        for (std::size_t kind = 0; kind < 3; ++kind)
+            if (highest_[kind].number > static_cast<std::int64_t>(count_of(kind)))
+                out_of_range(kind, highest_[kind].number, count_of(kind), highest_[kind].line);
+    }
+
+    void use_material(const std::string& name) {
+        const auto [entry, is_new] =
+            material_indices_.try_emplace(name, static_cast<Index>(out_.material_names.size()));
+        if (is_new) out_.material_names.push_back(name);
+        material_ = entry->second;
+    }
+
+    void name_object(const std::string& name) {
+        if (out_.object.empty()) out_.object = name;
+    }
+
+    void add_warnings() {
+        if (lines_and_points_)
+            warnings_.push_back(counted(lines_and_points_, "line or point statement") +
+                                " not read: only faces are");
+        if (unknown_)
+            warnings_.push_back(counted(unknown_, "unknown statement") + " not read, first " +
+                                first_unknown_);
+        if (weights_)
+            warnings_.push_back(counted(weights_, "position") + " with a weight or alpha, which is not read");
+    }
+
+    struct Reference {
+        std::int64_t number = 0;
+        std::uint64_t line = 0;
+    };
+
+    TextScanner in_;
+    std::vector<std::string>& warnings_;
+    Statements out_;
+    std::map<std::string, Index> material_indices_;
+    Index material_ = no_index;
+    std::array<Reference, 3> highest_;  // of the references forward
+    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
+    std::string first_unknown_;
+};
+
+/// Numbers the different corners: position i, as its first corner uses it, is vertex i; others come after.
+class CornerNumbers {
+public:
+    explicit CornerNumbers(std::size_t positions)
+        : first_(positions, {no_index, no_index}), seen_(positions, 0) {}
+
+    Index number(const Corner& c) {
+        std::array<Index, 2>& first = first_[c[0]];
+        if (!seen_[c[0]]) {
+            seen_[c[0]] = 1;
+            first = {c[1], c[2]};
+        }
+        if (first[0] == c[1] && first[1] == c[2]) return c[0];
+        return static_cast<Index>(first_.size() + extra_.number(c));
+    }
+
+    std::uint64_t count() const { return first_.size() + extra_.values().size(); }
+    /// The corner that vertex v stands for.
+    Corner corner(std::size_t v) const {
+        if (v >= first_.size()) return extra_.values()[v - first_.size()];
+        return {static_cast<Index>(v), first_[v][0], first_[v][1]};
+    }
+
+private:
+    std::vector<std::array<Index, 2>> first_;  // UV and normal of each position's first corner
+    std::vector<std::uint8_t> seen_;
+    ValueNumbers<Corner> extra_;
+};
+
+void fill_vertices(Part& part, const Statements& in, const CornerNumbers& numbers) {
+    const std::size_t count = numbers.count();
+    part.positions.resize(count);
+    if (!in.colors.empty()) part.colors.resize(count);
+    const auto uses = [&](int kind) {
+        return std::any_of(in.corners.begin(), in.corners.end(),
+                           [kind](const Corner& c) { return c[kind] != no_index; });
+    };
+    const bool has_uvs = uses(1), has_normals = uses(2);
+    if (has_uvs) part.uvs.emplace_back(count, Vec2f{0, 0});
+    if (has_normals) part.normals.resize(count, {0, 0, 0});
+    for (std::size_t v = 0; v < count; ++v) {
+        const Corner c = numbers.corner(v);
+        part.positions[v] = in.positions[c[0]];
+        if (!in.colors.empty())
+            part.colors[v] = {in.colors[c[0]][0], in.colors[c[0]][1], in.colors[c[0]][2], 1};
+        if (c[1] != no_index) part.uvs[0][v] = in.uvs[c[1]];
+        if (c[2] != no_index) part.normals[v] = in.normals[c[2]];
+    }
+}
+
+/// Names of one mtllib statement: the whole rest of the line where there is such a file, else word by word.
+std::vector<std::string> library_names(const std::string& rest, const std::filesystem::path& folder) {
+    try {
+        resolve_inside(folder, rest, Reference::file_name);
+        return {rest};
+    } catch (const InputError&) {
+        std::vector<std::string> names;
+        std::size_t first = 0;
+        for (std::size_t end; (end = rest.find(".mtl ", first)) != std::string::npos; first = end + 5)
+            names.push_back(rest.substr(first, end + 4 - first));
+        names.push_back(rest.substr(first));
+        return names;
+    }
+}
+
+/// All materials of the libraries by name; a later one of the same name counts.
+std::map<std::string, MtlMaterial> read_libraries(const Statements& in, const std::filesystem::path& folder,
+                                                  std::vector<std::string>& warnings) {
+    std::map<std::string, MtlMaterial> materials;
+    std::vector<std::string> done;
+    for (const std::string& statement : in.libraries) {
+        for (const std::string& name : library_names(statement, folder)) {
+            if (std::find(done.begin(), done.end(), name) != done.end()) continue;
+            done.push_back(name);
+            std::vector<std::uint8_t> text;
+            std::filesystem::path found;
+            try {
+                found = resolve_inside(folder, name, Reference::file_name);
+                text = read_file(found);
+            } catch (const InputError& error) {
+                warnings.push_back(std::string("material library left out: ") + error.what());
+                continue;
+            }
+            const auto root = std::filesystem::canonical(folder.empty() ? "." : folder);
+            for (MtlMaterial& material : read_mtl(text, found.string(), warnings)) {
+                material.folder = found.parent_path().lexically_relative(root);
+                materials[material.name] = std::move(material);
+            }
+        }
+    }
+    return materials;
+}
+
+/// Materials in the order in which faces use them first.
+void add_materials(Asset& asset, const Statements& in, const std::filesystem::path& folder) {
+    std::vector<Index>& of_face = asset.parts[0].face_material;
+    const auto libraries = read_libraries(in, folder, asset.warnings);
+    std::vector<Index> added(in.material_names.size(), no_index);
+    for (Index& m : of_face) {
+        if (m == no_index) continue;
+        if (added[m] == no_index) {
+            const std::string& name = in.material_names[m];
+            const auto known = libraries.find(name);
+            MtlMaterial unknown;
+            unknown.values.name = name;
+            unknown.values.metallic = 0;
+            if (known == libraries.end())
+                asset.warnings.push_back("material '" + name + "' is in no library that could be read");
+            added[m] = add_material(asset, known == libraries.end() ? unknown : known->second, folder);
+        }
+        m = added[m];
+    }
+    if (!libraries.empty() && asset.materials.empty()) {
+        asset.warnings.push_back("material libraries are named, but no face uses a material (usemtl)");
+    }
+}
+
+}  // namespace
+
+Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
+    Asset asset;
+    Part& part = asset.parts.emplace_back();
+    Statements in = Parser(text, file.string(), asset.warnings).run();
+    check_index_count(in.positions.size(), file.string(), "v");
+    check_index_count(in.sizes.size(), file.string(), "f");
+    part.name = in.object.empty() ? file.stem().string() : in.object;
+
+    CornerNumbers numbers(in.positions.size());
+    Polygons polygons;
+    polygons.sizes = std::move(in.sizes);
+    polygons.vertices.reserve(in.corners.size());
+    for (const Corner& c : in.corners) {
+        polygons.vertices.push_back(numbers.number(c));
+        if (numbers.count() > max_index_count) check_index_count(numbers.count(), file.string(), "corner");
+    }
+    fill_vertices(part, in, numbers);
+    SplitPolygons split = split_polygons(polygons, part.positions);
+    if (split.too_small)
+        asset.warnings.push_back(counted(split.too_small, "face") + " of fewer than three corners left out");
+    part.triangles = std::move(split.triangles);
+    check_index_count(part.triangles.size(), file.string(), "triangle");
+    part.face_material.reserve(part.triangles.size());
+    for (const Index p : split.polygon) part.face_material.push_back(in.face_material[p]);
+    repair_numbers(part, file.string(), split.not_finite, asset.warnings);
+    add_materials(asset, in, file.parent_path());
+    return asset;
+}
+
+Asset read_obj(const std::filesystem::path& file) { return read_obj(read_file(file), file); }
+
+}  // namespace faqem::detail

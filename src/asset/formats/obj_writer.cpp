@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "asset/file.hpp"
+#include "asset/flatten.hpp"
+#include "asset/formats/mtl_writer.hpp"
+#include "asset/text/number_text.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/image/srgb.hpp"
+#include "asset/text/text_buffer.hpp"
+#include "asset/text/value_numbers.hpp"
+
+namespace faqem::detail {
+namespace {
+
+/// Materials of the faces in the order in which they are used first, as a place among them for each material.
+struct UsedMaterials {
+    std::vector<Index> materials;  // into Asset::materials, or no_index
+    std::vector<Index> place;      // of each of Asset::materials and, last, of no_index
+
+    Index place_of(Index material) const { return material == no_index ? place.back() : place[material]; }
+};
+
+/// Nothing where no face has a material.
+UsedMaterials used_materials(const Part& part, std::size_t count) {
+    UsedMaterials used;
+    used.place.assign(count + 1, no_index);
+    for (const Index m : part.face_material) {
+        Index& place = m == no_index ? used.place.back() : used.place[m];
+        if (place != no_index) continue;
+        place = static_cast<Index>(used.materials.size());
+        used.materials.push_back(m);
+    }
+    if (used.materials == std::vector<Index>{no_index}) used.materials.clear();
+    return used;
+}
+
+/// The numbers of a v, vt or vn line.
+template <std::size_t N>
+using Row = std::array<double, N>;
+
+/// Numbers the lines of the file as the corners of the faces come to need them, so that a file written, read
+/// and written again is the same.
+class Rows {
+public:
+    Rows(const Asset& asset, const Part& part)
+        : asset_(asset), part_(part), position_(part.positions.size(), no_index), normal_(position_) {
+        positions_.reserve(part.positions.size());
+        if (!part.uvs.empty()) {
+            uvs_.reserve(part.positions.size());
+            uv_.resize(part.positions.size());
+        }
+        if (!part.normals.empty()) normals_.reserve(part.positions.size());
+    }
+
+    /// 1-based numbers of v, vt and vn for a corner; 0 where there is none.
+    std::array<std::uint64_t, 3> corner(Index vertex, Index material) {
+        std::array<std::uint64_t, 3> numbers = {std::uint64_t{position(vertex)} + 1, 0, 0};
+        if (!part_.uvs.empty()) {
+            KnownUv& known = uv_[vertex];
+            if (known.number == no_index || known.material != material)
+                known = {material, uvs_.number(uv(vertex, material))};
+            numbers[1] = std::uint64_t{known.number} + 1;
+        }
+        if (!part_.normals.empty() && part_.normals[vertex] != Vec3f{0, 0, 0}) {
+            if (normal_[vertex] == no_index) normal_[vertex] = normals_.number(part_.normals[vertex]);
+            numbers[2] = std::uint64_t{normal_[vertex]} + 1;
+        }
+        return numbers;
+    }
+
+    Index position(Index vertex) {
+        if (position_[vertex] != no_index) return position_[vertex];
+        const Vec3& p = part_.positions[vertex];
+        Row<6> row = {p[0], p[1], p[2], 0, 0, 0};
+        for (std::size_t k = 0; k < 3 && !part_.colors.empty(); ++k)
+            row[3 + k] = six_decimals(srgb_from_linear(part_.colors[vertex][k]));
+        return position_[vertex] = positions_.number(row);
+    }
+
+    void write(TextBuffer& text) const {
+        const bool floats = all_floats(part_.positions);
+        for (const Row<6>& row : positions_.values()) {
+            text.put('v');
+            for (std::size_t k = 0; k < (part_.colors.empty() ? 3 : 6); ++k) {
+                text.put(' ');
+                if (floats && k < 3)
+                    text.number(static_cast<float>(row[k]));
+                else
+                    text.number(row[k]);
+            }
+            text.put('\n');
+        }
+        write_floats(text, "vt", uvs_.values());
+        write_floats(text, "vn", normals_.values());
+    }
+
+private:
+    /// As the leading texture of the face's material sees it, with v pointing up.
+    Vec2f uv(Index vertex, Index material) const {
+        static const TextureRef none;
+        const TextureRef& ref = material == no_index ? none : leading_texture(asset_.materials[material]);
+        const Vec2f& uv = part_.uvs[ref.uv_set < part_.uvs.size() ? ref.uv_set : 0][vertex];
+        const Vec2f scaled = {uv[0] * ref.scale[0], uv[1] * ref.scale[1]};
+        Vec2f turned = scaled;
+        if (ref.rotation != 0) {
+            const float c = std::cos(ref.rotation), s = std::sin(ref.rotation);
+            turned = {c * scaled[0] + s * scaled[1], c * scaled[1] - s * scaled[0]};
+        }
+        return {ref.offset[0] + turned[0], 1 - (ref.offset[1] + turned[1])};
+    }
+
+    template <class Values>
+    static void write_floats(TextBuffer& text, std::string_view key, const Values& rows) {
+        for (const auto& row : rows) {
+            text.put(key);
+            for (const float x : row) {
+                text.put(' ');
+                text.number(x);
+            }
+            text.put('\n');
+        }
+    }
+
+    /// Of the vertex as the last material saw it.
+    struct KnownUv {
+        Index material = no_index, number = no_index;
+    };
+
+    const Asset& asset_;
+    const Part& part_;
+    std::vector<KnownUv> uv_;
+    std::vector<Index> position_, normal_;  // numbers by vertex, no_index: none yet
+    ValueNumbers<Row<6>> positions_;
+    ValueNumbers<Vec2f> uvs_;
+    ValueNumbers<Vec3f> normals_;
+};
+
+void append_corner(TextBuffer& text, const std::array<std::uint64_t, 3>& numbers) {
+    text.put(' ');
+    text.number(numbers[0]);
+    if (numbers[1] || numbers[2]) text.put('/');
+    if (numbers[1]) text.number(numbers[1]);
+    if (!numbers[2]) return;
+    text.put('/');
+    text.number(numbers[2]);
+}
+
+TextBuffer faces_text(const Part& part, Rows& rows, const UsedMaterials& used, const MtlLibrary& library) {
+    TextBuffer text;
+    Index current = no_index;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        const Index material = part.face_material[f];
+        const Index place = used.place_of(material);
+        if (!used.materials.empty() && place != current) text.put("usemtl " + library.names[place] + "\n");
+        current = place;
+        text.put('f');
+        for (const Index v : part.triangles[f]) append_corner(text, rows.corner(v, material));
+        text.put('\n');
+    }
+    return text;
+}
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::path& file,
+                                   Overwrite overwrite) {
+    std::vector<std::string> losses = flattening_losses(asset, "OBJ");
+    const Part flat = flatten(asset);
+    const std::string stem = file.stem().string();
+    const UsedMaterials used = used_materials(flat, asset.materials.size());
+    const MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
+    if (std::any_of(flat.colors.begin(), flat.colors.end(), [](const Vec4f& c) { return c[3] != 1; }))
+        losses.push_back("OBJ cannot hold the alpha of vertex colours");
+
+    Rows rows(asset, flat);
+    const TextBuffer faces = faces_text(flat, rows, used, library);
+    for (Index v = 0; v < flat.positions.size(); ++v) rows.position(v);
+    TextBuffer text;
+    if (!used.materials.empty()) text.put("mtllib " + stem + ".mtl\n");
+    text.put("o " + statement_name(flat.name, stem) + "\n");
+    rows.write(text);
+    text.put(faces.view());
+
+    std::vector<FileContent> files;
+    for (const MtlImage& image : library.images)
+        files.push_back({file.parent_path() / image.name, asset.images[image.image].encoded});
+    if (!used.materials.empty())
+        files.push_back({file.parent_path() / (stem + ".mtl"), bytes_of(library.text)});
+    files.push_back({file, text.bytes()});
+    write_files(files, overwrite);
+    return losses;
+}
+
+}  // namespace faqem::detail

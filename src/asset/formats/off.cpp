@@ -1,0 +1,180 @@
+#include "asset/formats/off.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "asset/file.hpp"
+#include "asset/formats/triangulate.hpp"
+#include "asset/formats/repair.hpp"
+#include "asset/image/srgb.hpp"
+#include "asset/text/text_scanner.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+/// Which attributes the keyword announces.
+struct Keyword {
+    bool uvs = false, colors = false, normals = false;
+};
+
+Keyword read_keyword(TextScanner& in) {
+    Keyword keyword;
+    in.skip_to_content();
+    const std::string_view rest = in.remaining();
+    if (rest.empty()) in.fail("is empty");
+    if ((rest[0] >= '0' && rest[0] <= '9' && rest.substr(0, 2) != "4O" && rest.substr(0, 2) != "4n"))
+        return keyword;
+    std::string_view word = in.word();
+    const auto take = [&](std::string_view prefix) {
+        if (!word.starts_with(prefix)) return false;
+        word.remove_prefix(prefix.size());
+        return true;
+    };
+    const std::string_view whole = word;
+    keyword.uvs = take("ST");
+    keyword.colors = take("C");
+    keyword.normals = take("N");
+    const bool other_dimension = take("4nOFF") || take("4OFF") || take("nOFF");
+    if (other_dimension)
+        throw UnsupportedError(in.file(), "line " + std::to_string(in.line()),
+                               "'" + std::string(whole) + "': only OFF in three dimensions is read");
+    if (word != "OFF") in.fail("is not an OFF file: " + TextScanner::quoted(whole));
+    if (in.accept_word("BINARY"))
+        throw UnsupportedError(in.file(), "line " + std::to_string(in.line()), "binary OFF is not read");
+    return keyword;
+}
+
+class Reader {
+public:
+    Reader(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
+        : in_(text, file, Continuation::no), warnings_(warnings) {}
+
+    Part run() {
+        keyword_ = read_keyword(in_);
+        const std::uint64_t vertices = count("vertices"), faces = count("faces");
+        if (!in_.at_line_end()) in_.number<std::uint64_t>();
+        in_.finish_line();
+        // A vertex takes six bytes at least, a face two.
+        const std::uint64_t bytes = in_.remaining().size() + 1;
+        if (vertices > bytes / 6 || faces > (bytes - 6 * vertices) / 2)
+            in_.fail("the file is too short for " + counted(vertices, "vertex") + " and " +
+                     counted(faces, "face"));
+        resize(vertices);
+        for (std::size_t v = 0; v < vertices; ++v) read_vertex(v);
+        for (std::uint64_t f = 0; f < faces; ++f) read_face(vertices);
+        if (in_.skip_to_content())
+            warnings_.push_back(counted(in_.remaining().size(), "byte") + " after the last face not read");
+        finish();
+        return std::move(part_);
+    }
+
+private:
+    std::uint64_t count(const char* element) {
+        if (!in_.skip_to_content()) in_.fail(std::string("the number of ") + element + " is missing");
+        const auto value = in_.number<std::uint64_t>();
+        check_index_count(value, in_.file(), element);
+        return value;
+    }
+
+    void resize(std::size_t vertices) {
+        part_.positions.resize(vertices);
+        if (keyword_.normals) part_.normals.resize(vertices);
+        if (keyword_.colors) part_.colors.resize(vertices);
+        if (keyword_.uvs) part_.uvs.emplace_back(vertices);
+    }
+
+    void read_vertex(std::size_t v) {
+        if (!in_.skip_to_content()) in_.fail("the file ends before vertex " + std::to_string(v));
+        for (double& x : part_.positions[v]) x = in_.number<double>();
+        if (keyword_.normals)
+            for (float& x : part_.normals[v]) x = in_.number<float>();
+        if (keyword_.colors) read_color(part_.colors[v]);
+        if (keyword_.uvs) {
+            const auto s = in_.number<float>();
+            part_.uvs[0][v] = {s, 1 - in_.number<float>()};
+        }
+        in_.finish_line();
+    }
+
+    /// Three or four numbers: floats in 0..1, or integers up to 255 where none has a decimal point.
+    void read_color(Vec4f& color) {
+        std::array<double, 4> rgba = {0, 0, 0, 1};
+        bool integers = true;
+        std::size_t size = 0;
+        while (size < 4 && !at_last_numbers()) {
+            const std::string_view before = in_.remaining();
+            rgba[size++] = in_.number<double>();
+            const std::string_view word = before.substr(0, before.size() - in_.remaining().size());
+            integers &= word.find_first_of(".eE") == std::string_view::npos;
+        }
+        if (size < 3) in_.fail("a colour has three or four numbers");
+        for (std::size_t k = 0; k < size; ++k) rgba[k] /= integers ? 255 : 1;
+        if (size == 3) rgba[3] = 1;
+        for (std::size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(linear_from_srgb(rgba[k]));
+        color[3] = static_cast<float>(rgba[3]);
+    }
+
+    /// True where the colour must end: at the end of the line, or at the two UVs before it.
+    bool at_last_numbers() {
+        if (!keyword_.uvs) return in_.at_line_end();
+        TextScanner ahead = in_;
+        for (int i = 0; i < 2; ++i) {
+            if (ahead.at_line_end()) return true;
+            ahead.word();
+        }
+        return ahead.at_line_end();
+    }
+
+    void read_face(std::uint64_t vertices) {
+        const std::size_t face = polygons_.sizes.size();
+        if (!in_.skip_to_content()) in_.fail("the file ends before face " + std::to_string(face));
+        const auto size = in_.number<std::uint32_t>();
+        if (size > in_.remaining().size() / 2 + 1)
+            in_.fail("the file is too short for " + counted(size, "corner"));
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const auto v = in_.number<std::int64_t>();
+            if (v < 0 || static_cast<std::uint64_t>(v) >= vertices)
+                in_.fail("face " + std::to_string(face) + ": vertex " + std::to_string(v) +
+                         " is out of range: there are " + std::to_string(vertices));
+            polygons_.vertices.push_back(static_cast<Index>(v));
+        }
+        polygons_.sizes.push_back(size);
+        face_colors_ += !in_.at_line_end();
+        while (!in_.at_line_end()) in_.number<double>();
+        in_.finish_line();
+    }
+
+    void finish() {
+        if (face_colors_) warnings_.push_back("colours of " + counted(face_colors_, "face") + " not read");
+        SplitPolygons split = split_polygons(polygons_, part_.positions);
+        if (split.too_small)
+            warnings_.push_back(counted(split.too_small, "face") + " of fewer than three corners left out");
+        check_index_count(split.triangles.size(), in_.file(), "triangles");
+        part_.triangles = std::move(split.triangles);
+        part_.face_material.assign(part_.triangles.size(), no_index);
+        repair_numbers(part_, in_.file(), split.not_finite, warnings_);
+    }
+
+    TextScanner in_;
+    std::vector<std::string>& warnings_;
+    Keyword keyword_;
+    Part part_;
+    Polygons polygons_;
+    std::uint64_t face_colors_ = 0;
+};
+
+}  // namespace
+
+Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
+    Asset asset;
+    asset.parts.push_back(Reader(text, file.string(), asset.warnings).run());
+    asset.parts[0].name = file.stem().string();
+    return asset;
+}
+
+Asset read_off(const std::filesystem::path& file) { return read_off(read_file(file), file); }
+
+}  // namespace faqem::detail

@@ -1,0 +1,112 @@
+#include "asset/formats/ply_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "asset/text/text_scanner.hpp"
+
+namespace faqem::detail {
+namespace {
+
+PlyType read_type(TextScanner& in) {
+    static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names = {
+        {{"char", PlyType::int8},
+         {"int8", PlyType::int8},
+         {"uchar", PlyType::uint8},
+         {"uint8", PlyType::uint8},
+         {"short", PlyType::int16},
+         {"int16", PlyType::int16},
+         {"ushort", PlyType::uint16},
+         {"uint16", PlyType::uint16},
+         {"int", PlyType::int32},
+         {"int32", PlyType::int32},
+         {"uint", PlyType::uint32},
+         {"uint32", PlyType::uint32},
+         {"float", PlyType::float32},
+         {"float32", PlyType::float32},
+         {"double", PlyType::float64},
+         {"float64", PlyType::float64}}};
+    const std::string_view word = in.word();
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == word; });
+    if (found == names.end()) in.fail("unknown type " + TextScanner::quoted(word));
+    return found->second;
+}
+
+PlyFormat read_format(TextScanner& in) {
+    const std::string_view name = in.word();
+    if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
+        in.fail("unknown format " + TextScanner::quoted(name));
+    if (in.word() != "1.0") in.fail("only version 1.0 is known");
+    return name == "ascii"                  ? PlyFormat::ascii
+           : name == "binary_little_endian" ? PlyFormat::little_endian
+                                            : PlyFormat::big_endian;
+}
+
+PlyProperty read_property(TextScanner& in) {
+    PlyProperty property;
+    property.is_list = in.accept_word("list");
+    if (property.is_list) {
+        property.count_type = read_type(in);
+        if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64)
+            in.fail("the length of a list must be an integer");
+    }
+    property.type = read_type(in);
+    property.name = in.word();
+    if (property.name.empty()) in.fail("a property without a name");
+    return property;
+}
+
+}  // namespace
+
+std::size_t ply_size(PlyType type) {
+    static constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[static_cast<std::size_t>(type)];
+}
+
+PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {
+    PlyHeader header;
+    TextScanner in(bytes, file, Continuation::no);
+    if (in.word() != "ply") in.fail("is not a PLY file: it does not start with 'ply'");
+    in.finish_line();
+    bool has_format = false;
+    for (;;) {
+        if (!in.skip_to_content()) in.fail("the header has no end_header");
+        const std::string_view key = in.word();
+        if (key == "end_header") break;
+        if (key == "format") {
+            header.format = read_format(in);
+            has_format = true;
+        } else if (key == "element") {
+            PlyElement element;
+            element.name = in.word();
+            element.count = in.number<std::uint64_t>();
+            header.elements.push_back(std::move(element));
+        } else if (key == "property") {
+            if (header.elements.empty()) in.fail("a property before the first element");
+            header.elements.back().properties.push_back(read_property(in));
+        } else if (key == "comment" || key == "obj_info") {
+            header.has_texture_file |= in.accept_word("TextureFile");
+            in.next_line();
+            continue;
+        } else {
+            in.fail("unknown statement " + TextScanner::quoted(key));
+        }
+        in.finish_line();
+    }
+    if (!has_format) in.fail("the header has no format");
+    // Exactly one line end, of the kind the first line has: the byte after it is data, whatever it looks
+    // like.
+    const bool lone_cr = bytes.size() > 4 && bytes[3] == '\r' && bytes[4] != '\n';
+    const std::string_view rest = in.remaining();
+    const std::size_t end =
+        rest.starts_with("\r\n") && !lone_cr ? 2 : rest.starts_with('\n') || rest.starts_with('\r');
+    if (end == 0) in.fail("end_header needs a line end");
+    header.size = bytes.size() - rest.size() + end;
+    header.lines = in.line();
+    return header;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "asset/file.hpp"
+#include "asset/flatten.hpp"
+#include "asset/formats/ply.hpp"
+#include "asset/image/srgb.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+template <class T>
+void put(Bytes& bytes, T value) {
+    auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+/// 0..1 in 255 steps.
+std::uint8_t quantized(double value) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+}
+
+/// Which numbers a row holds.
+struct Layout {
+    bool doubles = false, normals = false, colors = false, alpha = false, uvs = false;
+};
+
+std::string header(const Part& part, const Layout& layout) {
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(part.positions.size());
+    const auto properties = [&](const char* type, std::initializer_list<const char*> names) {
+        for (const char* name : names) text += std::string("\nproperty ") + type + " " + name;
+    };
+    properties(layout.doubles ? "double" : "float", {"x", "y", "z"});
+    if (layout.normals) properties("float", {"nx", "ny", "nz"});
+    if (layout.colors) properties("uchar", {"red", "green", "blue"});
+    if (layout.alpha) properties("uchar", {"alpha"});
+    if (layout.uvs) properties("float", {"s", "t"});
+    const bool fits_int = part.positions.size() <= std::size_t{std::numeric_limits<std::int32_t>::max()};
+    return text + "\nelement face " + std::to_string(part.triangles.size()) + "\nproperty list uchar " +
+           (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
+}
+
+void put_vertex(Bytes& bytes, const Part& part, const Layout& layout, std::size_t v) {
+    for (const double x : part.positions[v]) {
+        if (layout.doubles)
+            put(bytes, x);
+        else
+            put(bytes, static_cast<float>(x));
+    }
+    if (layout.normals)
+        for (const float x : part.normals[v]) put(bytes, x);
+    for (std::size_t k = 0; k < 3 && layout.colors; ++k)
+        bytes.push_back(quantized(srgb_from_linear(part.colors[v][k])));
+    if (layout.alpha) bytes.push_back(quantized(part.colors[v][3]));
+    if (layout.uvs) {
+        put(bytes, part.uvs[0][v][0]);
+        put(bytes, 1 - part.uvs[0][v][1]);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::path& file,
+                                   Overwrite overwrite) {
+    std::vector<std::string> losses = flattening_losses(asset, "PLY");
+    const Part flat = flatten(asset);
+    if (!asset.materials.empty()) losses.push_back("PLY cannot hold materials and textures");
+    if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
+
+    Layout layout;
+    layout.doubles = !all_floats(flat.positions);
+    layout.normals = !flat.normals.empty();
+    layout.colors = !flat.colors.empty();
+    layout.alpha = std::any_of(flat.colors.begin(), flat.colors.end(),
+                               [](const Vec4f& c) { return quantized(c[3]) != 255; });
+    layout.uvs = !flat.uvs.empty();
+    const std::string text = header(flat, layout);
+    Bytes bytes(text.begin(), text.end());
+    const std::size_t row = (layout.doubles ? 24 : 12) + (layout.normals ? 12 : 0) + (layout.colors ? 4 : 0) +
+                            (layout.uvs ? 8 : 0);
+    bytes.reserve(bytes.size() + row * flat.positions.size() + 13 * flat.triangles.size());
+    for (std::size_t v = 0; v < flat.positions.size(); ++v) put_vertex(bytes, flat, layout, v);
+    for (const Triangle& t : flat.triangles) {
+        bytes.push_back(3);
+        for (const Index v : t) put(bytes, std::uint32_t{v});
+    }
+    write_file(file, bytes, overwrite);
+    return losses;
+}
+
+}  // namespace faqem::detail

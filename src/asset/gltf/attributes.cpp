@@ -1,0 +1,184 @@
+#include "asset/gltf/attributes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+constexpr double unit_tolerance = 5e-4;    // closer to 1, a length is left as it is
+constexpr double weight_tolerance = 2e-7;  // what glTF 2.0, section 3.7.3.3, asks for with one joint
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Makes the first three components a unit vector. \return false if they have no direction
+template <std::size_t N>
+bool make_unit(std::array<float, N>& v) {
+    const Vec3 d = {v[0], v[1], v[2]};
+    const double length = std::sqrt(dot(d, d));
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    if (!(std::abs(length - 1) <= unit_tolerance))
+        for (std::size_t i = 0; i < 3; ++i) v[i] = static_cast<float>(d[i] / length);
+    return true;
+}
+
+void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data) {
+    data.positions.reserve(data.vertices.size());
+    for (const Index v : data.vertices) {
+        const Vec3& p = part.positions[v];
+        Vec3f q;
+        for (std::size_t i = 0; i < 3; ++i) q[i] = static_cast<float>(p[i] - origin[i]);
+        if (!std::isfinite(q[0]) || !std::isfinite(q[1]) || !std::isfinite(q[2]))
+            throw WriteError("part '" + part.name + "', vertex " + std::to_string(v) +
+                             ": its position is too large for glTF");
+        data.positions.push_back(q);
+    }
+    for (std::size_t c = 0; c < data.corners.size(); c += 3) {
+        const auto is_closed = [&](std::size_t i, std::size_t k) {
+            const Index a = data.corners[c + i], b = data.corners[c + k];
+            return data.positions[a] == data.positions[b] &&
+                   part.positions[data.vertices[a]] != part.positions[data.vertices[b]];
+        };
+        data.closed += is_closed(0, 1) || is_closed(1, 2) || is_closed(2, 0);
+    }
+}
+
+/// Sums of the normals of the adjacent faces, weighted by area.
+std::vector<Vec3> face_normal_sums(const PrimitiveData& data) {
+    std::vector<Vec3> sums(data.vertices.size(), Vec3{});
+    for (std::size_t c = 0; c + 2 < data.corners.size(); c += 3) {
+        std::array<Vec3, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3f& q = data.positions[data.corners[c + k]];
+            p[k] = {q[0], q[1], q[2]};
+        }
+        const Vec3 e = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
+        const Vec3 f = {p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+        const Vec3 n = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 3; ++i) sums[data.corners[c + k]][i] += n[i];
+    }
+    return sums;
+}
+
+void gather_normals(const Part& part, PrimitiveData& data) {
+    if (part.normals.empty()) return;
+    data.normals = gather(part.normals, data.vertices);
+    std::vector<std::size_t> zero;
+    for (std::size_t i = 0; i < data.normals.size(); ++i)
+        if (!make_unit(data.normals[i])) zero.push_back(i);
+    if (zero.size() == data.normals.size()) data.normals.clear();
+    if (zero.empty() || data.normals.empty()) return;
+    const std::vector<Vec3> sums = face_normal_sums(data);
+    for (const std::size_t i : zero) {
+        const double length = std::sqrt(dot(sums[i], sums[i]));
+        data.normals[i] = {0, 0, 1};
+        if (length > 0 && std::isfinite(length))
+            for (std::size_t k = 0; k < 3; ++k) data.normals[i][k] = static_cast<float>(sums[i][k] / length);
+    }
+}
+
+/// Tangents are all or nothing: where one is missing, readers make them all (MikkTSpace).
+void gather_tangents(const Part& part, PrimitiveData& data) {
+    if (part.tangents.empty() || data.normals.empty()) return;
+    data.tangents = gather(part.tangents, data.vertices);
+    for (Vec4f& tangent : data.tangents) {
+        if (!make_unit(tangent) || !std::isfinite(tangent[3])) {
+            data.tangents.clear();
+            return;
+        }
+        tangent[3] = tangent[3] < 0 ? -1.0f : 1.0f;
+    }
+}
+
+/// Adds the weight of a joint that is named twice to its first mention; joints without weight become 0.
+void clean_influences(std::array<std::uint16_t, 4>& joints, Vec4f& weights) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!(weights[i] > 0) || !std::isfinite(weights[i])) weights[i] = 0;
+        for (std::size_t k = 0; k < i && weights[i] > 0; ++k)
+            if (joints[k] == joints[i] && weights[k] > 0) {
+                weights[k] += weights[i];
+                weights[i] = 0;
+            }
+        if (weights[i] == 0) joints[i] = 0;
+    }
+    const double sum = double{weights[0]} + weights[1] + weights[2] + weights[3];
+    if (!(sum > 0)) weights = {1, 0, 0, 0};
+    if (sum > 0 && !(std::abs(sum - 1) <= weight_tolerance))
+        for (float& weight : weights) weight = static_cast<float>(weight / sum);
+}
+
+void gather_influences(const Part& part, PrimitiveData& data) {
+    if (part.joints.empty() || part.weights.empty()) return;
+    data.joints = gather(part.joints, data.vertices);
+    data.weights = gather(part.weights, data.vertices);
+    if (std::all_of(data.weights.begin(), data.weights.end(), [](const Vec4f& w) { return w == Vec4f{}; })) {
+        data.joints.clear();
+        data.weights.clear();
+    }
+    for (std::size_t i = 0; i < data.joints.size(); ++i) clean_influences(data.joints[i], data.weights[i]);
+}
+
+}  // namespace
+
+Vec3 origin_of(const std::vector<Part>& parts) {
+    constexpr double near = 8;  // half sizes: three of a float's 24 bits
+    Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, origin = {};
+    for (const Part& part : parts) {
+        for (const Vec3& p : part.positions) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                low[i] = std::min(low[i], p[i]);
+                high[i] = std::max(high[i], p[i]);
+            }
+        }
+    }
+    double half = 0;
+    for (std::size_t i = 0; i < 3; ++i) half = std::max(half, high[i] / 2 - low[i] / 2);
+    if (!(half > 0)) return origin;
+    const double unit = std::exp2(std::floor(std::log2(half)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double centre = low[i] / 2 + high[i] / 2;
+        // What is too large for a float is an error, as it would be without a node.
+        if (!(std::abs(centre) > near * half) || !(std::abs(centre) <= std::numeric_limits<float>::max()))
+            continue;
+        const double steps = centre / unit;
+        origin[i] = std::abs(steps) < 0x1p52 ? std::round(steps) * unit : centre;
+    }
+    return origin;
+}
+
+PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
+                               std::vector<Index>& scratch) {
+    PrimitiveData data;
+    for (const Index f : faces)
+        for (const Index v : part.triangles[f])
+            if (scratch[v] == no_index) {
+                scratch[v] = 0;
+                data.vertices.push_back(v);
+            }
+    std::sort(data.vertices.begin(), data.vertices.end());
+    for (Index i = 0; i < data.vertices.size(); ++i) scratch[data.vertices[i]] = i;
+    data.corners.reserve(faces.size() * 3);
+    for (const Index f : faces)
+        for (const Index v : part.triangles[f]) data.corners.push_back(scratch[v]);
+    for (const Index v : data.vertices) scratch[v] = no_index;
+
+    gather_positions(part, origin, data);
+    gather_normals(part, data);
+    gather_tangents(part, data);
+    gather_influences(part, data);
+    if (!part.colors.empty()) {
+        data.colors = gather(part.colors, data.vertices);
+        // White is what a primitive without colours has.
+        if (std::all_of(data.colors.begin(), data.colors.end(), [](const Vec4f& c) {
+                return c == Vec4f{1, 1, 1, 1};
+            }))
+            data.colors.clear();
+    }
+    return data;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,131 @@
+#include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+
+#include <cstring>
+
+#include "asset/gltf/compressed.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+class DracoReader {
+public:
+    DracoReader(std::span<const std::uint8_t> bytes, std::string file, std::string where)
+        : bytes_(bytes), file_(std::move(file)), where_(std::move(where)) {}
+
+    /// Draco allocates by what its header says, so that is looked at first.
+    void check_counts(std::uint64_t vertices, std::uint64_t corners) const {
+        draco::DecoderBuffer buffer = open();
+        draco::DracoHeader header;
+        if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) fail("the header is damaged");
+        if (header.encoder_type != draco::TRIANGULAR_MESH) fail("holds no triangles");
+        buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+        if (buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2))
+            throw UnsupportedError(file_, where_, std::string(draco_name) + ": is of a version before 2.2");
+        if (header.flags & METADATA_FLAG_MASK) {
+            draco::GeometryMetadata metadata;
+            if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
+                fail("the metadata is damaged");
+        }
+        std::uint32_t points = 0, faces = 0;
+        std::uint8_t traversal = 0;
+        const bool edges = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING;
+        const bool read = edges
+                              ? buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) &&
+                                    draco::DecodeVarint(&faces, &buffer)
+                              : draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer);
+        if (!read) fail("ends too early");
+        if (std::uint64_t{faces} * 3 != corners)
+            fail("has " + std::to_string(faces) + " faces, the indices are " + std::to_string(corners));
+        // Edgebreaker tells its vertices; points are more where attributes split them.
+        if (points > vertices)
+            fail("has " + std::to_string(points) + " vertices, the accessors " + std::to_string(vertices));
+    }
+
+    std::unique_ptr<draco::Mesh> decode() const {
+        draco::DecoderBuffer buffer = open();
+        draco::Decoder decoder;
+        auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+        if (!mesh.ok() || !mesh.value()) fail("the data is damaged");
+        return std::move(mesh).value();
+    }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw InputError(file_, where_, std::string(draco_name) + ": " + what);
+    }
+
+private:
+    draco::DecoderBuffer open() const {
+        draco::DecoderBuffer buffer;
+        buffer.Init(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
+        return buffer;
+    }
+
+    std::span<const std::uint8_t> bytes_;
+    std::string file_, where_;
+};
+
+template <class T>
+bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAttribute& to) {
+    to.bytes.resize(std::size_t{mesh.num_points()} * to.components * sizeof(T));
+    std::vector<T> value(to.components);
+    for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
+        const draco::AttributeValueIndex at = from.mapped_index(draco::PointIndex(i));
+        if (at.value() >= from.size() ||
+            !from.ConvertValue<T>(at, static_cast<std::int8_t>(to.components), value.data()))
+            return false;
+        std::memcpy(&to.bytes[std::size_t{i} * to.components * sizeof(T)], value.data(),
+                    to.components * sizeof(T));
+    }
+    return true;
+}
+
+bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAttribute& to) {
+    switch (to.type) {
+        case ComponentType::i8:
+            return convert<std::int8_t>(mesh, from, to);
+        case ComponentType::u8:
+            return convert<std::uint8_t>(mesh, from, to);
+        case ComponentType::i16:
+            return convert<std::int16_t>(mesh, from, to);
+        case ComponentType::u16:
+            return convert<std::uint16_t>(mesh, from, to);
+        case ComponentType::u32:
+            return convert<std::uint32_t>(mesh, from, to);
+        case ComponentType::f32:
+            break;
+    }
+    return convert<float>(mesh, from, to);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std::uint64_t vertices,
+                                        std::uint64_t corners, std::vector<DracoAttribute>& attributes,
+                                        const std::string& file, const std::string& where) {
+    const DracoReader reader(bytes, file, where);
+    reader.check_counts(vertices, corners);
+    const std::unique_ptr<draco::Mesh> mesh = reader.decode();
+    if (mesh->num_points() != vertices || std::uint64_t{mesh->num_faces()} * 3 != corners)
+        reader.fail("has " + std::to_string(mesh->num_points()) + " vertices and " +
+                    std::to_string(mesh->num_faces()) + " faces, not what the accessors say");
+    for (DracoAttribute& attribute : attributes) {
+        const draco::PointAttribute* from = mesh->GetAttributeByUniqueId(attribute.id);
+        if (!from) reader.fail("has no attribute " + std::to_string(attribute.id));
+        // Bytes that are neither 0 nor 1 are undefined there, and glTF has no such type.
+        if (from->data_type() == draco::DT_BOOL)
+            reader.fail("attribute " + std::to_string(attribute.id) + " holds truth values");
+        if (!convert(*mesh, *from, attribute))
+            reader.fail("attribute " + std::to_string(attribute.id) + " is damaged");
+    }
+    std::vector<std::uint32_t> result;
+    result.reserve(corners);
+    for (std::uint32_t f = 0; f < mesh->num_faces(); ++f)
+        for (const draco::PointIndex& p : mesh->face(draco::FaceIndex(f))) result.push_back(p.value());
+    return result;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,133 @@
+#include "asset/gltf/framing.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+constexpr std::uint32_t glb_magic = 0x46546C67;   // glTF
+constexpr std::uint32_t json_chunk = 0x4E4F534A;  // JSON
+constexpr std::uint32_t bin_chunk = 0x004E4942;   // BIN
+constexpr std::uint64_t header_size = 12, chunk_header_size = 8;
+
+std::uint32_t u32_at(std::span<const std::uint8_t> bytes, std::uint64_t at) {
+    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8 |
+           static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
+}
+
+void put_u32(std::vector<std::uint8_t>& out, std::uint64_t value) {
+    for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
+
+/// Length of the GLB as its header says, checked against the file.
+std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::string& file,
+                             std::vector<std::string>& warnings) {
+    if (bytes.size() < header_size)
+        throw InputError(file, "GLB header", "needs 12 bytes, the file has " + std::to_string(bytes.size()));
+    const std::uint32_t version = u32_at(bytes, 4);
+    if (version != 2)
+        throw UnsupportedError(file, "GLB header",
+                               "version " + std::to_string(version) + " is not supported, only 2 is");
+    const std::uint64_t length = u32_at(bytes, 8);
+    if (length > bytes.size())
+        throw InputError(
+            file, "GLB header",
+            "says " + bytes_text(length) + ", the file has " + bytes_text(bytes.size()) + ": truncated");
+    if (length < header_size + chunk_header_size)
+        throw InputError(file, "GLB header", "says " + bytes_text(length) + ", too few for a JSON chunk");
+    if (length < bytes.size())
+        warnings.push_back(bytes_text(bytes.size() - length) + " after the end of the GLB were left out");
+    return length;
+}
+
+}  // namespace
+
+GltfFrame split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
+                     std::vector<std::string>& warnings) {
+    GltfFrame frame;
+    if (bytes.size() < 4 || u32_at(bytes, 0) != glb_magic) {
+        frame.json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+        return frame;
+    }
+    frame.is_binary = true;
+    const std::uint64_t length = checked_length(bytes, file, warnings);
+    std::uint64_t at = header_size;
+    for (std::uint64_t chunk = 0; at < length; ++chunk) {
+        const std::string where = "GLB chunk " + std::to_string(chunk);
+        if (length - at < chunk_header_size)
+            throw InputError(file, where,
+                             "needs a header of 8 bytes, " + bytes_text(length - at) + " are left");
+        const std::uint64_t size = u32_at(bytes, at);
+        const std::uint32_t type = u32_at(bytes, at + 4);
+        at += chunk_header_size;
+        if (size > length - at)
+            throw InputError(file, where,
+                             "needs " + bytes_text(size) + ", " + bytes_text(length - at) + " are left");
+        if (chunk == 0 && type != json_chunk) throw InputError(file, where, "is not the JSON chunk");
+        if (chunk == 0) {
+            frame.json = {reinterpret_cast<const char*>(bytes.data() + at), size};
+        } else if (chunk == 1 && type == bin_chunk) {
+            frame.bin = bytes.subspan(at, size);
+            frame.has_bin = true;
+        } else {
+            warnings.push_back(where + " is of no known type and was left out");
+        }
+        at += size;
+    }
+    return frame;
+}
+
+void check_json_depth(std::string_view json, const std::string& file) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            if (c == '"') in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '[' || c == '{') {
+            if (++depth > max_json_depth)
+                throw InputError(
+                    file, "JSON byte " + std::to_string(i),
+                    "arrays and objects are nested deeper than " + std::to_string(max_json_depth));
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+}
+
+std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::uint8_t> bin,
+                                   const std::string& file) {
+    const std::uint64_t json_size = (json.size() + 3) / 4 * 4;
+    const std::uint64_t bin_size = (bin.size() + std::uint64_t{3}) / 4 * 4;
+    const std::uint64_t total =
+        header_size + chunk_header_size + json_size + (bin.empty() ? 0 : chunk_header_size + bin_size);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw WriteError(file + ": a GLB of " + bytes_text(total) +
+                         " cannot be: 4 GiB is the limit, use .gltf");
+    std::vector<std::uint8_t> out;
+    out.reserve(total);
+    put_u32(out, glb_magic);
+    put_u32(out, 2);
+    put_u32(out, total);
+    put_u32(out, json_size);
+    put_u32(out, json_chunk);
+    out.insert(out.end(), json.begin(), json.end());
+    out.resize(header_size + chunk_header_size + json_size, ' ');
+    if (!bin.empty()) {
+        put_u32(out, bin_size);
+        put_u32(out, bin_chunk);
+        out.insert(out.end(), bin.begin(), bin.end());
+        out.resize(total, 0);
+    }
+    return out;
+}
+
+}  // namespace faqem::detail

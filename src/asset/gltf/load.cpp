@@ -1,0 +1,224 @@
+#include "asset/gltf/load.hpp"
+
+#include <charconv>
+#include <exception>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "asset/file.hpp"
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/framing.hpp"
+#include "asset/image/image.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t max_resource_bytes = std::uint64_t{1} << 34;
+constexpr std::uint64_t max_image_bytes = std::numeric_limits<std::int32_t>::max();  // an int in tinygltf
+constexpr std::string_view buffer_token = "faqem-buffer-";
+constexpr std::string_view image_token = "faqem-image-";
+
+/// What the callbacks serve.
+struct Resources {
+    const Json& document;
+    const GltfFrame& frame;
+    fs::path file;
+    std::vector<std::string>& warnings;
+};
+
+bool is_data_uri(const std::string& uri) { return uri.compare(0, 5, "data:") == 0; }
+
+std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::string& file,
+                                          const std::string& where) {
+    // tinygltf knows only some media types; what the bytes are is found from the bytes.
+    constexpr std::string_view marker = ";base64,";
+    const std::size_t end = uri.find(marker);
+    if (end == std::string::npos || end > uri.find(','))
+        throw UnsupportedError(file, where, "data URIs that are not base64 are not supported");
+    std::vector<std::uint8_t> bytes;
+    std::string media_type;
+    const std::string known = "data:application/octet-stream;base64," + uri.substr(end + marker.size());
+    if (!tinygltf::DecodeDataURI(&bytes, media_type, known, 0, false))
+        throw InputError(file, where, "is not valid base64");
+    return bytes;
+}
+
+/// \throws ReadError   no such file
+/// \throws InputError  it may not be read
+std::vector<std::uint8_t> read_uri(const Resources& resources, const std::string& uri,
+                                   const std::string& where, std::uint64_t max_bytes) {
+    const std::string file = resources.file.string();
+    if (is_data_uri(uri)) return decode_data_uri(uri, file, where);
+    try {
+        return read_file(resolve_inside(resources.file.parent_path(), uri), max_bytes);
+    } catch (const ReadError& error) {
+        throw ReadError(file, where, error.what());
+    } catch (const InputError& error) {
+        throw InputError(file, where, error.what());
+    }
+}
+
+std::vector<std::uint8_t> buffer_bytes(const Resources& resources, std::uint64_t index) {
+    const Json& buffer = resources.document["buffers"][index];
+    if (is_placeholder(buffer)) return {0};
+    const std::string where = step("/buffers", index), file = resources.file.string();
+    const auto length = buffer["byteLength"].get<std::uint64_t>();
+    const std::string uri = string_of(buffer, "uri");
+    std::vector<std::uint8_t> bytes;
+    if (!uri.empty()) {
+        bytes = read_uri(resources, uri, step(where, "uri"), max_resource_bytes);
+    } else if (index == 0 && resources.frame.has_bin) {
+        bytes.assign(resources.frame.bin.begin(), resources.frame.bin.end());
+        if (bytes.size() > length && bytes.size() - length > 3)
+            resources.warnings.push_back(where + ": the BIN chunk has " +
+                                         std::to_string(bytes.size() - length) +
+                                         " bytes more than the buffer; they were left out");
+    } else {
+        throw InputError(file, where,
+                         resources.frame.is_binary ? "has neither a uri nor a BIN chunk" : "has no uri");
+    }
+    if (bytes.size() < length)
+        throw InputError(
+            file, where,
+            "needs " + std::to_string(length) + " bytes, there are " + std::to_string(bytes.size()));
+    bytes.resize(length);
+    return bytes;
+}
+
+/// The bytes of an image file. tinygltf refuses empty ones, so a missing image is a single zero byte.
+std::vector<std::uint8_t> image_bytes(const Resources& resources, std::uint64_t index) {
+    const std::string where = step("/images", index);
+    try {
+        std::vector<std::uint8_t> bytes =
+            read_uri(resources, string_of(resources.document["images"][index], "uri"), step(where, "uri"),
+                     max_image_bytes);
+        if (bytes.empty()) throw ReadError("", where, "is empty");
+        return bytes;
+    } catch (const ReadError& error) {
+        resources.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
+        return {0};
+    }
+}
+
+bool token_exists(const std::string& name, void*) {
+    return name.compare(0, buffer_token.size(), buffer_token) == 0 ||
+           name.compare(0, image_token.size(), image_token) == 0;
+}
+
+std::string same_name(const std::string& name, void*) { return name; }
+
+bool read_token(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
+    const auto& resources = *static_cast<const Resources*>(user);
+    const bool is_buffer = name.compare(0, buffer_token.size(), buffer_token) == 0;
+    std::uint64_t index = 0;
+    const char* digits = name.data() + (is_buffer ? buffer_token : image_token).size();
+    std::from_chars(digits, name.data() + name.size(), index);
+    *out = is_buffer ? buffer_bytes(resources, index) : image_bytes(resources, index);
+    return true;
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                 const unsigned char* bytes, int size, void*) {
+    image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+/// The document with every URI replaced by a token that only our callbacks understand. Buffers without bytes
+/// are given one, and accessors that Draco data will fill a view: tinygltf insists on both.
+std::string tokenised(const Json& document) {
+    Json copy = document;
+    for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
+        if (is_placeholder(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
+        copy["buffers"][i]["uri"] = std::string(buffer_token) + std::to_string(i);
+    }
+    const std::vector<char> draco = draco_accessors(document);
+    for (std::uint64_t i = 0; i < draco.size(); ++i)
+        if (draco[i] && !copy["accessors"][i].contains("bufferView")) copy["accessors"][i]["bufferView"] = 0;
+    for (std::uint64_t i = 0; i < array_size(copy, "images"); ++i)
+        if (copy["images"][i].contains("uri"))
+            copy["images"][i]["uri"] = std::string(image_token) + std::to_string(i);
+    return copy.dump();
+}
+
+tinygltf::Model parse_fenced(const Json& document, Resources& resources) {
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({token_exists, same_name, read_token, write_nothing, &resources});
+    parser.SetImageLoader(store_image, nullptr);
+    const std::string file = resources.file.string(), json = tokenised(document);
+    if (json.size() > std::numeric_limits<unsigned>::max())
+        throw UnsupportedError(file, "", "4 GiB of JSON are not supported");
+    tinygltf::Model model;
+    std::string errors, warnings;
+    try {
+        if (!parser.LoadASCIIFromString(&model, &errors, &warnings, json.data(),
+                                        static_cast<unsigned>(json.size()), "", tinygltf::NO_REQUIRE))
+            throw InputError(file, "", errors.substr(0, errors.find('\n')));
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError(file, "", error.what());
+    }
+    return model;
+}
+
+/// Moves the bytes out of the model.
+void take_resources(LoadedGltf& loaded) {
+    for (tinygltf::Buffer& buffer : loaded.model.buffers)
+        loaded.source->buffers.push_back(std::move(buffer.data));
+    for (tinygltf::Image& from : loaded.model.images) {
+        Image image;
+        image.name = from.name;
+        const std::uint64_t index = loaded.source->images.size();
+        const std::string uri = string_of(loaded.source->document["images"][index], "uri");
+        if (!is_data_uri(uri)) image.uri = uri;
+        if (from.image.size() > 1) {
+            image.encoded = std::move(from.image);
+            image.mime_type = sniff_mime_type(image.encoded);
+            if (image.mime_type.empty()) image.mime_type = from.mimeType;
+        }
+        loaded.source->images.push_back(std::move(image));
+    }
+    loaded.model.buffers.clear();
+    loaded.model.images.clear();
+}
+
+Json parse_json(std::string_view text, const std::string& file) {
+    check_json_depth(text, file);
+    try {
+        return Json::parse(text.begin(), text.end());
+    } catch (const Json::exception& error) {
+        throw InputError(file, "JSON", error.what());
+    }
+}
+
+}  // namespace
+
+LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) {
+    LoadedGltf loaded;
+    loaded.file = file.string();
+    loaded.source = std::make_shared<SourceDocument>();
+    const GltfFrame frame = split_gltf(bytes, loaded.file, loaded.warnings);
+    loaded.source->document = parse_json(frame.json, loaded.file);
+    const Json& document = loaded.source->document;
+    validate_gltf(document, loaded.file);
+    Resources resources{document, frame, file, loaded.warnings};
+    loaded.model = parse_fenced(document, resources);
+    take_resources(loaded);
+    decompress(*loaded.source, loaded.file);
+    check_sparse(*loaded.source, loaded.file);
+    return loaded;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "asset/gltf/read/read.hpp"
+#include "asset/image/image.hpp"
+#include "asset/known_textures.hpp"
+#include "asset/material_textures.hpp"
+#include "asset/formats/repair.hpp"
+
+namespace faqem::detail {
+namespace {
+
+double number_or(const tinygltf::Value& value, double fallback) {
+    return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
+}
+
+Vec2f pair_or(const tinygltf::Value& object, const char* key, Vec2f fallback) {
+    if (!object.Has(key) || object.Get(key).ArrayLen() != 2) return fallback;
+    const tinygltf::Value& pair = object.Get(key);
+    return {static_cast<float>(number_or(pair.Get(0), fallback[0])),
+            static_cast<float>(number_or(pair.Get(1), fallback[1]))};
+}
+
+Wrap wrap_of(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
+}
+
+/// The plain image of a texture, else the WebP one.
+Index image_of(const SourceDocument& source, std::size_t index) {
+    const Json& texture = source.document["textures"][index];
+    const Index plain = index_of(texture, "source");
+    return plain != no_index ? plain
+                             : index_of(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
+}
+
+/// \tparam Info  one of tinygltf's three texture infos
+template <class Info>
+TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
+    TextureRef ref;
+    if (info.index < 0) return ref;
+    const tinygltf::Texture& texture = loaded.model.textures[static_cast<std::size_t>(info.index)];
+    const Index source = image_of(*loaded.source, static_cast<std::size_t>(info.index));
+    const auto image = static_cast<std::size_t>(source);
+    // A texture without an image is drawn like none at all. Missing images were reported when they were read.
+    if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;
+    ref.image = static_cast<Index>(image);
+    ref.uv_set = static_cast<std::uint32_t>(info.texCoord);
+    if (texture.sampler >= 0) {
+        const tinygltf::Sampler& sampler = loaded.model.samplers[static_cast<std::size_t>(texture.sampler)];
+        ref.wrap_u = wrap_of(sampler.wrapS);
+        ref.wrap_v = wrap_of(sampler.wrapT);
+        if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) ref.filter = Filter::nearest;
+    }
+    const auto found = info.extensions.find("KHR_texture_transform");
+    if (found == info.extensions.end()) return ref;
+    const tinygltf::Value& transform = found->second;
+    ref.offset = pair_or(transform, "offset", ref.offset);
+    ref.scale = pair_or(transform, "scale", ref.scale);
+    if (transform.Has("rotation")) ref.rotation = static_cast<float>(number_or(transform.Get("rotation"), 0));
+    if (transform.Has("texCoord"))
+        ref.uv_set = static_cast<std::uint32_t>(number_or(transform.Get("texCoord"), ref.uv_set));
+    return ref;
+}
+
+/// \param value  checked to be a texture info
+tinygltf::TextureInfo texture_info(const tinygltf::Value& value) {
+    tinygltf::TextureInfo info;
+    info.index = value.Get("index").GetNumberAsInt();
+    if (value.Has("texCoord")) info.texCoord = value.Get("texCoord").GetNumberAsInt();
+    if (!value.Has("extensions")) return info;
+    const tinygltf::Value& extensions = value.Get("extensions");
+    for (const std::string& name : extensions.Keys()) info.extensions[name] = extensions.Get(name);
+    return info;
+}
+
+/// Those that can be read: the others are passed through as what nobody knows.
+std::vector<ExtensionTexture> extension_textures(LoadedGltf& loaded, const tinygltf::Material& from) {
+    std::vector<ExtensionTexture> result;
+    for (const KnownTexture& known : known_textures) {
+        const std::string extension(known.extension), name(known.name);
+        const auto found = from.extensions.find(extension);
+        if (found == from.extensions.end() || !found->second.Has(name)) continue;
+        const tinygltf::Value& info = found->second.Get(name);
+        if (!info.IsObject() || !info.Has("index")) continue;
+        const TextureRef texture = texture_ref(loaded, texture_info(info));
+        if (!texture || !can_decode_image(loaded.source->images[texture.image].mime_type)) continue;
+        const double scale = info.Has("scale") ? number_or(info.Get("scale"), 1) : 1;
+        result.push_back({extension, name, texture, static_cast<float>(scale)});
+    }
+    return result;
+}
+
+template <std::size_t N>
+void copy_factors(std::array<float, N>& to, const std::vector<double>& from) {
+    for (std::size_t i = 0; i < N && i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
+}
+
+Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
+    Material material;
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    material.name = from.name;
+    copy_factors(material.base_color, pbr.baseColorFactor);
+    copy_factors(material.emissive, from.emissiveFactor);
+    material.metallic = static_cast<float>(pbr.metallicFactor);
+    material.roughness = static_cast<float>(pbr.roughnessFactor);
+    material.base_color_texture = texture_ref(loaded, pbr.baseColorTexture);
+    material.metallic_roughness_texture = texture_ref(loaded, pbr.metallicRoughnessTexture);
+    material.normal_texture = texture_ref(loaded, from.normalTexture);
+    material.normal_scale = static_cast<float>(from.normalTexture.scale);
+    material.occlusion_texture = texture_ref(loaded, from.occlusionTexture);
+    material.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
+    material.emissive_texture = texture_ref(loaded, from.emissiveTexture);
+    material.extension_textures = extension_textures(loaded, from);
+    if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
+    if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
+    material.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+    material.double_sided = from.doubleSided;
+    for (const auto& [name, value] : from.extensions) {
+        if (name == "KHR_materials_unlit")
+            material.unlit = true;
+        else if (name != "KHR_texture_transform")
+            material.extensions.push_back(name);
+    }
+    return material;
+}
+
+/// Numbers too large for a float become what they are where nothing is said. \return how many
+std::uint64_t reset_infinite(Material& material) {
+    const Material standard;
+    std::uint64_t count = 0;
+    const auto reset = [&count](float& value, float fallback) {
+        if (std::isfinite(value)) return;
+        value = fallback;
+        ++count;
+    };
+    for (std::size_t i = 0; i < 4; ++i) reset(material.base_color[i], standard.base_color[i]);
+    for (std::size_t i = 0; i < 3; ++i) reset(material.emissive[i], standard.emissive[i]);
+    reset(material.metallic, standard.metallic);
+    reset(material.roughness, standard.roughness);
+    reset(material.normal_scale, standard.normal_scale);
+    reset(material.occlusion_strength, standard.occlusion_strength);
+    reset(material.alpha_cutoff, standard.alpha_cutoff);
+    for (ExtensionTexture& texture : material.extension_textures) reset(texture.normal_scale, 1);
+    for_each_texture(material, [&](TextureRef& ref) {
+        for (std::size_t i = 0; i < 2; ++i) reset(ref.offset[i], 0), reset(ref.scale[i], 1);
+        reset(ref.rotation, 0);
+    });
+    return count;
+}
+
+}  // namespace
+
+std::vector<Material> read_materials(LoadedGltf& loaded) {
+    std::vector<Material> materials;
+    for (const tinygltf::Material& from : loaded.model.materials) {
+        Material material = read_material(loaded, from);
+        material.source = static_cast<Index>(materials.size());
+        if (const std::uint64_t count = reset_infinite(material); count != 0)
+            loaded.warnings.push_back(step("/materials", materials.size()) + ": " + counted(count, "number") +
+                                      " too large for a float: reset");
+        if (from.extensions.count("KHR_materials_pbrSpecularGlossiness") != 0)
+            loaded.warnings.push_back(
+                step("/materials", materials.size()) +
+                ": KHR_materials_pbrSpecularGlossiness is passed through, but not understood");
+        materials.push_back(std::move(material));
+    }
+    return materials;
+}
+
+}  // namespace faqem::detail

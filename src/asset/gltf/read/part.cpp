@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/read/read.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Attributes = std::map<std::string, int>;
+
+/// Which attributes the primitives of a mesh have between them.
+struct PartLayout {
+    bool normals = false, tangents = false, colors = false, joints = false, target_normals = false;
+    std::size_t uv_sets = 0, targets = 0;
+    std::set<std::string> left_out;
+};
+
+/// Counts of values that were not finite.
+struct Repairs {
+    std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0;
+};
+
+std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
+
+bool is_triangles(const tinygltf::Primitive& primitive) {
+    return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") != 0;
+}
+
+Index find(const Attributes& attributes, const std::string& name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? no_index : static_cast<Index>(found->second);
+}
+
+PartLayout layout_of(const tinygltf::Mesh& mesh) {
+    PartLayout layout;
+    std::set<std::string> names, target_names;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        if (!is_triangles(primitive)) continue;
+        for (const auto& [name, accessor] : primitive.attributes) names.insert(name);
+        for (const Attributes& target : primitive.targets)
+            for (const auto& [name, accessor] : target) target_names.insert(name);
+        layout.targets = std::max(layout.targets, primitive.targets.size());
+    }
+    while (names.erase(uv_name(layout.uv_sets)) != 0) ++layout.uv_sets;
+    names.erase("POSITION");
+    target_names.erase("POSITION");
+    layout.normals = names.erase("NORMAL") != 0;
+    layout.tangents = names.erase("TANGENT") != 0;
+    layout.colors = names.erase("COLOR_0") != 0;
+    layout.joints = names.count("JOINTS_0") != 0 && names.count("WEIGHTS_0") != 0;
+    if (layout.joints) {
+        names.erase("JOINTS_0");
+        names.erase("WEIGHTS_0");
+    }
+    layout.target_normals = target_names.erase("NORMAL") != 0;
+    layout.left_out = std::move(names);
+    for (const std::string& name : target_names) layout.left_out.insert("morph target " + name);
+    return layout;
+}
+
+/// Appends `count` vectors to `out`: those of the accessor, or `fill` where there is none.
+/// \return how many of them were not finite and were replaced by `fill`
+template <std::size_t N>
+std::uint64_t append(std::vector<std::array<float, N>>& out, const SourceDocument& source, Index accessor,
+                     std::size_t count, const std::array<float, N>& fill) {
+    if (accessor == no_index) {
+        out.insert(out.end(), count, fill);
+        return 0;
+    }
+    std::uint64_t repaired = 0;
+    std::vector<std::array<float, N>> values = read_vectors<float, N>(source, accessor, fill[N - 1]);
+    for (std::array<float, N>& value : values)
+        if (!std::all_of(value.begin(), value.end(), [](float x) { return std::isfinite(x); })) {
+            value = fill;
+            ++repaired;
+        }
+    out.insert(out.end(), values.begin(), values.end());
+    return repaired;
+}
+
+void append_joints(Part& part, const SourceDocument& source, const Attributes& attributes, std::size_t count,
+                   Repairs& repairs) {
+    const Index joints = find(attributes, "JOINTS_0"), weights = find(attributes, "WEIGHTS_0");
+    if (joints == no_index || weights == no_index) {
+        part.joints.resize(part.joints.size() + count);
+        part.weights.resize(part.weights.size() + count);
+        return;
+    }
+    const auto values = read_joints(source, joints);
+    part.joints.insert(part.joints.end(), values.begin(), values.end());
+    repairs.weights += append(part.weights, source, weights, count, Vec4f{});
+    if (attributes.count("WEIGHTS_1") == 0) return;
+    for (std::size_t i = part.weights.size() - count; i < part.weights.size(); ++i) {
+        Vec4f& w = part.weights[i];
+        const float sum = w[0] + w[1] + w[2] + w[3];
+        if (sum > 0)
+            for (float& x : w) x /= sum;
+    }
+}
+
+/// Appends the vertices of a primitive. \return the index of the first
+std::uint64_t append_vertices(Part& part, const PartLayout& layout, const SourceDocument& source,
+                              const tinygltf::Primitive& primitive, Repairs& repairs) {
+    const Attributes& from = primitive.attributes;
+    const std::uint64_t first = part.positions.size();
+    const std::vector<Vec3> positions = read_vectors<double, 3>(source, find(from, "POSITION"));
+    const std::size_t count = positions.size();
+    part.positions.insert(part.positions.end(), positions.begin(), positions.end());
+    if (layout.normals) repairs.normals += append(part.normals, source, find(from, "NORMAL"), count, Vec3f{});
+    if (layout.tangents)
+        repairs.tangents += append(part.tangents, source, find(from, "TANGENT"), count, Vec4f{});
+    for (std::size_t set = 0; set < layout.uv_sets; ++set)
+        repairs.uvs += append(part.uvs[set], source, find(from, uv_name(set)), count, Vec2f{});
+    if (layout.colors)
+        repairs.colors += append(part.colors, source, find(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
+    if (layout.joints) append_joints(part, source, from, count, repairs);
+    for (std::size_t t = 0; t < layout.targets; ++t) {
+        static const Attributes none;
+        const Attributes& target = t < primitive.targets.size() ? primitive.targets[t] : none;
+        MorphTarget& to = part.morph_targets[t];
+        repairs.targets += append(to.positions, source, find(target, "POSITION"), count, Vec3f{});
+        if (layout.target_normals)
+            repairs.targets += append(to.normals, source, find(target, "NORMAL"), count, Vec3f{});
+    }
+    return first;
+}
+
+/// The corners of a primitive as vertex numbers within it.
+std::vector<Index> corners_of(const LoadedGltf& loaded, const tinygltf::Primitive& primitive,
+                              std::uint64_t vertices, const std::string& where) {
+    std::vector<Index> corners;
+    if (primitive.indices < 0) {
+        corners.resize(vertices);
+        for (std::uint64_t i = 0; i < vertices; ++i) corners[i] = static_cast<Index>(i);
+        return corners;
+    }
+    corners = read_indices(*loaded.source, static_cast<Index>(primitive.indices));
+    for (const Index corner : corners)
+        if (corner >= vertices)
+            throw InputError(
+                loaded.file, where + "/indices",
+                "holds " + std::to_string(corner) + ", there are " + std::to_string(vertices) + " vertices");
+    return corners;
+}
+
+/// Triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1). In strips and fans, triangles with two
+/// equal corners only steer the strip and are no faces.
+std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
+    std::vector<Triangle> triangles;
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        triangles.reserve(v.size() / 3);
+        for (std::size_t i = 0; i + 2 < v.size(); i += 3) triangles.push_back({v[i], v[i + 1], v[i + 2]});
+        return triangles;
+    }
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+        const Triangle t = mode == TINYGLTF_MODE_TRIANGLE_FAN
+                               ? Triangle{v[i + 1], v[i + 2], v[0]}
+                               : Triangle{v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]};
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+    }
+    return triangles;
+}
+
+bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+/// Gives vertices whose position is not finite (their faces are gone) the first position that is.
+void repair_positions(Part& part, Repairs& repairs) {
+    const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite);
+    const Vec3 harmless = finite == part.positions.end() ? Vec3{} : *finite;
+    for (Vec3& position : part.positions)
+        if (!is_finite(position)) {
+            position = harmless;
+            ++repairs.positions;
+        }
+}
+
+void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, const std::string& what) {
+    if (count != 0) loaded.warnings.push_back(where + ": " + std::to_string(count) + " " + what);
+}
+
+void report(LoadedGltf& loaded, const std::string& where, const Repairs& repairs, std::uint64_t dropped_faces,
+            std::uint64_t excess_corners, const PartLayout& layout) {
+    warn(loaded, where, dropped_faces, "faces with a position that is not finite were left out");
+    warn(loaded, where, repairs.positions, "positions that are not finite were moved to another vertex");
+    warn(loaded, where, repairs.normals, "normals that are not finite were reset");
+    warn(loaded, where, repairs.tangents, "tangents that are not finite were reset");
+    warn(loaded, where, repairs.uvs, "texture coordinates that are not finite were reset");
+    warn(loaded, where, repairs.colors, "vertex colours that are not finite were reset");
+    warn(loaded, where, repairs.weights, "joint weights that are not finite were reset");
+    warn(loaded, where, repairs.targets, "morph target vectors that are not finite were reset");
+    warn(loaded, where, excess_corners,
+         "indices at the end of a triangle list make no triangle and were left out");
+    for (const std::string& name : layout.left_out)
+        loaded.warnings.push_back(where + ": the attribute " + name + " was left out");
+}
+
+}  // namespace
+
+Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_faces) {
+    const tinygltf::Mesh& mesh = loaded.model.meshes[mesh_index];
+    const std::string where = step("/meshes", mesh_index);
+    const PartLayout layout = layout_of(mesh);
+    Part part;
+    part.name = mesh.name;
+    part.source = mesh_index;
+    part.uvs.resize(layout.uv_sets);
+    part.morph_targets.resize(layout.targets);
+    Repairs repairs;
+    std::uint64_t dropped = 0, excess = 0;
+    // Primitives often share their vertices and differ in indices and material only.
+    std::map<std::pair<Attributes, std::vector<Attributes>>, std::uint64_t> first_vertex;
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const tinygltf::Primitive& primitive = mesh.primitives[p];
+        const std::string at = step(where + "/primitives", p);
+        if (!is_triangles(primitive)) {
+            if (primitive.mode >= TINYGLTF_MODE_TRIANGLES)
+                loaded.warnings.push_back(at + ": has no positions and was left out");
+            continue;
+        }
+        const auto [entry, is_new] = first_vertex.try_emplace({primitive.attributes, primitive.targets}, 0);
+        if (is_new) entry->second = append_vertices(part, layout, *loaded.source, primitive, repairs);
+        const std::uint64_t first = entry->second;
+        if (part.positions.size() >= no_index)
+            throw InputError(loaded.file, where, "has more than 2^32 - 2 vertices");
+        const Json& accessors = loaded.source->document["accessors"];
+        const std::uint64_t count = number_of(accessors[find(primitive.attributes, "POSITION")], "count", 0);
+        const std::vector<Index> corners = corners_of(loaded, primitive, count, at);
+        if (primitive.mode == TINYGLTF_MODE_TRIANGLES) excess += corners.size() % 3;
+        const Index material = primitive.material < 0 ? no_index : static_cast<Index>(primitive.material);
+        for (Triangle triangle : triangles_of(corners, primitive.mode)) {
+            for (Index& corner : triangle) corner = static_cast<Index>(corner + first);
+            if (!std::all_of(triangle.begin(), triangle.end(),
+                             [&](Index v) { return is_finite(part.positions[v]); })) {
+                ++dropped;
+                continue;
+            }
+            part.triangles.push_back(triangle);
+            part.face_material.push_back(material);
+        }
+    }
+    repair_positions(part, repairs);
+    report(loaded, where, repairs, dropped, excess, layout);
+    dropped_faces += dropped;
+    return part;
+}
+
+}  // namespace faqem::detail

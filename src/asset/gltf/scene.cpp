@@ -1,0 +1,112 @@
+#include <cmath>
+#include <utility>
+
+#include "asset/gltf/gltf.hpp"
+#include "asset/source_document.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Matrix = std::array<double, 16>;
+
+constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// Product of column-major matrices.
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix c = {};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    return c;
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const Json& object, const char* key, std::array<double, N> values) {
+    const Json& array = member(object, key);
+    if (array.is_array() && array.size() == N)
+        for (std::size_t i = 0; i < N; ++i) values[i] = array[i].get<double>();
+    return values;
+}
+
+/// T * R * S with R from a unit quaternion (glTF 2.0, section 3.5.3).
+Matrix local_transform(const Json& node) {
+    if (node.contains("matrix")) return numbers<16>(node, "matrix", identity);
+    const auto t = numbers<3>(node, "translation", {0, 0, 0});
+    const auto s = numbers<3>(node, "scale", {1, 1, 1});
+    auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
+    const double length = std::sqrt(x * x + y * y + z * z + w * w);
+    if (length > 0) {
+        x /= length;
+        y /= length;
+        z /= length;
+        w /= length;
+    }
+    return {(1 - 2 * (y * y + z * z)) * s[0],
+            2 * (x * y + z * w) * s[0],
+            2 * (x * z - y * w) * s[0],
+            0,
+            2 * (x * y - z * w) * s[1],
+            (1 - 2 * (x * x + z * z)) * s[1],
+            2 * (y * z + x * w) * s[1],
+            0,
+            2 * (x * z + y * w) * s[2],
+            2 * (y * z - x * w) * s[2],
+            (1 - 2 * (x * x + y * y)) * s[2],
+            0,
+            t[0],
+            t[1],
+            t[2],
+            1};
+}
+
+std::vector<Index> root_nodes(const Json& document) {
+    std::vector<Index> roots;
+    const Json& scenes = member(document, "scenes");
+    if (!scenes.empty()) {
+        for (const Json& node : member(scenes[number_of(document, "scene", 0)], "nodes"))
+            roots.push_back(node.get<Index>());
+        return roots;
+    }
+    const Json& nodes = member(document, "nodes");
+    std::vector<char> is_child(nodes.size(), 0);
+    for (const Json& node : nodes)
+        for (const Json& child : member(node, "children")) is_child[child.get<Index>()] = 1;
+    for (Index i = 0; i < nodes.size(); ++i)
+        if (!is_child[i]) roots.push_back(i);
+    return roots;
+}
+
+}  // namespace
+
+std::vector<Instance> gltf_instances(const Asset& asset) {
+    const Json& document = asset.source->document;
+    std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
+    std::vector<Instance> instances;
+    std::vector<Index> homeless;
+    for (Index i = 0; i < asset.parts.size(); ++i)
+        if (asset.parts[i].source < parts_of.size())
+            parts_of[asset.parts[i].source].push_back(i);
+        else
+            homeless.push_back(i);
+
+    // A stack, as files may nest nodes deeper than the call stack allows.
+    std::vector<std::pair<Index, Matrix>> todo;
+    const std::vector<Index> roots = root_nodes(document);
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) todo.push_back({*root, identity});
+    while (!todo.empty()) {
+        const auto [index, parent] = todo.back();
+        todo.pop_back();
+        const Json& node = document["nodes"][index];
+        const Matrix world = product(parent, local_transform(node));
+        const Index mesh = index_of(node, "mesh");
+        if (mesh != no_index)
+            for (const Index part : parts_of[mesh]) instances.push_back({part, world});
+        const Json& children = member(node, "children");
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            todo.push_back({child->get<Index>(), world});
+    }
+    for (const Index part : homeless) instances.push_back({part, identity});
+    return instances;
+}
+
+}  // namespace faqem::detail

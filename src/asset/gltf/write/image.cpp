@@ -1,0 +1,102 @@
+#include <utility>
+
+#include "asset/gltf/write/writer.hpp"
+
+namespace faqem::detail {
+namespace {
+
+// glTF's numbers.
+constexpr int nearest = 9728, linear = 9729, nearest_mipmap_nearest = 9984, linear_mipmap_linear = 9987;
+constexpr int repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
+
+int wrap_number(Wrap wrap) {
+    if (wrap == Wrap::clamp) return clamp_to_edge;
+    return wrap == Wrap::mirror ? mirrored_repeat : repeat;
+}
+
+Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
+    const auto [entry, is_new] = writer.samplers.try_emplace({ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
+    if (is_new) {
+        const bool smooth = ref.filter == Filter::linear;
+        entry->second = append(writer, "samplers",
+                               {{"magFilter", smooth ? linear : nearest},
+                                {"minFilter", smooth ? linear_mipmap_linear : nearest_mipmap_nearest},
+                                {"wrapS", wrap_number(ref.wrap_u)},
+                                {"wrapT", wrap_number(ref.wrap_v)}});
+    }
+    return entry->second;
+}
+
+Index add_image(GltfWriter& writer, const Image& image, Json json) {
+    if (!image.name.empty()) json["name"] = image.name;
+    writer.images.push_back(&image);
+    return append(writer, "images", std::move(json));
+}
+
+Index asset_image(GltfWriter& writer, Index image) {
+    if (writer.source_image_of[image] != no_index) return copy_image(writer, writer.source_image_of[image]);
+    const auto [entry, is_new] = writer.asset_images.try_emplace(image, no_index);
+    if (is_new) entry->second = add_image(writer, writer.asset.images[image], Json::object());
+    return entry->second;
+}
+
+}  // namespace
+
+void find_source_images(GltfWriter& writer) {
+    for (const Image& image : writer.asset.images) {
+        Index found = no_index;
+        for (Index i = 0; i < writer.source.images.size() && found == no_index; ++i)
+            if (!image.encoded.empty() && writer.source.images[i].encoded == image.encoded) found = i;
+        writer.source_image_of.push_back(found);
+    }
+}
+
+Index copy_image(GltfWriter& writer, Index image) {
+    const auto [entry, is_new] = writer.source_images.try_emplace(image, no_index);
+    if (is_new) {
+        Json json = source_array(writer, "images")[image];
+        for (const char* key : {"uri", "bufferView", "mimeType"}) json.erase(key);
+        entry->second = add_image(writer, writer.source.images[image], std::move(json));
+    }
+    return entry->second;
+}
+
+Index copy_texture(GltfWriter& writer, Index texture) {
+    const auto [entry, is_new] = writer.source_textures.try_emplace(texture, no_index);
+    if (!is_new) return entry->second;
+    Json json = source_array(writer, "textures")[texture];
+    const auto copy_source = [&](Json& holder) {
+        const Index image = index_of(holder, "source");
+        if (image == no_index) return;
+        if (writer.source.images[image].encoded.empty())
+            holder.erase("source");
+        else
+            holder["source"] = copy_image(writer, image);
+    };
+    copy_source(json);
+    if (json.contains("extensions"))
+        for (Json& extension : json["extensions"]) copy_source(extension);
+    const Index sampler = index_of(json, "sampler");
+    if (sampler != no_index) {
+        const auto [copied, is_first] = writer.source_samplers.try_emplace(sampler, no_index);
+        if (is_first) copied->second = append(writer, "samplers", source_array(writer, "samplers")[sampler]);
+        json["sampler"] = copied->second;
+    }
+    entry->second = append(writer, "textures", std::move(json));
+    return entry->second;
+}
+
+Index make_texture(GltfWriter& writer, const TextureRef& ref) {
+    const Index image = asset_image(writer, ref.image);
+    const auto [entry, is_new] =
+        writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
+    if (is_new) {
+        Json json = {{"sampler", make_sampler(writer, ref)}};
+        const bool webp = writer.asset.images[ref.image].mime_type == "image/webp";
+        (webp ? json["extensions"]["EXT_texture_webp"] : json)["source"] = image;
+        entry->second = append(writer, "textures", std::move(json));
+    }
+    return entry->second;
+}
+
+}  // namespace faqem::detail

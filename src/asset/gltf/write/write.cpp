@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "asset/file.hpp"
+#include "asset/gltf/gltf.hpp"
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/attributes.hpp"
+#include "asset/gltf/framing.hpp"
+#include "asset/gltf/levels.hpp"
+#include "asset/gltf/write/writer.hpp"
+#include "asset/image/image.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Arrays that are built anew.
+constexpr std::array<std::string_view, 8> rebuilt = {"accessors", "bufferViews", "buffers",  "images",
+                                                     "materials", "meshes",      "samplers", "textures"};
+
+Json start_document(const Json& source) {
+    Json out = Json::object();
+    if (source.is_object())
+        for (const auto& [key, value] : source.items())
+            if (std::find(rebuilt.begin(), rebuilt.end(), key) == rebuilt.end()) out[key] = value;
+    out["asset"]["version"] = "2.0";
+    out["asset"]["generator"] = "faqem " FAQEM_VERSION;
+    return out;
+}
+
+/// Animation times and positions must have bounds; files exist that lack them.
+void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dense) {
+    const auto type = static_cast<ComponentType>(number_of(description, "componentType", 0));
+    if (description.contains("min") || description.contains("max") || type != ComponentType::f32) return;
+    const std::size_t components = component_count(string_of(description, "type"));
+    std::vector<float> values(dense.size() / sizeof(float));
+    if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
+    if (values.empty() ||
+        !std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
+        return;
+    std::vector<float> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)),
+        high = low;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        low[i % components] = std::min(low[i % components], values[i]);
+        high[i % components] = std::max(high[i % components], values[i]);
+    }
+    description["min"] = Json(low);
+    description["max"] = Json(high);
+}
+
+std::string json_text(const Json& document, int indent) {
+    return document.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::uint8_t> glb_bytes(GltfWriter& writer, const std::string& file) {
+    for (std::size_t i = 0; i < writer.images.size(); ++i) {
+        Json& json = writer.out["images"][i];
+        json["bufferView"] = writer.binary.add_view(writer.images[i]->encoded);
+        json["mimeType"] = writer.images[i]->mime_type;
+    }
+    const std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
+    return join_glb(json_text(writer.out, -1), buffer, file);
+}
+
+/// A file name as a relative URI (RFC 3986, section 2.3).
+std::string percent_encoded(const std::string& name) {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    std::string uri;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                           c == '-' || c == '.' || c == '_' || c == '~';
+        const auto byte = static_cast<unsigned char>(c);
+        if (plain)
+            uri += c;
+        else
+            uri += {'%', digits[byte / 16], digits[byte % 16]};
+    }
+    return uri;
+}
+
+bool is_json_name(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    return ending.size() == 5 && (ending[1] | 0x20) == 'g' && (ending[4] | 0x20) == 'f';
+}
+
+void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+    write_file(file, glb_bytes(writer, file.string()), overwrite);
+}
+
+/// The images, the buffer and, last because it refers to them, the JSON.
+void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+    const std::string stem = file.stem().string();
+    std::vector<FileContent> files;
+    for (std::size_t i = 0; i < writer.images.size(); ++i) {
+        const Image& image = *writer.images[i];
+        const std::string name = stem + "_" + std::to_string(i) + file_ending(image.mime_type);
+        writer.out["images"][i]["uri"] = percent_encoded(name);
+        if (!image.mime_type.empty()) writer.out["images"][i]["mimeType"] = image.mime_type;
+        files.push_back({file.parent_path() / name, image.encoded});
+    }
+    const std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
+    if (!buffer.empty()) {
+        writer.out["buffers"][0]["uri"] = percent_encoded(stem + ".bin");
+        files.push_back({file.parent_path() / (stem + ".bin"), buffer});
+    }
+    const std::string json = json_text(writer.out, 2);
+    files.push_back({file, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()}});
+    write_files(files, overwrite);
+}
+
+void finish(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+    write_extension_lists(writer);
+    if (is_json_name(file))
+        write_json_with_files(writer, file, overwrite);
+    else
+        write_glb(writer, file, overwrite);
+}
+
+/// Positions of a document stay as they are: its nodes, skins and animations fit them.
+GltfWriter writer_of(const Asset& asset) {
+    static const SourceDocument none;
+    const SourceDocument& source = asset.source ? *asset.source : none;
+    return {asset, source, start_document(source.document), asset.source ? Vec3{} : origin_of(asset.parts)};
+}
+
+void write_all(GltfWriter& writer) {
+    find_source_images(writer);
+    std::vector<Index> new_meshes;
+    write_meshes(writer, new_meshes);
+    write_scene(writer, new_meshes);
+}
+
+}  // namespace
+
+const Json& source_array(const GltfWriter& writer, const char* key) {
+    return member(writer.source.document, key);
+}
+
+Index append(GltfWriter& writer, const char* key, Json value) {
+    Json& array = writer.out[key];
+    array.push_back(std::move(value));
+    return static_cast<Index>(array.size() - 1);
+}
+
+Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
+    const auto [entry, is_new] = writer.accessors.try_emplace(accessor, no_index);
+    if (!is_new) return entry->second;
+    Json description = source_array(writer, "accessors")[accessor];
+    for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
+    // Zeros without a bufferView, too: of the result's bytes there may be too few to vouch for the count.
+    const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
+    if (use == AccessorUse::vertices || string_of(description, "type") == "SCALAR")
+        add_missing_bounds(description, dense);
+    entry->second = writer.binary.add_accessor(std::move(description), dense, use);
+    return entry->second;
+}
+
+std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Overwrite overwrite) {
+    GltfWriter writer = writer_of(asset);
+    write_all(writer);
+    finish(writer, file, overwrite);
+    return std::move(writer.warnings);
+}
+
+std::vector<std::uint8_t> glb_of(const Asset& asset) {
+    GltfWriter writer = writer_of(asset);
+    write_all(writer);
+    write_extension_lists(writer);
+    return glb_bytes(writer, "the model in memory");
+}
+
+std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,
+                                           Overwrite overwrite) {
+    const Asset& asset = leveled.asset;
+    GltfWriter writer = writer_of(asset);
+    find_source_images(writer);
+    std::vector<Index> new_meshes, mesh;
+    write_meshes(writer, new_meshes);
+    auto next = new_meshes.begin();
+    for (const Part& part : asset.parts)
+        mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
+    // Only the first level is in the scene.
+    const std::size_t of_others = asset.parts.size() - std::min(asset.parts.size(), leveled.parts);
+    new_meshes.resize(new_meshes.size() - of_others);
+    write_scene(writer, new_meshes);
+    attach_levels(writer, leveled, mesh);
+    finish(writer, file, overwrite);
+    return std::move(writer.warnings);
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,98 @@
+#include "asset/image/image.hpp"
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "asset/image/image_checks.hpp"
+#include "asset/image/image_codec.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem {
+namespace detail {
+namespace {
+
+struct Kind {
+    std::string_view magic;
+    std::size_t at;
+    const char* mime_type;
+    const char* ending;
+};
+
+constexpr std::array<Kind, 7> kinds = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+                                        {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
+                                        {{"WEBP", 4}, 8, "image/webp", ".webp"},
+                                        {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+                                        {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
+                                        {{"GIF8", 4}, 0, "image/gif", ".gif"},
+                                        {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
+
+/// Decoders take memory by what the header says, some of them when they open an image.
+void check_header(const Image& image) {
+    const std::optional<ImageSize> size = declared_size(image.encoded);
+    if (!size) fail_image(image, "is damaged: its header does not say how large it is");
+    check_image_size(image, *size);
+    if (!can_hold(image.encoded, *size)) fail_image_length(image, *size);
+}
+
+}  // namespace
+
+std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (const Kind& kind : kinds)
+        if (text.size() >= kind.at && text.substr(kind.at, kind.magic.size()) == kind.magic)
+            return kind.mime_type;
+    return "";
+}
+
+bool can_decode_image(const std::string& mime_type) {
+    if (mime_type == "image/png" || mime_type == "image/jpeg") return true;
+    if (mime_type != "image/webp") return false;
+    static const bool has_webp = image_codec().reads_webp();
+    return has_webp;
+}
+
+std::string decodable_images() {
+    return can_decode_image("image/webp") ? "PNG, JPEG and WebP" : "PNG and JPEG";
+}
+
+std::string file_ending(const std::string& mime_type) {
+    for (const Kind& kind : kinds)
+        if (mime_type == kind.mime_type) return kind.ending;
+    return ".bin";
+}
+
+}  // namespace detail
+
+Pixels decode(const Image& image) { return detail::decode(image, {}); }
+
+Image encode_png(const Pixels& pixels, const std::string& name) {
+    return detail::encode_png(pixels, name, {});
+}
+
+Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
+    return detail::encode_jpeg(pixels, name, quality, content, {});
+}
+
+Pixels detail::decode(const Image& image, engine::Poll poll) {
+    const std::string type = sniff_mime_type(image.encoded);
+    if (!can_decode_image(type))
+        throw UnsupportedError(
+            image.uri, image_title(image),
+            (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") + ", only " +
+                decodable_images() + " are");
+    check_header(image);
+    return image_codec().decode(image, type.substr(6), poll);
+}
+
+Image detail::encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll) {
+    return image_codec().encode_png(pixels, name, poll);
+}
+
+Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
+                          Content content, engine::Poll poll) {
+    return image_codec().encode_jpeg(pixels, name, quality, content, poll);
+}
+
+}  // namespace faqem

@@ -1,0 +1,86 @@
+#include "asset/image/image_size.hpp"
+
+#include <string>
+#include <string_view>
+
+#include "asset/image/image.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint64_t jpeg_pixels_per_byte = 512;  // eight blocks of 8 x 8
+constexpr std::uint64_t webp_pixels_per_byte = 4096, webp_always = 1 << 24;
+
+/// An unsigned number of some bytes. \pre they are there
+std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (const std::uint8_t byte : bytes.subspan(at, size)) value = value << 8 | byte;
+    return value;
+}
+
+std::uint64_t little_endian(Bytes bytes, std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (std::size_t i = size; i-- > 0;) value = value << 8 | bytes[at + i];
+    return value;
+}
+
+std::optional<ImageSize> png_size(Bytes bytes) {
+    if (bytes.size() < 24) return {};
+    return ImageSize{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
+}
+
+bool is_frame_header(std::uint8_t marker) {
+    return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+/// Finds markers as libjpeg does: what is none between them is skipped.
+std::optional<ImageSize> jpeg_size(Bytes bytes) {
+    std::size_t at = 2;
+    while (at + 9 < bytes.size()) {
+        if (bytes[at] != 0xFF || bytes[at + 1] == 0xFF || bytes[at + 1] == 0) {
+            ++at;
+            continue;
+        }
+        const std::uint8_t marker = bytes[at + 1];
+        if (is_frame_header(marker))
+            return ImageSize{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+        const bool is_alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+        at += is_alone ? 2 : 2 + big_endian(bytes, at + 2, 2);
+    }
+    return {};
+}
+
+/// Of the chunk that has to be first (RFC 9649).
+std::optional<ImageSize> webp_size(Bytes bytes) {
+    if (bytes.size() < 30) return {};
+    const std::string_view chunk(reinterpret_cast<const char*>(bytes.data()) + 12, 4);
+    if (chunk == "VP8X") return ImageSize{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
+    if (chunk == "VP8L") {
+        const std::uint64_t bits = little_endian(bytes, 21, 4);
+        return ImageSize{(bits & 0x3FFF) + 1, (bits >> 14 & 0x3FFF) + 1};
+    }
+    if (chunk == "VP8 ")
+        return ImageSize{little_endian(bytes, 26, 2) & 0x3FFF, little_endian(bytes, 28, 2) & 0x3FFF};
+    return {};
+}
+
+}  // namespace
+
+std::optional<ImageSize> declared_size(Bytes bytes) {
+    const std::string type = sniff_mime_type(bytes);
+    if (type == "image/png") return png_size(bytes);
+    if (type == "image/jpeg") return jpeg_size(bytes);
+    if (type == "image/webp") return webp_size(bytes);
+    return {};
+}
+
+bool can_hold(Bytes bytes, const ImageSize& size) {
+    const std::string type = sniff_mime_type(bytes);
+    if (type == "image/jpeg") return size.pixels() / jpeg_pixels_per_byte <= bytes.size();
+    if (type != "image/webp" || size.pixels() <= webp_always) return true;
+    return size.pixels() / webp_pixels_per_byte <= bytes.size();
+}
+
+}  // namespace faqem::detail

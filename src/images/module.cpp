@@ -1,8 +1,0 @@
-// What load.cpp finds in the module.
-
-#include "asset/image_codec.hpp"
-#include "faqem/export.hpp"
-
-extern "C" FAQEM_EXPORT const faqem::detail::ImageCodec* faqem_image_codec() {
-    return &faqem::detail::image_codec();
-}
