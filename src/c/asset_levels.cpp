@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bake/level_coverage.hpp"
-#include "bake/restored.hpp"
+#include "bake/scene/level_coverage.hpp"
+#include "bake/scene/parts_from_histories.hpp"
 #include "c/asset.hpp"
 #include "c/history.hpp"
 #include "c/level.hpp"

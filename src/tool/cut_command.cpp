@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/restored.hpp"
+#include "bake/scene/parts_from_histories.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "bake/level_coverage.hpp"
-#include "bake/scene_size.hpp"
-#include "bake/step_progress.hpp"
+#include "bake/scene/level_coverage.hpp"
+#include "bake/scene/scene_size.hpp"
+#include "bake/scene/step_progress.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"

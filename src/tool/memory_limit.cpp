@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "asset/image/image_size.hpp"
-#include "bake/groups.hpp"
+#include "bake/transfer/material_groups.hpp"
 #include "tool/batch_stamp.hpp"
 #include "tool/output.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "bake/job.hpp"
+#include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 

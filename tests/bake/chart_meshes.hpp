@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/chart_face.hpp"
+#include "bake/atlas/chart.hpp"
 #include "core/meshes.hpp"
 
 namespace faqem::test {

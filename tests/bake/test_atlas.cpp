@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "bake/atlas_per_triangle.hpp"
+#include "bake/atlas/per_triangle.hpp"
 #include "scenes.hpp"
 
 using namespace faqem;

@@ -1,4 +1,4 @@
-#include "bake/budget.hpp"
+#include "bake/scene/face_budget.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Slits in charts, and the grid that finds them.
 
-#include "bake/chart_outline.hpp"
+#include "bake/atlas/boundary_clearance.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "bake/box_grid.hpp"
+#include "bake/atlas/box_grid.hpp"
 
 using namespace faqem;
 using detail::Box;

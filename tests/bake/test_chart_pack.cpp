@@ -1,13 +1,13 @@
-#include "bake/chart_pack.hpp"
+#include "bake/atlas/packing.hpp"
 
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
-#include "bake/chart_sheet.hpp"
-#include "bake/chart_tile.hpp"
-#include "bake/charts.hpp"
+#include "bake/atlas/occupancy_grid.hpp"
+#include "bake/atlas/tiles.hpp"
+#include "bake/atlas/charts.hpp"
 #include "chart_meshes.hpp"
 #include "scenes.hpp"
 

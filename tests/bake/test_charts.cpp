@@ -1,12 +1,12 @@
-#include "bake/charts.hpp"
+#include "bake/atlas/charts.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 #include <set>
 
-#include "bake/chart_flatten.hpp"
-#include "bake/chart_grow.hpp"
-#include "bake/chart_overlap.hpp"
+#include "bake/atlas/parametrization.hpp"
+#include "bake/atlas/segmentation.hpp"
+#include "bake/atlas/triangle_overlap.hpp"
 #include "chart_meshes.hpp"
 
 using namespace faqem;

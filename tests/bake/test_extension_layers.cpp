@@ -1,6 +1,6 @@
 // Textures of material extensions: clear coat, sheen and the like.
 
-#include "bake/extension_layers.hpp"
+#include "bake/transfer/extension_layers.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "bake/triangle_pairs.hpp"
+#include "bake/atlas/triangle_pairs.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

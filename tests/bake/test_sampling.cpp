@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "bake/fill.hpp"
-#include "bake/sampling.hpp"
+#include "bake/texture/push_pull.hpp"
+#include "bake/transfer/texture_sampling.hpp"
 #include "scenes.hpp"
 
 using namespace faqem;

@@ -1,4 +1,4 @@
-#include "bake/tangents.hpp"
+#include "bake/transfer/tangents.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bake/visibility.hpp"
+#include "bake/scene/visibility.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,15 +2,15 @@
 
 #include <catch2/catch.hpp>
 
-#include "bake/atlas_per_triangle.hpp"
-#include "bake/chart_grow.hpp"
+#include "bake/atlas/per_triangle.hpp"
+#include "bake/atlas/segmentation.hpp"
 #include "bake/chart_meshes.hpp"
-#include "bake/chart_pack.hpp"
-#include "bake/charts.hpp"
-#include "bake/fill.hpp"
-#include "bake/sampling.hpp"
-#include "bake/tangents.hpp"
-#include "bake/visibility.hpp"
+#include "bake/atlas/packing.hpp"
+#include "bake/atlas/charts.hpp"
+#include "bake/texture/push_pull.hpp"
+#include "bake/transfer/texture_sampling.hpp"
+#include "bake/transfer/tangents.hpp"
+#include "bake/scene/visibility.hpp"
 #include "counted/silence.hpp"
 
 using namespace faqem;

@@ -1,0 +1,50 @@
+#include "bake/atlas/box_grid.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace faqem::detail {
+
+BoxGrid::BoxGrid(std::span<const Box> boxes) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Box all{inf, inf, -inf, -inf};
+    for (const Box& b : boxes) {
+        all = {std::min(all.low_x, b.low_x), std::min(all.low_y, b.low_y), std::max(all.high_x, b.high_x),
+               std::max(all.high_y, b.high_y)};
+    }
+    low_x_ = all.low_x;
+    low_y_ = all.low_y;
+    const double width = all.high_x - all.low_x, height = all.high_y - all.low_y;
+    const double cell = std::max({std::sqrt(width * height / static_cast<double>(boxes.size())),
+                                  all.size() / 4096, std::numeric_limits<double>::min()});
+    scale_ = 1 / cell;
+    columns_ = static_cast<std::size_t>(width * scale_) + 1;
+    rows_ = static_cast<std::size_t>(height * scale_) + 1;
+}
+
+std::optional<BoxGrid> BoxGrid::over(std::span<const Box> boxes, std::uint64_t& work) {
+    for (const Box& b : boxes) {
+        if (!std::isfinite(b.low_x + b.low_y + b.high_x + b.high_y)) return std::nullopt;
+    }
+    BoxGrid grid(boxes);
+    std::uint64_t entries = 0;
+    for (const Box& b : boxes) {
+        entries += grid.cells_under(b);
+        if (entries > work) {
+            work = 0;
+            return std::nullopt;
+        }
+    }
+    work -= entries;
+    grid.begin_.assign(grid.columns_ * grid.rows_ + 1, 0);
+    for (const Box& b : boxes) grid.visit(b, [&](std::size_t cell) { ++grid.begin_[cell + 1]; });
+    for (std::size_t i = 0; i + 1 < grid.begin_.size(); ++i) grid.begin_[i + 1] += grid.begin_[i];
+    grid.members_.resize(entries);
+    std::vector<std::uint64_t> fill(grid.begin_.begin(), grid.begin_.end() - 1);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        grid.visit(boxes[i], [&](std::size_t cell) { grid.members_[fill[cell]++] = static_cast<Index>(i); });
+    }
+    return grid;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,191 @@
+#include "bake/atlas/tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faqem::detail {
+namespace {
+
+constexpr std::uint32_t most_texels = 64;
+
+using Corner = std::array<double, 2>;
+
+double turn_at(const Corner& a, const Corner& b, double x, double y) {
+    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+}
+
+double distance_squared(const Corner& a, const Corner& b, double x, double y) {
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    const double length = dx * dx + dy * dy;
+    const double t = length > 0 ? std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length, 0.0, 1.0) : 0;
+    const double ex = a[0] + t * dx - x, ey = a[1] + t * dy - y;
+    return ex * ex + ey * ey;
+}
+
+// Samples of a tile in a box of texel coordinates.
+struct Range {
+    std::uint32_t x0, x1, y0, y1;  // half open
+};
+
+class Owners {
+public:
+    Owners(const Atlas& atlas, const AtlasChart& chart, const ChartTile& tile, std::uint32_t samples)
+        : atlas_(atlas),
+          tile_(tile),
+          samples_(samples),
+          columns_(tile.width * samples),
+          rows_(tile.height * samples) {
+        owned_.resize(std::size_t{tile.width} * tile.height);
+        for (std::uint32_t y = 0; y < tile.height; ++y) {
+            for (std::uint32_t x = 0; x < tile.width; ++x) {
+                owned_[std::size_t{y} * tile.width + x] = chart.owns(tile.x + x, tile.y + y);
+            }
+        }
+        owner_.assign(std::size_t{columns_} * rows_, no_index);
+    }
+
+    void inside(Index triangle) {
+        const auto& uv = atlas_.places[triangle].uv;
+        each_sample(range_of(uv, 0), [&](std::size_t at, double x, double y) {
+            if (owner_[at] != no_index) return;
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (turn_at(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // v points down
+            }
+            owner_[at] = triangle;
+        });
+    }
+
+    void close_by(Index triangle, std::size_t c, double reach) {
+        if (distance_.empty()) begin_distances();
+        const auto& uv = atlas_.places[triangle].uv;
+        const Corner &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
+        each_sample(range_of({a, b, b}, reach), [&](std::size_t at, double x, double y) {
+            if (!(distance_[at] > 0)) return;
+            const double d = distance_squared(a, b, x, y);
+            if (!(d < distance_[at])) return;
+            distance_[at] = d;
+            owner_[at] = triangle;
+        });
+    }
+
+    // Whether some sample of the chart's has no triangle yet.
+    bool gaps() const {
+        bool result = false;
+        for_owned([&](std::size_t at) { result = result || owner_[at] == no_index; });
+        return result;
+    }
+
+    TileOwners finish() {
+        TileOwners result;
+        for_owned([&](std::size_t at) {
+            if (owner_[at] != no_index) result.triangles.push_back(owner_[at]);
+        });
+        std::sort(result.triangles.begin(), result.triangles.end());
+        result.triangles.erase(std::unique(result.triangles.begin(), result.triangles.end()),
+                               result.triangles.end());
+        result.owners.assign(owner_.size(), TileOwners::none);
+        for_owned([&](std::size_t at) {
+            const auto found = std::lower_bound(result.triangles.begin(), result.triangles.end(), owner_[at]);
+            if (found != result.triangles.end())
+                result.owners[at] = static_cast<std::uint32_t>(found - result.triangles.begin());
+        });
+        return result;
+    }
+
+private:
+    void begin_distances() {
+        distance_.resize(owner_.size());
+        for (std::size_t i = 0; i < owner_.size(); ++i) distance_[i] = owner_[i] == no_index ? HUGE_VAL : 0;
+    }
+
+    Range range_of(const std::array<Corner, 3>& corners, double reach) const {
+        const auto [x0, x1] = std::minmax({corners[0][0], corners[1][0], corners[2][0]});
+        const auto [y0, y1] = std::minmax({corners[0][1], corners[1][1], corners[2][1]});
+        const auto index = [&](double texel, std::uint32_t from, std::uint32_t count) {
+            return static_cast<std::uint32_t>(std::clamp((texel - from) * samples_, 0.0, double(count)));
+        };
+        return {index(x0 - reach, tile_.x, columns_), index(x1 + reach + 1, tile_.x, columns_),
+                index(y0 - reach, tile_.y, rows_), index(y1 + reach + 1, tile_.y, rows_)};
+    }
+
+    template <class Visit>
+    void each_sample(const Range& range, Visit&& visit) const {
+        for (std::uint32_t j = range.y0; j < range.y1; ++j) {
+            for (std::uint32_t i = range.x0; i < range.x1; ++i) {
+                visit(std::size_t{j} * columns_ + i, tile_.x + (i + 0.5) / samples_,
+                      tile_.y + (j + 0.5) / samples_);
+            }
+        }
+    }
+
+    template <class Visit>
+    void for_owned(Visit&& visit) const {
+        for (std::uint32_t j = 0; j < rows_; ++j) {
+            for (std::uint32_t i = 0; i < columns_; ++i) {
+                if (owned_[std::size_t{j / samples_} * tile_.width + i / samples_])
+                    visit(std::size_t{j} * columns_ + i);
+            }
+        }
+    }
+
+    const Atlas& atlas_;
+    const ChartTile& tile_;
+    std::uint32_t samples_, columns_, rows_;
+    std::vector<std::uint8_t> owned_;  // by texel
+    std::vector<Index> owner_;         // by sample
+    std::vector<double> distance_;     // squared; 0 inside of a triangle
+};
+
+}  // namespace
+
+std::vector<ChartTile> cut_tiles(std::span<const AtlasChart> charts) {
+    std::vector<ChartTile> result;
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+        const AtlasChart& chart = charts[i];
+        const std::uint32_t step = std::max(1u, most_texels / chart.grain);  // blocks
+        for (std::uint32_t y = 0; y < chart.rows; y += step) {
+            for (std::uint32_t x = 0; x < chart.columns; x += step) {
+                const std::uint32_t columns = std::min(step, chart.columns - x),
+                                    rows = std::min(step, chart.rows - y);
+                bool any = false;
+                for (std::uint32_t j = y; j < y + rows; ++j) {
+                    for (std::uint32_t k = x; k < x + columns; ++k)
+                        any = any || chart.blocks[std::size_t{j} * chart.columns + k];
+                }
+                if (!any) continue;
+                result.push_back({static_cast<Index>(i), chart.x + x * chart.grain, chart.y + y * chart.grain,
+                                  columns * chart.grain, rows * chart.grain});
+            }
+        }
+    }
+    return result;
+}
+
+TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
+                       std::span<const std::array<Across, 3>> across, const ChartTile& tile,
+                       std::uint32_t samples) {
+    if (chart.single) {
+        // All triangles share the texel; the samples go to them by turns.
+        TileOwners result{chart.triangles, {}};
+        for (std::uint32_t i = 0; i < samples * samples; ++i) {
+            result.owners.push_back(i % static_cast<std::uint32_t>(chart.triangles.size()));
+        }
+        return result;
+    }
+    Owners owners(atlas, chart, tile, samples);
+    for (Index t : chart.triangles) owners.inside(t);
+    if (!owners.gaps()) return owners.finish();
+    // A block reaches at most a block's diagonal, and half of it, beyond the chart.
+    const double reach = 2 * chart.grain;
+    for (Index t : chart.triangles) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index other = across[t][c].triangle;
+            const bool within = other != no_index &&
+                                std::binary_search(chart.triangles.begin(), chart.triangles.end(), other);
+            if (!within) owners.close_by(t, c, reach);
+        }
+    }
+    return owners.finish();
+}
+
+}  // namespace faqem::detail

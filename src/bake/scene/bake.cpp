@@ -1,0 +1,139 @@
+#include "faqem/bake.hpp"
+
+#include <string>
+#include <utility>
+
+#include "bake/scene/check_asset.hpp"
+#include "bake/texture/bake_job.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem {
+
+namespace detail {
+
+std::string material_title(const Asset& asset, Index material) {
+    if (material == no_index) return "the default material";
+    const std::string& name = asset.materials[material].name;
+    return name.empty() ? "material " + std::to_string(material) : "material '" + name + "'";
+}
+
+std::string part_title(const Asset& asset, std::size_t part) {
+    const std::string& name = asset.parts[part].name;
+    return name.empty() ? "part " + std::to_string(part) : "part '" + name + "'";
+}
+
+namespace {
+
+void check(const Asset& source, const SmallParts& small) {
+    if (small.parts.size() != source.parts.size()) {
+        throw InputError("", "small parts",
+                         "there are " + std::to_string(small.parts.size()) + ", the asset has " +
+                             std::to_string(source.parts.size()));
+    }
+    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+        const SimplifyResult& part = small.parts[p];
+        const bool history_fits = part.history.kept_faces.size() == part.mesh.triangles.size() &&
+                                  (part.mesh.triangles.empty() ||
+                                   part.history.triangles.size() == source.parts[p].triangles.size());
+        if (!history_fits) {
+            throw InputError("", part_title(source, p),
+                             "its small mesh has no history or that of another part");
+        }
+    }
+}
+
+// Bare geometry asks the original nothing, unless skins or morph targets come along.
+bool needs_map(const Part& part, const BakeOptions& bake) {
+    const bool is_bare = bake.kind == Bake::none && bake.normals != Normals::transfer;
+    return !is_bare || !part.joints.empty() || !part.morph_targets.empty();
+}
+
+// Maps and normals.
+void map_parts(BakeJob& job, const SmallParts& small) {
+    double done = 0;
+    for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
+        job.go_on(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
+        SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
+        if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
+            part.map = std::make_unique<const SurfaceMap>(polled_map(
+                part.small->history, job.options.bake.mapping, part.source->triangles, job.workers()));
+        }
+        job.parts.push_back(std::move(part));
+    }
+    for (const SmallPart& part : job.parts) {
+        job.go_on(Phase::map, 1);
+        const bool has_normals = part.faces() > 0 && job.options.bake.normals != Normals::none;
+        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
+                                          : CornerNormals{});
+    }
+}
+
+void bake_kind(BakeJob& job) {
+    switch (job.options.bake.kind) {
+        case Bake::automatic:
+        case Bake::atlas:
+        case Bake::per_triangle:
+            if (bake_pages(job)) return;
+            job.warn("more triangles than texels: colours went to the vertices");
+            return bake_vertex(job);
+        case Bake::vertex:
+            return bake_vertex(job);
+        case Bake::keep:
+            return bake_keep(job);
+        case Bake::none:
+            return bake_none(job);
+    }
+}
+
+LightAsset bake_without_histories(const Asset& source, const SmallParts& small, const Options& options) {
+    validate(options);
+    check_asset(source);
+    check(source, small);
+    if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
+        throw OptionError("correspondence needs a new atlas: bake must not be vertex, keep or none");
+    }
+    BakeJob job(source, options);
+    job.result.report = small.report;
+    job.result.asset.source = source.source;
+    job.result.asset.warnings = source.warnings;
+    if (small.report.stop == StopReason::cancelled) return std::move(job.result);
+    PhaseSeconds& seconds = job.result.report.seconds;
+    const Stopwatch watch;
+    try {
+        map_parts(job, small);
+        seconds.map = watch.seconds();
+        bake_kind(job);
+        job.go_on(Phase::bake, 1);
+    } catch (const engine::Cancelled&) {
+        job.result.asset.parts.clear();
+        job.result.asset.materials.clear();
+        job.result.asset.images.clear();
+        job.result.correspondence.clear();
+        job.result.report.stop = StopReason::cancelled;
+    }
+    seconds.bake = watch.seconds() - seconds.map;
+    seconds.total += watch.seconds();
+    return std::move(job.result);
+}
+
+}  // namespace
+}  // namespace detail
+
+LightAsset bake(const Asset& source, const SmallParts& small, const Options& options) {
+    LightAsset result = detail::bake_without_histories(source, small, options);
+    if (options.history == Recording::on) {
+        for (const SimplifyResult& part : small.parts) result.histories.push_back(part.history);
+    }
+    return result;
+}
+
+LightAsset simplify(const Asset& source, const Options& options) {
+    SmallParts small = simplify_parts(source, options);
+    LightAsset result = detail::bake_without_histories(source, small, options);
+    if (options.history == Recording::on) {
+        for (SimplifyResult& part : small.parts) result.histories.push_back(std::move(part.history));
+    }
+    return result;
+}
+
+}  // namespace faqem

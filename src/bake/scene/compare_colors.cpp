@@ -1,0 +1,149 @@
+#include "faqem/compare_colors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "asset/flatten.hpp"
+#include "asset/image/srgb.hpp"
+#include "bake/transfer/source_surface.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/random_sampling.hpp"
+
+namespace faqem {
+namespace {
+
+using detail::Bvh;
+using engine::Vector3;
+
+constexpr std::size_t block = 4096;
+constexpr double wrong_from = 0.25;
+
+/// The scene as one part, with the materials and images it shows.
+Asset flat(const Asset& asset) {
+    Asset result;
+    result.parts = {detail::flatten(asset)};
+    result.materials = asset.materials;
+    result.images = asset.images;
+    return result;
+}
+
+/// A scene that can be asked for places and their colours.
+struct Model {
+    Asset asset;
+    detail::Surface surface;
+    std::vector<Vector3> looks;  ///< by triangle of the surface: the side that is outside
+    Bvh tree;
+    detail::SourceSurface colours;
+
+    Model(const Asset& source, const char* name)
+        : asset(flat(source)),
+          surface(detail::make_surface({part().positions, part().triangles}, name)),
+          looks(surface.normals),
+          tree(surface.positions, surface.triangles),
+          colours(asset, {.base = true}) {
+        if (part().normals.empty()) return;
+        for (std::size_t i = 0; i < looks.size(); ++i) {
+            Vector3 sum = Vector3::Zero();
+            for (const Index v : part().triangles[surface.faces[i]]) {
+                const Vec3f& n = part().normals[v];
+                sum += Vector3(n[0], n[1], n[2]);
+            }
+            if (sum.dot(looks[i]) < 0) looks[i] = -looks[i];
+        }
+    }
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    const Part& part() const { return asset.parts[0]; }
+
+    detail::Linear colour(Index triangle, const Vec3& barycentric) const {
+        return colours.sample(0, {.face = surface.faces[triangle], .barycentric = barycentric}, 0).base;
+    }
+
+    bool masked_out(Index triangle, float alpha) const {
+        const Material& m =
+            detail::material_or_default(asset, detail::face_material(part(), surface.faces[triangle]));
+        return m.alpha_mode == AlphaMode::mask && alpha < m.alpha_cutoff;
+    }
+};
+
+/// As displayed, without alpha; transparent is black.
+std::array<double, 3> srgb(const detail::Linear& premultiplied) {
+    std::array<double, 3> c = {};
+    if (!(premultiplied[3] > 0)) return c;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double linear = static_cast<double>(premultiplied[k]) / premultiplied[3];
+        c[k] = detail::srgb_from_linear(std::clamp(linear, 0.0, 1.0));
+    }
+    return c;
+}
+
+struct Sums {
+    double squared = 0;
+    std::uint64_t seen = 0, wrong = 0, one_sided = 0;
+};
+
+void add_sample(Sums& sums, const Model& from, const Model& to, const detail::SurfaceSample& s) {
+    const detail::Linear here = from.colour(s.face, s.barycentric);
+    if (from.masked_out(s.face, here[3])) return;
+    const Vector3& look = from.looks[s.face];
+    Bvh::Hit hit = to.tree.closest_if(s.point, [&](Index f) { return to.looks[f].dot(look) > 0; });
+    if (hit.face == no_index) {
+        hit = to.tree.closest(s.point);
+        ++sums.one_sided;
+    }
+    const std::array<double, 3> a = srgb(here), b = srgb(to.colour(hit.face, hit.barycentric));
+    double squared = 0;
+    for (std::size_t k = 0; k < 3; ++k) squared += (a[k] - b[k]) * (a[k] - b[k]);
+    ++sums.seen;
+    sums.squared += squared / 3;
+    sums.wrong += squared > wrong_from * wrong_from;
+}
+
+OneSidedColors one_sided(const Model& from, const Model& to, const CompareOptions& options,
+                         std::uint64_t seed) {
+    std::vector<Sums> sums((options.samples + block - 1) / block);
+    detail::parallel_blocks(options.samples, block, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            add_sample(sums[begin / block], from, to, sample(from.surface, i, options.samples, seed));
+        }
+    });
+    Sums total;
+    for (const Sums& s : sums) {
+        total.squared += s.squared;
+        total.seen += s.seen;
+        total.wrong += s.wrong;
+        total.one_sided += s.one_sided;
+    }
+    const auto share = [](double part, std::uint64_t of) {
+        return part / static_cast<double>(std::max<std::uint64_t>(of, 1));
+    };
+    OneSidedColors result;
+    result.mean_squared = share(total.squared, total.seen);
+    result.rmse = std::sqrt(result.mean_squared);
+    result.wrong = share(static_cast<double>(total.wrong), total.seen);
+    result.one_sided = share(static_cast<double>(total.one_sided), total.seen);
+    result.hidden = share(static_cast<double>(options.samples - total.seen), options.samples);
+    return result;
+}
+
+}  // namespace
+
+bool has_colors(const Asset& asset) {
+    return !asset.materials.empty() || std::any_of(asset.parts.begin(), asset.parts.end(),
+                                                   [](const Part& part) { return !part.colors.empty(); });
+}
+
+ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOptions& options) {
+    const Model model_a(a, "first model"), model_b(b, "second model");
+    ColorComparison result;
+    result.a_to_b = one_sided(model_a, model_b, options, 2 * options.seed);
+    result.b_to_a = one_sided(model_b, model_a, options, 2 * options.seed + 1);
+    result.rmse = std::sqrt((result.a_to_b.mean_squared + result.b_to_a.mean_squared) / 2);
+    result.psnr = -20 * std::log10(result.rmse);
+    return result;
+}
+
+}  // namespace faqem

@@ -1,0 +1,100 @@
+#include "bake/scene/face_budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/weld.hpp"
+#include "faqem/detail/simplify/target.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
+
+// The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
+std::uint64_t faces_of_components(const Part& part) {
+    const std::vector<Index> welded = engine::weld_exact(part.positions);
+    engine::DisjointSets joined(welded.size());
+    for (const Triangle& t : part.triangles) {
+        for (const Index v : {t[1], t[2]}) joined.join(welded[t[0]], welded[v]);
+    }
+    std::vector<std::uint8_t> counted(welded.size(), 0);
+    std::uint64_t sum = 0;
+    for (const Triangle& t : part.triangles) {
+        std::uint8_t& count = counted[joined.root(welded[t[0]])];
+        if (count == 4) continue;
+        ++count;
+        ++sum;
+    }
+    return sum;
+}
+
+// What no part's share may fall below. Components go before the target where the target has no room for them.
+std::vector<std::uint64_t> least_shares(const Asset& asset, std::uint64_t goal) {
+    std::vector<std::uint64_t> least;
+    std::uint64_t sum = 0;
+    for (const Part& part : asset.parts) sum += least.emplace_back(faces_of_components(part));
+    for (std::size_t p = 0; p < least.size() && sum > goal; ++p)
+        least[p] = std::min<std::uint64_t>(smallest_target, faces_of(asset, p));
+    return least;
+}
+
+}  // namespace
+
+// Parts whose share would be below their least are given that, and the others pay for it.
+std::vector<std::uint64_t> share_by_faces(const Asset& asset, std::uint64_t goal) {
+    const std::size_t parts = asset.parts.size();
+    std::vector<std::uint64_t> share = least_shares(asset, goal);
+    double rest = 0, left = static_cast<double>(goal);
+    std::vector<std::size_t> order;
+    for (std::size_t p = 0; p < parts; ++p) {
+        rest += static_cast<double>(faces_of(asset, p));
+        if (faces_of(asset, p) > 0) order.push_back(p);
+    }
+    const auto least_ratio = [&](std::size_t p) {
+        return static_cast<double>(share[p]) / static_cast<double>(faces_of(asset, p));
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return least_ratio(a) > least_ratio(b); });
+    auto first = order.begin();
+    for (; first != order.end() && least_ratio(*first) * rest > left; ++first) {
+        rest -= static_cast<double>(faces_of(asset, *first));
+        left -= static_cast<double>(share[*first]);
+    }
+    order.erase(order.begin(), first);
+    std::sort(order.begin(), order.end());
+    const double ratio = order.empty() ? 0 : left / rest;
+    std::vector<double> remainder(parts, 0);
+    for (const std::size_t p : order) {
+        const double exact = ratio * static_cast<double>(faces_of(asset, p));
+        share[p] = std::max(share[p], static_cast<std::uint64_t>(exact));
+        remainder[p] = exact - static_cast<double>(share[p]);
+        left -= static_cast<double>(share[p]);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+    for (std::size_t i = 0; i < order.size() && left >= 1; ++i, --left) ++share[order[i]];
+    for (const std::size_t p : order) share[p] = std::min<std::uint64_t>(share[p], faces_of(asset, p));
+    return share;
+}
+
+std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances) {
+    std::vector<double> weights(parts, 0);
+    for (const Instance& instance : instances) {
+        double squares = 0;  // of the linear part's entries: three times the mean squared stretch
+        for (const std::size_t column : {0u, 4u, 8u}) {
+            for (std::size_t row = 0; row < 3; ++row)
+                squares += std::pow(instance.transform[column + row], 2);
+        }
+        weights[instance.part] += std::pow(squares / 3, 2);
+    }
+    for (double& weight : weights) {
+        if (!(weight > 0) || !std::isfinite(weight)) weight = 1;
+    }
+    return weights;
+}
+
+}  // namespace faqem::detail

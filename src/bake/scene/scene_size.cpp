@@ -1,0 +1,60 @@
+#include "bake/scene/scene_size.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+
+#include "faqem/detail/geometry/surface.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+// The singular values of the linear part: no distance grows by more than the largest.
+PartScale scale_of(const Eigen::Matrix4d& transform) {
+    const Eigen::Vector3d values =
+        Eigen::JacobiSVD<Eigen::Matrix3d>(transform.topLeftCorner<3, 3>()).singularValues();
+    return {values[2], values[0]};
+}
+
+}  // namespace
+
+SceneSize scene_size(const Asset& source) {
+    SceneSize size;
+    size.scales.resize(source.parts.size(), {0, 0});
+    std::vector<std::vector<Vec3>> positions(source.parts.size());
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const Part& part = source.parts[p];
+        positions[p] = surface_of({part.positions, part.triangles}).positions;
+    }
+    std::vector<bool> shown(source.parts.size(), false);
+    Eigen::AlignedBox3d box;
+    for (const Instance& instance : instances(source)) {
+        const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
+        const PartScale scale = scale_of(transform);
+        PartScale& all = size.scales[instance.part];
+        all = {std::max(all.least, scale.least), std::max(all.most, scale.most)};
+        shown[instance.part] = true;
+        for (const Vec3& p : positions[instance.part])
+            box.extend((transform * engine::to_eigen(p).homogeneous()).head<3>());
+    }
+    for (std::size_t p = 0; p < shown.size(); ++p) {
+        if (!shown[p]) size.scales[p] = {};
+    }
+    size.diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
+    return size;
+}
+
+Options part_options(const Options& options, const SceneSize& size, const PartScale& scale) {
+    Options own = options;
+    if (!options.topology.prune) return own;
+    // A part that the scene shrinks to nothing has no units to say a size in.
+    own.topology.prune.reset();
+    if (!(scale.most > 0)) return own;
+    using Limits = std::numeric_limits<double>;
+    own.topology.prune =
+        model_units(std::clamp(size(*options.topology.prune) / scale.most, Limits::min(), Limits::max()));
+    return own;
+}
+
+}  // namespace faqem::detail

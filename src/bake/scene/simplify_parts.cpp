@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "bake/scene/face_budget.hpp"
+#include "bake/scene/check_asset.hpp"
+#include "bake/scene/duplicate_faces.hpp"
+#include "bake/transfer/material_groups.hpp"
+#include "bake/texture/bake_job.hpp"
+#include "bake/scene/simplify_parts.hpp"
+#include "bake/scene/parts_error_bound_search.hpp"
+#include "bake/scene/scene_size.hpp"
+#include "bake/scene/visibility.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/detail/simplify/run.hpp"
+#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
+
+namespace faqem {
+namespace {
+
+// UVs and colours of a part on its corners.
+CornerAttributes corner_attributes(const Part& part) {
+    CornerAttributes result;
+    result.width = static_cast<std::uint32_t>(2 * part.uvs.size() + (part.colors.empty() ? 0 : 4));
+    result.values.reserve(3 * part.triangles.size() * result.width);
+    for (const Triangle& t : part.triangles) {
+        for (Index v : t) {
+            for (const auto& uvs : part.uvs)
+                result.values.insert(result.values.end(), uvs[v].begin(), uvs[v].end());
+            if (part.colors.empty()) continue;
+            result.values.insert(result.values.end(), part.colors[v].begin(), part.colors[v].end());
+        }
+    }
+    return result;
+}
+
+// Empty where there is one group only.
+std::vector<Index> face_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
+    std::vector<Index> result;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        const Index material = detail::face_material(part, f);
+        result.push_back(groups ? groups->of(material) : material);
+    }
+    const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
+    return one ? std::vector<Index>{} : result;
+}
+
+void add(Report& sum, const Report& part, const std::string& title) {
+    sum.faces_in += part.faces_in;
+    sum.faces_out += part.faces_out;
+    sum.vertices_in += part.vertices_in;
+    sum.vertices_out += part.vertices_out;
+    // The target of a part is 4 at least, even where it has fewer faces.
+    sum.target_faces += std::min(part.target_faces, part.faces_in);
+    if (part.stop != StopReason::reached_target && sum.stop != StopReason::cancelled) sum.stop = part.stop;
+    sum.collapses += part.collapses;
+    for (std::size_t i = 0; i < refusal_kinds; ++i) sum.refusals[i] += part.refusals[i];
+    for (std::size_t i = 0; i < rung_kinds; ++i) sum.rungs[i] += part.rungs[i];
+    sum.faces_dropped += part.faces_dropped;
+    sum.components_pruned += part.components_pruned;
+    sum.faces_pruned += part.faces_pruned;
+    sum.components_deleted += part.components_deleted;
+    sum.vertices_relaxed += part.vertices_relaxed;
+    sum.edges_swapped += part.edges_swapped;
+    sum.virtual_edges += part.virtual_edges;
+    for (const std::string& warning : part.warnings) sum.warnings.push_back(title + ": " + warning);
+    sum.seconds.weld += part.seconds.weld;
+    sum.seconds.simplify += part.seconds.simplify;
+}
+
+// A part as the engine takes it. Where materials are baked into one page they are one group, so that borders
+// between them cost no faces and samples may cross them, but for doubles of another look; elsewhere, and
+// where such borders are to be kept, they are the materials themselves.
+struct PartInput {
+    std::vector<Index> groups;
+    CornerAttributes attributes;
+    MeshView view;
+
+    PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake,
+              std::span<const float> weights)
+        : groups(face_groups(part, material_groups)) {
+        if (material_groups) groups = detail::set_looks_apart(part, std::move(groups));
+        if (bake == Bake::keep) attributes = corner_attributes(part);
+        view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {},
+                weights};
+    }
+    PartInput(const PartInput&) = delete;
+};
+
+// One run with all its targets.
+class PartsRun {
+public:
+    PartsRun(const Asset& source, const Options& options) : source_(source), options_(options) {
+        const Bake kind = options.bake.kind;
+        const bool merged = kind != Bake::keep && kind != Bake::none;
+        if (merged) groups_ = detail::group_materials(source, options.bake.kind);
+        if (options.topology.prune)
+            size_ = detail::scene_size(source);
+        else
+            size_.scales.resize(source.parts.size());
+        for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
+    }
+
+    std::vector<SmallParts> operator()(std::span<const std::uint64_t> targets) {
+        small_.resize(targets.size());
+        for (SmallParts& level : small_) {
+            level.parts.resize(source_.parts.size());
+            level.report.preset = options_.preset;
+        }
+        if (options_.visibility == Visibility::weighs) look();
+        const std::vector<std::vector<std::uint64_t>> share = shares(targets);
+        for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
+            own.history = Recording::on;
+            std::vector<SimplifyResult> results = detail::run_to(view, share[p], own);
+            is_cancelled_ = results.back().report.stop == StopReason::cancelled;
+            for (std::size_t i = 0; i < results.size(); ++i) {
+                small_[i].parts[p] = std::move(results[i]);
+                if (groups_) regroup(p, small_[i].parts[p]);
+                add(small_[i].report, small_[i].parts[p].report, detail::part_title(source_, p));
+            }
+        });
+        if (is_cancelled_) {
+            small_.resize(1);
+            small_.front().report.stop = StopReason::cancelled;
+        }
+        for (SmallParts& level : small_) level.report.seconds.total = level.report.seconds.simplify;
+        return std::move(small_);
+    }
+
+private:
+    void look() try {
+        const detail::Stopwatch watch;
+        const detail::AskMeanwhile meanwhile(options_, 0);
+        detail::SeenShares seen = detail::seen_shares(source_, {options_.threads, meanwhile.poll()});
+        weights_ = std::move(seen.weights);
+        const std::string warning = detail::visibility_warning(source_);
+        for (SmallParts& level : small_) {
+            level.report.vertices_hidden = seen.hidden;
+            if (!warning.empty()) level.report.warnings.push_back(warning);
+        }
+        small_.front().report.seconds.simplify += watch.seconds();
+    } catch (const engine::Cancelled&) {
+        is_cancelled_ = true;
+    }
+
+    // Per part and target; none of a part is above the one before it.
+    std::vector<std::vector<std::uint64_t>> shares(std::span<const std::uint64_t> targets) {
+        const detail::Stopwatch watch;
+        const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
+                                          [](const Part& part) { return !part.triangles.empty(); });
+        const bool by_cost = options_.budget == Budget::scene && filled >= 2;
+        if (by_cost) find_curves();
+        std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
+        for (const std::uint64_t target : targets) {
+            const std::uint64_t goal = std::min(target, static_cast<std::uint64_t>(faces_));
+            const std::vector<std::uint64_t> share =
+                by_cost ? detail::share_by_cost(
+                              curves_, detail::cost_weights(curves_.size(), instances(source_)), goal)
+                        : detail::share_by_faces(source_, goal);
+            for (std::size_t p = 0; p < share.size(); ++p)
+                result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
+        }
+        curves_.clear();
+        small_.front().report.seconds.simplify += watch.seconds();
+        return result;
+    }
+
+    void find_curves() {
+        passes_ = 2;
+        curves_.resize(source_.parts.size());
+        for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
+            curves_[p] = detail::cost_curve(view, own);
+            is_cancelled_ = !curves_[p].is_complete;
+        });
+    }
+
+    bool keeps_groups() const { return options_.topology.group_borders == GroupBorders::kept; }
+
+    // Kept borders, and faces set apart, say nothing about what is baked into one page.
+    void regroup(std::size_t p, SimplifyResult& result) const {
+        result.history.face_groups = face_groups(source_.parts[p], groups_);
+        result.mesh.face_groups.clear();
+        if (result.history.face_groups.empty()) return;
+        for (const Index f : result.face_origin)
+            result.mesh.face_groups.push_back(result.history.face_groups[f]);
+    }
+
+    // Calls work(part, view, options) for every part with faces, until cancelled.
+    template <class Work>
+    void for_each_part(Work&& work) {
+        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
+            const Part& part = source_.parts[p];
+            if (part.triangles.empty() || is_cancelled_) continue;
+            const double size = static_cast<double>(part.triangles.size());
+            Options own = detail::part_options(options_, size_, size_.scales[p]);
+            if (options_.progress) {
+                own.progress = [this, size](Phase phase, double fraction) {
+                    const double of_part = phase == Phase::simplify ? fraction * size : 0;
+                    const double done = (done_ + of_part) / (passes_ * faces_);
+                    return options_.progress(Phase::simplify, std::min(1.0, done));
+                };
+            }
+            const auto& groups = keeps_groups() ? std::nullopt : groups_;
+            const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
+            work(p, PartInput(part, groups, options_.bake.kind, weights).view, own);
+            done_ += size;
+        }
+    }
+
+    const Asset& source_;
+    const Options& options_;
+    std::optional<detail::MaterialGroups> groups_;
+    std::vector<SmallParts> small_;
+    std::vector<detail::CostCurve> curves_;
+    bool is_cancelled_ = false;
+    detail::SceneSize size_;
+    std::vector<std::vector<float>> weights_;  // by part; empty: the same everywhere
+    double faces_ = 0;                         // of all parts
+    double done_ = 0;                          // faces that were worked on
+    double passes_ = 1;                        // how often each is
+};
+
+}  // namespace
+
+std::vector<SmallParts> detail::run_parts_to(const Asset& source, std::span<const std::uint64_t> targets,
+                                             const Options& options) {
+    return PartsRun(source, options)(targets);
+}
+
+SmallParts simplify_parts(const Asset& source, const Options& options) {
+    validate(options);
+    detail::check_asset(source);
+    if (options.max_error) return detail::simplify_parts_within(source, options);
+    double faces = 0;
+    for (const Part& part : source.parts) faces += static_cast<double>(part.triangles.size());
+    const std::uint64_t target = detail::faces_wanted(options.target, faces);
+    return std::move(detail::run_parts_to(source, {&target, 1}, options).front());
+}
+
+}  // namespace faqem

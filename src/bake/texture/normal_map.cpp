@@ -1,0 +1,93 @@
+#include "bake/texture/normal_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bake/transfer/vector_conversion.hpp"
+#include "bake/transfer/source_normals.hpp"
+#include "bake/transfer/tangents.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+// Below this mean angle, degrees, a normal map from geometry shows less than its bytes are worth.
+constexpr double least_deviation = 5;
+
+struct Deviation {
+    double sum = 0, area = 0;
+};
+
+Deviation face_deviation(const BakeJob& job, const PageFace& at) {
+    constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
+    const SmallPart& part = job.parts[at.part];
+    const TriangleMesh& mesh = part.small->mesh;
+    const Triangle& t = mesh.triangles[at.face];
+    const Vector3 side = face_side(part, job.normals[at.part], at.face);
+    const Vector3 twice = engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
+                                              to_eigen(mesh.positions[t[2]]));
+    const std::vector<Vec3f>& normals = job.normals[at.part].normals;
+    double sum = 0;
+    for (const Vec3& w :
+         {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
+        Vector3 own = Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * at.face + i]);
+        Vector3 other = smooth_normal(*part.source, part.map->map(at.face, w));
+        if (other.dot(side) < 0) other = -other;
+        sum += std::atan2(own.cross(other).norm(), own.dot(other));
+    }
+    const double area = twice.norm();
+    return {std::isfinite(area) ? sum / 4 * area : 0, std::isfinite(area) ? area : 0};
+}
+
+}  // namespace
+
+double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
+    std::vector<Deviation> each(faces.size());
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end, Poll poll) {
+        for (std::size_t i = begin; i < end; ++i) {
+            poll(4 * operations_of_map);
+            each[i] = face_deviation(job, faces[i]);
+        }
+    });
+    Deviation all;
+    for (const Deviation& d : each) {
+        all.sum += d.sum;
+        all.area += d.area;
+    }
+    return all.area > 0 ? all.sum / all.area * 180 / std::numbers::pi : 0;
+}
+
+bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<const PageFace> faces) {
+    const NormalMap choice = job.options.bake.normal_map;
+    if (choice == NormalMap::off || group.material.unlit || faces.empty()) return false;
+    if (choice == NormalMap::on) return true;
+    const bool has_one = std::any_of(group.materials.begin(), group.materials.end(), [&](Index m) {
+        return bool(material_or_default(job.source, m).normal_texture);
+    });
+    return has_one || normal_deviation(job, faces) > least_deviation;
+}
+
+void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span<const Index> faces,
+                  std::span<const Vec2f> uvs, Poll poll, std::vector<Vec4f>& tangents) {
+    const TriangleMesh& mesh = part.small->mesh;
+    std::vector<TangentCorner> corners;
+    corners.reserve(3 * faces.size());
+    for (const Index f : faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t c = std::size_t{3} * f + i;
+            corners.push_back(
+                {to_float(to_eigen(mesh.positions[mesh.triangles[f][i]])), normals.normals[c], uvs[c]});
+        }
+    }
+    tangents.resize(3 * part.faces(), Vec4f{});
+    const std::vector<Vec4f> made = mikk_tangents(corners, poll);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
+    }
+}
+
+}  // namespace faqem::detail

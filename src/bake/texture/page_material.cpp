@@ -1,0 +1,148 @@
+#include "bake/texture/page_material.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "asset/image/image.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Slot = TextureRef Material::*;
+
+// Adds images of one page to the result: first their places, then what is in them, side by side.
+class ImageWriter {
+public:
+    ImageWriter(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
+
+    /// \param pixels  borrowed until write()
+    /// \param from    textures of the source that the image is baked from
+    TextureRef add(const Pixels& pixels, const std::string& suffix, Content content,
+                   const std::vector<TextureRef>& from) {
+        std::vector<Image>& images = job_.result.asset.images;
+        TextureRef ref;
+        ref.image = static_cast<Index>(images.size());
+        ref.wrap_u = ref.wrap_v = Wrap::clamp;
+        images.emplace_back();
+        waiting_.push_back({pixels, name_ + suffix, content, as_jpeg(pixels, from), ref.image});
+        return ref;
+    }
+
+    void write() const {
+        const auto encode = [&](std::size_t i, std::size_t, Poll poll) {
+            const auto& [pixels, name, content, is_jpeg, image] = waiting_[i];
+            job_.result.asset.images[image] =
+                is_jpeg ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, poll)
+                        : encode_png(pixels, name, poll);
+        };
+        parallel_blocks(waiting_.size(), 1, job_.workers(), encode);
+    }
+
+private:
+    struct Waiting {
+        const Pixels& pixels;
+        std::string name;
+        Content content;
+        bool is_jpeg;
+        Index image;
+    };
+
+    bool as_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {
+        if (pixels.has_alpha) return false;
+        switch (job_.options.bake.image_format) {
+            case ImageFormat::png:
+                return false;
+            case ImageFormat::jpeg:
+                return true;
+            case ImageFormat::source:
+                break;
+        }
+        return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& use) {
+            return job_.source.images[use.image].mime_type == "image/jpeg";
+        });
+    }
+
+    BakeJob& job_;
+    std::string name_;
+    std::vector<Waiting> waiting_;
+};
+
+// "sheenColorTexture" -> "_sheenColor"
+std::string suffix_of(const ExtensionTexture& texture) {
+    constexpr std::string_view ending = "Texture";
+    return std::string("_").append(texture.name, 0, texture.name.size() - ending.size());
+}
+
+void add_layers(ImageWriter& writer, const Material& source, std::span<const ExtensionLayer> layers,
+                const std::vector<Pixels>& images, Material& result) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const ExtensionLayer& layer = layers[i];
+        const Content content =
+            layer.encoding() == Encoding::colour_and_number ? Content::colour : Content::data;
+        const TextureRef ref = writer.add(
+            images[i], suffix_of(source.extension_textures[layer.textures.front()]), content, {layer.use});
+        for (const Index t : layer.textures) {
+            const ExtensionTexture& texture = source.extension_textures[t];
+            result.extension_textures.push_back({texture.extension, texture.name, ref});
+        }
+    }
+}
+
+}  // namespace
+
+Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
+                       std::span<const ExtensionLayer> layers, const PageImages& images) {
+    Material result = group.material;
+    result.rebaked = true;
+    result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
+        result.occlusion_texture = result.emissive_texture = {};
+    result.normal_scale = result.occlusion_strength = 1;
+    result.extension_textures.clear();
+    // Textures of the group that an image is baked from.
+    const auto uses = [&](std::initializer_list<Slot> slots) {
+        std::vector<TextureRef> found;
+        for (const Index m : group.materials) {
+            for (const Slot slot : slots) {
+                if (const TextureRef& use = material_or_default(job.source, m).*slot) found.push_back(use);
+            }
+        }
+        return found;
+    };
+    ImageWriter writer(job, result.name.empty()
+                                ? "material" + std::to_string(job.result.asset.materials.size())
+                                : result.name);
+    if (channels.base) {
+        result.base_color = {1, 1, 1, 1};
+        result.base_color_texture =
+            writer.add(images.base, "_baseColor", Content::colour, uses({&Material::base_color_texture}));
+    }
+    if (channels.metallic_roughness || channels.occlusion) {
+        const TextureRef orm =
+            writer.add(images.occlusion_roughness_metallic, "_occlusionRoughnessMetallic", Content::data,
+                       uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
+        if (channels.occlusion) result.occlusion_texture = orm;
+        if (channels.metallic_roughness) {
+            result.metallic = result.roughness = 1;
+            result.metallic_roughness_texture = orm;
+        }
+    }
+    if (channels.emissive) {
+        result.emissive = {1, 1, 1};
+        result.emissive_texture =
+            writer.add(images.emissive, "_emissive", Content::colour, uses({&Material::emissive_texture}));
+    }
+    if (channels.normal) {
+        result.normal_texture =
+            writer.add(images.normal, "_normal", Content::data, uses({&Material::normal_texture}));
+    }
+    add_layers(writer, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(),
+               images.layers, result);
+    writer.write();
+    return result;
+}
+
+}  // namespace faqem::detail

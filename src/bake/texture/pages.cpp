@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "bake/transfer/extension_layers.hpp"
+#include "bake/texture/bake_job.hpp"
+#include "bake/texture/normal_map.hpp"
+#include "bake/texture/page.hpp"
+#include "bake/texture/page_material.hpp"
+#include "bake/transfer/vertex_attributes.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+namespace {
+
+// One group's faces and page.
+struct GroupPage {
+    Index material = no_index;  // the group's first
+    Channels channels;
+    std::vector<PageFace> faces;
+    std::vector<ExtensionLayer> layers;
+    std::optional<PageAtlas> atlas;  // none where no image is needed
+};
+
+bool has_colors(const Part& part) {
+    return std::any_of(part.colors.begin(), part.colors.end(), [](const Vec4f& c) {
+        return c != Vec4f{1, 1, 1, 1};
+    });
+}
+
+// An image is made where a material has one, and where factors differ.
+Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
+    Channels result;
+    const Material& first = group.material;
+    for (Index m : group.materials) {
+        const Material& material = material_or_default(asset, m);
+        result.base = result.base || material.base_color_texture || material.base_color != first.base_color;
+        if (first.unlit) continue;
+        result.metallic_roughness = result.metallic_roughness || material.metallic_roughness_texture ||
+                                    material.metallic != first.metallic ||
+                                    material.roughness != first.roughness;
+        result.occlusion = result.occlusion || material.occlusion_texture;
+        result.emissive = result.emissive || material.emissive_texture || material.emissive != first.emissive;
+    }
+    return result;
+}
+
+std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& groups) {
+    std::vector<GroupPage> pages(groups.groups.size());
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        pages[g].material = groups.groups[g].materials.front();
+        pages[g].channels = needed_channels(job.source, groups.groups[g]);
+        std::vector<ExtensionLayer>& layers = pages[g].layers;
+        layers = extension_layers(groups.groups[g].material);
+        const auto is_normal = [](const ExtensionLayer& layer) { return layer.is_normal(); };
+        if (job.options.bake.normal_map == NormalMap::off) std::erase_if(layers, is_normal);
+        pages[g].channels.layers = !layers.empty();
+        pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal);
+    }
+    for (const SmallPart& part : job.parts) {
+        const bool colors = has_colors(*part.source);
+        const std::vector<Index>& kept = part.small->history.kept_faces;
+        for (Index f = 0; f < part.faces(); ++f) {
+            GroupPage& page = pages[groups.of(face_material(*part.source, kept[f]))];
+            page.faces.push_back({part.index, f});
+            page.channels.base = page.channels.base || colors;
+        }
+    }
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        pages[g].channels.normal = wants_normal_map(job, groups.groups[g], pages[g].faces);
+    }
+    return pages;
+}
+
+void warn_of_normal_maps(BakeJob& job, const MaterialGroups& groups, const std::vector<GroupPage>& pages) {
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        if (pages[g].channels.normal) continue;
+        for (Index m : groups.groups[g].materials) {
+            if (!material_or_default(job.source, m).normal_texture) continue;
+            job.warn(material_title(job.source, m) + ": the normal map was left out");
+        }
+    }
+}
+
+// UVs of the corners of all parts, in 0..1.
+std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector<GroupPage>& pages) {
+    std::vector<std::vector<Vec2f>> result(job.parts.size());
+    for (const GroupPage& page : pages) {
+        if (!page.atlas) continue;
+        const Atlas& atlas = page.atlas->atlas;
+        for (std::size_t i = 0; i < page.faces.size(); ++i) {
+            const PageFace& face = page.faces[i];
+            std::vector<Vec2f>& uvs = result[face.part];
+            uvs.resize(3 * job.parts[face.part].faces(), Vec2f{0, 0});
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto& uv = atlas.places[i].uv[c];
+                uvs[std::size_t{3} * face.face + c] = {static_cast<float>(uv[0] / atlas.width),
+                                                       static_cast<float>(uv[1] / atlas.height)};
+            }
+        }
+    }
+    return result;
+}
+
+// Pages with a smaller share of the source's texels per length are told of: mostly a tiled texture that no page
+// could hold.
+constexpr double coarse_page = 0.2;
+
+// Texels per length: of the page over the source's, both root mean squares over the small surface.
+double relative_density(const BakeJob& job, const SourceSurface& surface, const GroupPage& page) {
+    const Poll poll = job.poll();
+    double own = 0, wanted = 0;
+    for (std::size_t i = 0; i < page.faces.size(); ++i) {
+        poll(operations_of_map);
+        const PageFace& at = page.faces[i];
+        const SmallPart& part = job.parts[at.part];
+        const Triangle& t = part.small->mesh.triangles[at.face];
+        const auto corner = [&](std::size_t k) { return engine::to_eigen(part.small->mesh.positions[t[k]]); };
+        const auto& uv = page.atlas->atlas.places[i].uv;
+        const double area = engine::area_vector(corner(0), corner(1), corner(2)).norm();
+        const double texels = std::abs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
+                                       (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+        constexpr double third = 1.0 / 3;
+        const double density =
+            surface.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);
+        if (!std::isfinite(area * density * density)) continue;
+        own += texels;
+        wanted += area * density * density;
+    }
+    return wanted > 0 ? std::sqrt(own / wanted) : 0;
+}
+
+void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& page, PageImages& images) {
+    const Atlas& atlas = page.atlas->atlas;
+    const Index material = static_cast<Index>(job.result.asset.materials.size());
+    BakedPage baked = page.atlas->summary;
+    baked.material = material_or_default(job.source, page.material).name;
+    baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
+    baked.density = relative_density(job, surface, page);
+    baked.samples = images.samples;
+    baked.uncertain_texels = images.uncertain_texels;
+    if (baked.density > 0 && baked.density < coarse_page * job.options.bake.texel_density.value_or(1)) {
+        const std::string side = std::to_string(std::lround(1 / baked.density));
+        job.warn("atlas of " + material_title(job.source, page.material) + ": one texel for " + side + " x " +
+                 side + " of the source's; texture_size is " + std::to_string(job.options.bake.texture_size));
+    }
+    job.result.report.pages.push_back(std::move(baked));
+    if (page.atlas->summary.faces_alone > 0) {
+        job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +
+                 " faces lie alone: the bound on the work for their charts was reached");
+    }
+    if (job.options.bake.correspondence == Recording::on) {
+        job.result.correspondence.push_back({material, atlas.width, atlas.height, std::move(images.origins)});
+    }
+}
+
+// Tangents of the corners of all parts, where there is a normal map.
+std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::vector<GroupPage>& pages,
+                                                const std::vector<std::vector<Vec2f>>& uvs) {
+    std::vector<std::vector<Vec4f>> result(job.parts.size());
+    for (const GroupPage& page : pages) {
+        if (!page.atlas || !page.channels.tangents()) continue;
+        for (std::size_t begin = 0, end = 0; begin < page.faces.size(); begin = end) {
+            const Index part = page.faces[begin].part;
+            std::vector<Index> faces;
+            for (; end < page.faces.size() && page.faces[end].part == part; ++end) {
+                faces.push_back(page.faces[end].face);
+            }
+            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], job.poll(), result[part]);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+bool bake_pages(BakeJob& job) {
+    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle);
+    std::vector<GroupPage> pages = group_pages(job, groups);
+    Channels wanted;
+    for (const GroupPage& page : pages) wanted = wanted | page.channels;
+    const SourceSurface surface(job.source, wanted, job.workers());
+    double pieces = 0;
+    for (GroupPage& page : pages) {
+        if (!page.channels.any() || page.faces.empty()) continue;
+        page.atlas = make_page_atlas(job, surface, page.faces);
+        if (!page.atlas) return false;
+        pieces += static_cast<double>(page.atlas->pieces());
+    }
+    warn_of_normal_maps(job, groups, pages);
+    std::vector<std::vector<Vec2f>> uvs = corner_uvs(job, pages);
+    std::vector<std::vector<Vec4f>> tangents = corner_tangents(job, pages, uvs);
+    Asset& out = job.result.asset;
+    double done = 0;
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        const GroupPage& page = pages[g];
+        const Material& first = groups.groups[g].material;
+        PageImages images;
+        if (page.atlas) {
+            images =
+                bake_page(job, surface,
+                          {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
+                           page.faces, tangents, page.channels, first.alpha_mode, page.layers, page.material},
+                          done, pieces);
+            done += static_cast<double>(page.atlas->pieces());
+        }
+        if (page.atlas) add_to_report(job, surface, page, images);
+        out.materials.push_back(page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{},
+                                              page.layers, images));
+    }
+    for (const SmallPart& part : job.parts) {
+        CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
+        if (!uvs[part.index].empty()) layers.uvs.push_back(std::move(uvs[part.index]));
+        JoinedPart joined = join_corners(part, layers, job.poll());
+        transfer_skin_and_morphs(part, joined, job.poll());
+        for (Index f : part.small->history.kept_faces) {
+            joined.part.face_material.push_back(groups.of(face_material(*part.source, f)));
+        }
+        out.parts.push_back(std::move(joined.part));
+    }
+    return true;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,108 @@
+#include "bake/transfer/corners.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace faqem::detail {
+namespace {
+
+// Bits, because kept UVs may be anything; -0 and 0 are one value.
+template <std::size_t N>
+int compare(const std::array<float, N>& a, const std::array<float, N>& b) {
+    for (std::size_t k = 0; k < N; ++k) {
+        const auto x = std::bit_cast<std::uint32_t>(a[k] + 0.0f),
+                   y = std::bit_cast<std::uint32_t>(b[k] + 0.0f);
+        if (x != y) return x < y ? -1 : 1;
+    }
+    return 0;
+}
+
+int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
+    if (!layers.normals.empty()) {
+        if (const int c = compare(layers.normals[a], layers.normals[b])) return c;
+    }
+    for (const std::vector<Vec2f>& uvs : layers.uvs) {
+        if (const int c = compare(uvs[a], uvs[b])) return c;
+    }
+    if (!layers.tangents.empty()) {
+        if (const int c = compare(layers.tangents[a], layers.tangents[b])) return c;
+    }
+    return layers.colors.empty() ? 0 : compare(layers.colors[a], layers.colors[b]);
+}
+
+// For each corner the first corner of its vertex that agrees with it.
+std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers,
+                                           engine::Poll poll) {
+    const VertexCorners at = vertex_corners(mesh, poll);
+    std::vector<std::uint64_t> result(3 * mesh.triangles.size());
+    std::vector<std::uint64_t> sorted;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        poll();
+        const auto corners = at.at(v);
+        sorted.assign(corners.begin(), corners.end());
+        std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
+            poll();
+            const int c = compare(layers, a, b);
+            return c ? c < 0 : a < b;
+        });
+        for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
+            if (compare(layers, sorted[first], sorted[i]) != 0) first = i;
+            result[sorted[i]] = sorted[first];
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+VertexCorners vertex_corners(const TriangleMesh& mesh, engine::Poll poll) {
+    VertexCorners result;
+    result.begin.assign(mesh.positions.size() + 1, 0);
+    for (const Triangle& t : mesh.triangles) {
+        poll();
+        for (Index v : t) ++result.begin[std::size_t{v} + 1];
+    }
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) result.begin[v + 1] += result.begin[v];
+    result.corners.resize(result.begin.back());
+    std::vector<std::uint64_t> fill(result.begin.begin(), result.begin.end() - 1);
+    for (std::uint64_t c = 0; c < result.corners.size(); ++c) {
+        poll();
+        result.corners[fill[mesh.triangles[c / 3][c % 3]]++] = c;
+    }
+    return result;
+}
+
+Vec3 near_corner(std::size_t corner, double inset) {
+    Vec3 w = {inset / 2, inset / 2, inset / 2};
+    w[corner] = 1 - inset;
+    return w;
+}
+
+JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers, engine::Poll poll) {
+    const TriangleMesh& mesh = small.small->mesh;
+    const std::vector<std::uint64_t> first = representatives(mesh, layers, poll);
+    std::vector<Index> number(first.size(), no_index);
+    JoinedPart result;
+    Part& part = result.part;
+    part.name = small.source->name;
+    part.source = small.source->source;
+    part.triangles.resize(mesh.triangles.size());
+    part.uvs.resize(layers.uvs.size());
+    for (std::uint64_t c = 0; c < first.size(); ++c) {
+        poll();
+        Index& n = number[first[c]];
+        if (n == no_index) {
+            n = static_cast<Index>(result.corner.size());
+            result.corner.push_back(c);
+            part.positions.push_back(mesh.positions[mesh.triangles[c / 3][c % 3]]);
+            if (!layers.normals.empty()) part.normals.push_back(layers.normals[c]);
+            for (std::size_t s = 0; s < layers.uvs.size(); ++s) part.uvs[s].push_back(layers.uvs[s][c]);
+            if (!layers.colors.empty()) part.colors.push_back(layers.colors[c]);
+            if (!layers.tangents.empty()) part.tangents.push_back(layers.tangents[c]);
+        }
+        part.triangles[c / 3][c % 3] = n;
+    }
+    return result;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,48 @@
+#include "bake/transfer/material_groups.hpp"
+
+#include <algorithm>
+
+namespace faqem::detail {
+namespace {
+
+bool may_merge(const Material& a, const Material& b, Bake kind) {
+    if (!a.extensions.empty() || !b.extensions.empty()) return false;
+    if (!a.extension_textures.empty() || !b.extension_textures.empty()) return false;
+    if (a.alpha_mode != b.alpha_mode || a.double_sided != b.double_sided || a.unlit != b.unlit) return false;
+    if (a.alpha_mode == AlphaMode::mask && a.alpha_cutoff != b.alpha_cutoff) return false;
+    if (kind != Bake::vertex) return true;
+    return a.metallic == b.metallic && a.roughness == b.roughness && a.emissive == b.emissive &&
+           !a.emissive_texture == !b.emissive_texture;
+}
+
+}  // namespace
+
+const Material& material_or_default(const Asset& asset, Index material) {
+    static const Material standard;
+    return material == no_index ? standard : asset.materials[material];
+}
+
+MaterialGroups group_materials(const Asset& asset, Bake kind) {
+    const std::size_t count = asset.materials.size();
+    std::vector<bool> used(count + 1, false);
+    for (const Part& part : asset.parts) {
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            used[std::min<std::size_t>(face_material(part, f), count)] = true;
+        }
+    }
+    MaterialGroups result;
+    result.of_material.assign(count + 1, no_index);
+    for (std::size_t m = 0; m <= count; ++m) {
+        if (!used[m]) continue;
+        const Index index = m == count ? no_index : static_cast<Index>(m);
+        const Material& material = material_or_default(asset, index);
+        std::size_t g = 0;
+        while (g < result.groups.size() && !may_merge(result.groups[g].material, material, kind)) ++g;
+        if (g == result.groups.size()) result.groups.push_back({material, {}});
+        result.groups[g].materials.push_back(index);
+        result.of_material[m] = static_cast<Index>(g);
+    }
+    return result;
+}
+
+}  // namespace faqem::detail
