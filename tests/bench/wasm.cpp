@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "faqem/error.hpp"
-#include "tool/temporary_folder.hpp"
+#include "cli/temporary_folder.hpp"
 
 namespace faqem::bench {
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "tool/batch_memory.hpp"
+#include "cli/batch/memory_semaphore.hpp"
 
 using namespace faqem::tool;
 

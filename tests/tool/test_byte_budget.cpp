@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tool/byte_budget.hpp"
+#include "cli/byte_budget.hpp"
 #include "tool_support.hpp"
 
 using namespace tool_test;

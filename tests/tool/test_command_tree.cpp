@@ -1,11 +1,11 @@
-#include "tool/command_tree.hpp"
+#include "cli/shell/command_tree.hpp"
 
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
 #include "faqem/error.hpp"
-#include "tool/command_line.hpp"
-#include "tool/simplify_options.hpp"
+#include "cli/commands/command_line.hpp"
+#include "cli/options/simplify_options.hpp"
 #include "tool_support.hpp"
 
 using namespace faqem::tool;

@@ -1,4 +1,4 @@
-#include "tool/completion.hpp"
+#include "cli/shell/completion.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -1,4 +1,4 @@
-#include "tool/report/error_surface.hpp"
+#include "cli/report/error_surface.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "tool/report/html.hpp"
+#include "cli/report/html.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "tool/report/base64.hpp"
+#include "cli/report/base64.hpp"
 
 using namespace faqem::tool;
 

@@ -6,8 +6,8 @@
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
-#include "tool/lod_level.hpp"
-#include "tool/lod_manifest.hpp"
+#include "cli/commands/lod_level.hpp"
+#include "cli/commands/lod_manifest.hpp"
 #include "tool_support.hpp"
 
 using namespace tool_test;

@@ -1,4 +1,4 @@
-#include "tool/machine_memory.hpp"
+#include "cli/machine_memory.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

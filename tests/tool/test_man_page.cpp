@@ -1,4 +1,4 @@
-#include "tool/man_page.hpp"
+#include "cli/shell/man_page.hpp"
 
 #include <catch2/catch.hpp>
 

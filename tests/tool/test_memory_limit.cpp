@@ -1,10 +1,10 @@
-#include "tool/memory_limit.hpp"
+#include "cli/memory_estimate.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "sanitizers.hpp"
-#include "tool/exit_code.hpp"
+#include "cli/exit_code.hpp"
 #include "tool_support.hpp"
 
 using namespace faqem::tool;

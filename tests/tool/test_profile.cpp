@@ -1,11 +1,11 @@
-#include "tool/profile.hpp"
+#include "cli/options/profile.hpp"
 
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tool/command_line.hpp"
+#include "cli/commands/command_line.hpp"
 #include "tool_support.hpp"
 
 using namespace faqem::tool;

@@ -1,4 +1,4 @@
-#include "tool/rasteriser.hpp"
+#include "render/rasteriser.hpp"
 
 #include <catch2/catch.hpp>
 

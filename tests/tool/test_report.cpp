@@ -1,11 +1,11 @@
-#include "tool/report/page.hpp"
+#include "cli/report/page.hpp"
 
 #include <catch2/catch.hpp>
 #include <string_view>
 
 #include "asset/gltf/gltf.hpp"
-#include "tool/report/heat_ramp.hpp"
-#include "tool/report/view_model.hpp"
+#include "cli/report/heat_ramp.hpp"
+#include "cli/report/viewer_model.hpp"
 #include "tool_support.hpp"
 
 using namespace faqem::tool;

@@ -1,4 +1,4 @@
-#include "tool/suggestion.hpp"
+#include "cli/shell/suggestion.hpp"
 
 #include <catch2/catch.hpp>
 

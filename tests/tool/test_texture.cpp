@@ -1,4 +1,4 @@
-#include "tool/texture.hpp"
+#include "render/texture.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

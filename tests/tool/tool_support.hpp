@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "faqem/asset.hpp"
-#include "tool/temporary_folder.hpp"
+#include "cli/temporary_folder.hpp"
 
 namespace tool_test {
 

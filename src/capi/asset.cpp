@@ -1,0 +1,129 @@
+#include "capi/asset.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/mesh.hpp"
+
+namespace {
+
+using namespace faqem;
+
+const Part* part_of(const faqem_asset* asset, std::size_t part) {
+    return asset && part < asset->asset.parts.size() ? &asset->asset.parts[part] : nullptr;
+}
+
+Part part_of_arrays(const MeshView& mesh) {
+    Part part;
+    part.positions.reserve(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) part.positions.push_back(mesh.positions[v]);
+    part.triangles.reserve(mesh.triangles.size());
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) part.triangles.push_back(mesh.triangles[f]);
+    part.face_material.assign(part.triangles.size(), no_index);
+    return part;
+}
+
+/// What a writer relies on: simplify() checks it too, but a model can be saved without it.
+void check(const Part& part) {
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+        for (const double x : part.positions[v]) {
+            if (!std::isfinite(x)) throw InputError("", "vertex " + std::to_string(v), "is not finite");
+        }
+    }
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (const Index v : part.triangles[f]) {
+            if (v >= part.positions.size())
+                throw InputError("", "face " + std::to_string(f), "there is no vertex " + std::to_string(v));
+        }
+    }
+}
+
+}  // namespace
+
+faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(path, "path");
+        c::require_argument(asset, "asset");
+        *asset = new faqem_asset(load(path));
+    });
+}
+
+faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(mesh, "mesh");
+        c::require_argument(asset, "asset");
+        Part part = part_of_arrays(c::MeshArrays(*mesh).view);
+        check(part);
+        Asset whole;
+        whole.parts.push_back(std::move(part));
+        *asset = new faqem_asset(std::move(whole));
+    });
+}
+
+faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options, faqem_asset** light,
+                                  faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(asset, "asset");
+        c::require_argument(light, "light");
+        *light = new faqem_asset(simplify(asset->asset, c::options_or_defaults(options)));
+    });
+}
+
+faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwrite overwrite,
+                              faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(asset, "asset");
+        c::require_argument(path, "path");
+        const auto notes = save(asset->asset, path, c::overwrite_of(overwrite));
+        auto& warnings = asset->asset.warnings;
+        warnings.insert(warnings.end(), notes.begin(), notes.end());
+    });
+}
+
+void faqem_asset_destroy(faqem_asset* asset) { delete asset; }
+
+size_t faqem_asset_part_count(const faqem_asset* asset) { return asset ? asset->asset.parts.size() : 0; }
+
+const char* faqem_asset_part_name(const faqem_asset* asset, size_t part) {
+    const Part* p = part_of(asset, part);
+    return p ? p->name.c_str() : nullptr;
+}
+
+size_t faqem_asset_vertex_count(const faqem_asset* asset, size_t part) {
+    const Part* p = part_of(asset, part);
+    return p ? p->positions.size() : 0;
+}
+
+size_t faqem_asset_face_count(const faqem_asset* asset, size_t part) {
+    const Part* p = part_of(asset, part);
+    return p ? p->triangles.size() : 0;
+}
+
+const double* faqem_asset_positions(const faqem_asset* asset, size_t part) {
+    return faqem_asset_vertex_count(asset, part) > 0 ? part_of(asset, part)->positions.front().data()
+                                                     : nullptr;
+}
+
+const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
+    return faqem_asset_face_count(asset, part) > 0 ? part_of(asset, part)->triangles.front().data() : nullptr;
+}
+
+size_t faqem_asset_warning_count(const faqem_asset* asset) {
+    return asset ? asset->asset.warnings.size() : 0;
+}
+
+const char* faqem_asset_warning(const faqem_asset* asset, size_t index) {
+    return index < faqem_asset_warning_count(asset) ? asset->asset.warnings[index].c_str() : nullptr;
+}
+
+faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report) {
+    if (!asset || !asset->kept || !report) return FAQEM_ERROR_OPTION;
+    *report = c::numbers_of(asset->kept->report);
+    return FAQEM_OK;
+}
+
+const char* faqem_asset_report_json(const faqem_asset* asset) {
+    return asset && asset->kept ? asset->kept->json.c_str() : nullptr;
+}

@@ -1,0 +1,110 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bake/scene/level_coverage.hpp"
+#include "bake/scene/parts_from_histories.hpp"
+#include "capi/asset.hpp"
+#include "capi/history.hpp"
+#include "capi/levels.hpp"
+#include "faqem/bake_levels.hpp"
+#include "faqem/save_levels.hpp"
+
+namespace {
+
+using namespace faqem;
+
+void check_levels(const faqem_asset* const* levels, std::size_t count) {
+    c::require_argument(levels, "levels");
+    if (count == 0) throw OptionError("there are no levels");
+    for (std::size_t i = 0; i < count; ++i)
+        c::require_argument(levels[i], ("level " + std::to_string(i)).c_str());
+}
+
+}  // namespace
+
+faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_options* options,
+                                         const faqem_level* levels, size_t level_count,
+                                         faqem_level_textures textures, faqem_asset** results,
+                                         faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(asset, "asset");
+        c::require_argument(levels, "levels");
+        c::require_argument(results, "results");
+        if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
+            throw OptionError("textures: no such enumerator");
+        std::vector<LightLevel> light = simplify_levels(
+            asset->asset, c::levels_of(levels, level_count), c::options_or_defaults(options),
+            textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
+        std::vector<std::unique_ptr<faqem_asset>> made;
+        made.reserve(light.size());
+        for (LightLevel& level : light)
+            made.push_back(std::make_unique<faqem_asset>(std::move(level.result), level.error));
+        for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();
+    });
+}
+
+double faqem_asset_level_error(const faqem_asset* asset) {
+    return asset ? asset->level_error : std::numeric_limits<double>::quiet_NaN();
+}
+
+faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double error_share,
+                                     const char* path, faqem_overwrite overwrite, faqem_error* error) {
+    return c::guarded(error, [&] {
+        check_levels(levels, level_count);
+        c::require_argument(path, "path");
+        if (!(error_share > 0 && std::isfinite(error_share)))
+            throw OptionError("error_share: must be finite and above 0");
+        const Asset& first = levels[0]->asset;
+        const detail::SceneSize size = detail::scene_size(first);
+        std::vector<SavedLevel> saved;
+        for (std::size_t i = 0; i < level_count; ++i) {
+            const double found = levels[i]->level_error;
+            saved.push_back({levels[i]->asset, detail::level_coverage(
+                                                   first, size, std::isnan(found) ? 0 : found, error_share)});
+        }
+        const auto notes = save_levels(std::move(saved), path, c::overwrite_of(overwrite));
+        auto& warnings = levels[0]->asset.warnings;
+        warnings.insert(warnings.end(), notes.begin(), notes.end());
+    });
+}
+
+faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t level_count,
+                                        faqem_history** history, faqem_error* error) {
+    return c::guarded(error, [&] {
+        check_levels(levels, level_count);
+        c::require_argument(history, "history");
+        const std::size_t count = levels[0]->histories.size();
+        for (std::size_t i = 0; i < level_count; ++i) {
+            const std::string where = "level " + std::to_string(i);
+            if (levels[i]->histories.empty())
+                throw OptionError(where + " has no history: faqem_options_set_history() was not asked for");
+            if (levels[i]->histories.size() != count)
+                throw InputError("", where, "has not as many parts as the first one");
+        }
+        std::vector<ChainHistory> parts;
+        for (std::size_t p = 0; p < count; ++p) {
+            std::vector<CollapseHistory> of_part;
+            for (std::size_t i = 0; i < level_count; ++i) of_part.push_back(levels[i]->histories[p]);
+            parts.push_back(join(of_part));
+        }
+        *history = new faqem_history(std::move(parts));
+    });
+}
+
+faqem_status faqem_asset_cut(const faqem_asset* source, const faqem_history* history, uint64_t faces,
+                             const faqem_options* options, faqem_asset** light, faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(source, "source");
+        c::require_argument(light, "light");
+        const Options look = c::options_or_defaults(options);
+        if (look.bake.kind == Bake::keep)
+            throw OptionError("bake: a history does not hold the UVs that were kept");
+        const SmallParts small = detail::restored(c::cut_parts(history, faces));
+        detail::check_source(source->asset, small);
+        *light = new faqem_asset(bake(source->asset, small, look));
+    });
+}

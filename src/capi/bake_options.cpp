@@ -1,0 +1,57 @@
+#include "capi/options.hpp"
+#include "faqem/faqem_asset.h"
+
+namespace {
+
+using namespace faqem;
+using faqem::c::same;
+using faqem::c::set;
+using faqem::c::set_enum;
+
+static_assert(same(FAQEM_VISIBILITY_IGNORED, Visibility::ignored) &&
+              same(FAQEM_VISIBILITY_WEIGHS, Visibility::weighs));
+static_assert(same(FAQEM_BAKE_AUTOMATIC, Bake::automatic) && same(FAQEM_BAKE_ATLAS, Bake::atlas) &&
+              same(FAQEM_BAKE_PER_TRIANGLE, Bake::per_triangle) && same(FAQEM_BAKE_VERTEX, Bake::vertex) &&
+              same(FAQEM_BAKE_KEEP, Bake::keep) && same(FAQEM_BAKE_NONE, Bake::none));
+static_assert(same(FAQEM_NORMAL_MAP_AUTOMATIC, NormalMap::automatic) &&
+              same(FAQEM_NORMAL_MAP_ON, NormalMap::on) && same(FAQEM_NORMAL_MAP_OFF, NormalMap::off));
+static_assert(same(FAQEM_NORMALS_TRANSFER, Normals::transfer) &&
+              same(FAQEM_NORMALS_SMOOTH, Normals::smooth) && same(FAQEM_NORMALS_FLAT, Normals::flat) &&
+              same(FAQEM_NORMALS_NONE, Normals::none));
+static_assert(same(FAQEM_IMAGE_PNG, ImageFormat::png) && same(FAQEM_IMAGE_JPEG, ImageFormat::jpeg) &&
+              same(FAQEM_IMAGE_SOURCE, ImageFormat::source));
+
+}  // namespace
+
+faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility) {
+    return set_enum(
+        options, visibility, FAQEM_VISIBILITY_WEIGHS, [](Options & o) -> auto& { return o.visibility; });
+}
+
+faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind) {
+    return set_enum(
+        options, kind, FAQEM_BAKE_NONE, [](Options & o) -> auto& { return o.bake.kind; });
+}
+
+faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t texels) {
+    return set(options, [&](Options& o) { o.bake.texture_size = texels; });
+}
+
+faqem_status faqem_options_set_texel_density(faqem_options* options, double factor) {
+    return set(options, [&](Options& o) { o.bake.texel_density = factor; });
+}
+
+faqem_status faqem_options_set_normal_map(faqem_options* options, faqem_normal_map kind) {
+    return set_enum(
+        options, kind, FAQEM_NORMAL_MAP_OFF, [](Options & o) -> auto& { return o.bake.normal_map; });
+}
+
+faqem_status faqem_options_set_normals(faqem_options* options, faqem_normals kind) {
+    return set_enum(
+        options, kind, FAQEM_NORMALS_NONE, [](Options & o) -> auto& { return o.bake.normals; });
+}
+
+faqem_status faqem_options_set_image_format(faqem_options* options, faqem_image_format format) {
+    return set_enum(
+        options, format, FAQEM_IMAGE_SOURCE, [](Options & o) -> auto& { return o.bake.image_format; });
+}

@@ -1,0 +1,136 @@
+#include "capi/history.hpp"
+
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/guard.hpp"
+#include "capi/result.hpp"
+#include "capi/options.hpp"
+#include "faqem/surface_map.hpp"
+
+namespace {
+
+using namespace faqem;
+using faqem::c::same;
+
+static_assert(same(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
+              same(FAQEM_MAPPING_LINEAGE, Mapping::lineage) && same(FAQEM_MAPPING_CLOSEST, Mapping::closest));
+
+const CollapseHistory& history_of(const faqem_result* result) {
+    c::require_argument(result, "a result");
+    if (result->out.history.empty())
+        throw OptionError(
+            "a result has no history: faqem_options_set_history() was not asked for, or there are no faces");
+    return result->out.history;
+}
+
+void check_point(const CollapseHistory& history, Index face, const Vec3& weights, std::size_t i) {
+    const std::string where = "point " + std::to_string(i);
+    if (face >= history.kept_faces.size())
+        throw InputError("", where, "there is no face " + std::to_string(face));
+    const double sum = weights[0] + weights[1] + weights[2];
+    if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 && sum > 1 - 1e-6 && sum < 1 + 1e-6))
+        throw InputError("", where, "its weights are negative, or their sum is not 1");
+}
+
+}  // namespace
+
+faqem_history::faqem_history(std::vector<ChainHistory> histories) : parts(std::move(histories)) {
+    std::ostringstream out;
+    for (const ChainHistory& part : parts) write(part, out);
+    bytes = std::move(out).str();
+}
+
+std::vector<CollapseHistory> c::cut_parts(const faqem_history* history, std::uint64_t faces) {
+    c::require_argument(history, "history");
+    if (faces == 0) throw OptionError("faces must be at least 1");
+    return cut_to(history->parts, faces);
+}
+
+faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
+                                  faqem_history** history, faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(results, "results");
+        c::require_argument(history, "history");
+        if (result_count == 0) throw OptionError("there are no results");
+        std::vector<CollapseHistory> levels;
+        for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
+        *history = new faqem_history(std::vector<ChainHistory>{join(levels)});
+    });
+}
+
+faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history** history,
+                                faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(bytes, "bytes");
+        c::require_argument(history, "history");
+        std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
+        std::vector<ChainHistory> parts;
+        do parts.push_back(read_chain_history(in));
+        while (in.peek() != std::istringstream::traits_type::eof());
+        *history = new faqem_history(std::move(parts));
+    });
+}
+
+void faqem_history_destroy(faqem_history* history) { delete history; }
+
+const uint8_t* faqem_history_bytes(const faqem_history* history, size_t* size) {
+    if (size) *size = history ? history->bytes.size() : 0;
+    return history ? reinterpret_cast<const uint8_t*>(history->bytes.data()) : nullptr;
+}
+
+size_t faqem_history_part_count(const faqem_history* history) { return history ? history->parts.size() : 0; }
+
+size_t faqem_history_level_count(const faqem_history* history) {
+    return history ? history->parts.front().level_count() : 0;
+}
+
+faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
+                               faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(result, "result");
+        std::vector<CollapseHistory> cuts = c::cut_parts(history, faces);
+        if (cuts.size() > 1)
+            throw OptionError("the history is of " + std::to_string(cuts.size()) +
+                              " meshes: they are cut by faqem_history_cut_parts()");
+        *result = new faqem_result(restore(std::move(cuts.front())));
+    });
+}
+
+faqem_status faqem_history_cut_parts(const faqem_history* history, uint64_t faces, faqem_result** results,
+                                     faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(results, "results");
+        std::vector<std::unique_ptr<faqem_result>> made;
+        for (CollapseHistory& cut : c::cut_parts(history, faces))
+            made.push_back(std::make_unique<faqem_result>(restore(std::move(cut))));
+        for (std::size_t p = 0; p < made.size(); ++p) results[p] = made[p].release();
+    });
+}
+
+faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping, const uint32_t* faces,
+                              const double* barycentric, size_t count, uint32_t* source_faces,
+                              double* source_barycentric, faqem_error* error) {
+    return c::guarded(error, [&] {
+        const CollapseHistory& history = history_of(result);
+        c::require_argument(faces, "faces");
+        c::require_argument(barycentric, "barycentric");
+        c::require_argument(source_faces, "source_faces");
+        c::require_argument(source_barycentric, "source_barycentric");
+        if (mapping < FAQEM_MAPPING_PROJECTION || mapping > FAQEM_MAPPING_CLOSEST)
+            throw OptionError("mapping: unknown");
+        const auto weights = [&](std::size_t i) {
+            return Vec3{barycentric[3 * i], barycentric[3 * i + 1], barycentric[3 * i + 2]};
+        };
+        for (std::size_t i = 0; i < count; ++i) check_point(history, faces[i], weights(i), i);
+        const SurfaceMap map(history, static_cast<Mapping>(mapping));
+        for (std::size_t i = 0; i < count; ++i) {
+            const SurfacePoint at = map.map(faces[i], weights(i));
+            source_faces[i] = at.face;
+            for (std::size_t k = 0; k < 3; ++k) source_barycentric[3 * i + k] = at.barycentric[k];
+        }
+    });
+}

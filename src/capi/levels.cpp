@@ -1,0 +1,64 @@
+#include "faqem/levels.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/guard.hpp"
+#include "capi/levels.hpp"
+#include "capi/mesh.hpp"
+#include "capi/result.hpp"
+#include "faqem/faqem_levels.h"
+
+namespace {
+
+using namespace faqem;
+
+constexpr double most_faces = 9007199254740992;  // 2^53: whole numbers are exact up to it
+
+Level level_of(const faqem_level& level, std::size_t index) {
+    switch (level.kind) {
+        case FAQEM_LEVEL_RATIO:
+            return ratio(level.value);
+        case FAQEM_LEVEL_FACES:
+            if (!(level.value >= 1 && level.value <= most_faces && level.value == std::floor(level.value)))
+                throw OptionError("level " + std::to_string(index) + ": is no number of faces");
+            return faces(static_cast<std::uint64_t>(level.value));
+        case FAQEM_LEVEL_DISTANCE:
+            return model_units(level.value);
+        case FAQEM_LEVEL_DISTANCE_OF_DIAGONAL:
+            return of_diagonal(level.value);
+    }
+    throw OptionError("level " + std::to_string(index) + ": is of an unknown kind");
+}
+
+}  // namespace
+
+std::vector<Level> c::levels_of(const faqem_level* levels, std::size_t count) {
+    std::vector<Level> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(level_of(levels[i], i));
+    return result;
+}
+
+faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* options,
+                                   const faqem_level* levels, size_t level_count, faqem_result** results,
+                                   faqem_error* error) {
+    return c::guarded(error, [&] {
+        c::require_argument(mesh, "mesh");
+        c::require_argument(levels, "levels");
+        c::require_argument(results, "results");
+        const std::vector<Level> wanted = c::levels_of(levels, level_count);
+        const c::MeshArrays arrays(*mesh);
+        std::vector<std::unique_ptr<faqem_result>> made;
+        for (SimplifiedLevel& level : simplify_levels(arrays.view, wanted, c::options_or_defaults(options)))
+            made.push_back(std::make_unique<faqem_result>(std::move(level.result), level.error));
+        for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();
+    });
+}
+
+double faqem_result_level_error(const faqem_result* result) {
+    return result ? result->level_error : std::numeric_limits<double>::quiet_NaN();
+}

@@ -1,0 +1,28 @@
+#include <limits>
+
+#include "capi/report.hpp"
+#include "capi/options.hpp"
+
+namespace faqem::c {
+
+static_assert(same(FAQEM_STOP_REACHED_TARGET, StopReason::reached_target) &&
+              same(FAQEM_STOP_NO_LEGAL_COLLAPSE, StopReason::no_legal_collapse) &&
+              same(FAQEM_STOP_REACHED_MAX_ERROR, StopReason::reached_max_error));
+
+faqem_report numbers_of(const Report& report) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    faqem_report numbers = {};
+    numbers.vertices_in = report.vertices_in;
+    numbers.vertices_out = report.vertices_out;
+    numbers.faces_in = report.faces_in;
+    numbers.faces_out = report.faces_out;
+    numbers.target_faces = report.target_faces;
+    numbers.error_value = report.max_error ? report.max_error->value : none;
+    numbers.error_bound = report.max_error ? report.max_error->bound : none;
+    numbers.seconds = report.seconds.total;
+    numbers.stop = static_cast<faqem_stop>(report.stop);
+    numbers.within_max_error = !report.max_error || report.max_error->within() ? 1 : 0;
+    return numbers;
+}
+
+}  // namespace faqem::c

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// What a faqem_result is inside.
+
+#include <limits>
+#include <utility>
+
+#include "capi/guard.hpp"
+#include "capi/report.hpp"
+#include "faqem/simplify.hpp"
+
+struct faqem_result {
+    /// \throws CancelledError
+    explicit faqem_result(faqem::SimplifyResult result,
+                          double error = std::numeric_limits<double>::quiet_NaN())
+        : out(std::move(result)), kept(out.report), level_error(error) {
+        if (out.report.stop == faqem::StopReason::cancelled) throw faqem::c::CancelledError();
+    }
+
+    faqem::SimplifyResult out;
+    faqem::c::KeptReport kept;
+    double level_error;
+};

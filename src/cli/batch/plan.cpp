@@ -1,0 +1,101 @@
+#include "cli/batch/plan.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "faqem/error.hpp"
+#include "cli/output_file.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 6> model_endings = {".glb", ".gltf", ".obj", ".ply", ".stl", ".off"};
+
+bool is_model_name(const fs::path& file) {
+    const std::string ending = lower_ending(file);
+    return std::find(model_endings.begin(), model_endings.end(), ending) != model_endings.end();
+}
+
+using FileId = std::pair<dev_t, ino_t>;
+
+/// False where there is no such file.
+bool file_id(const fs::path& file, FileId& id) {
+    struct stat status = {};
+    if (::stat(file.c_str(), &status) != 0) return false;
+    id = {status.st_dev, status.st_ino};
+    return true;
+}
+
+void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found) {
+    std::error_code error;
+    for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
+        if (it->is_directory() && fs::equivalent(it->path(), out_folder, error)) {
+            it.disable_recursion_pending();
+            continue;
+        }
+        if (!is_model_name(it->path()) || !it->is_regular_file()) continue;
+        BatchFile file;
+        file.in = it->path();
+        file.name = it->path().lexically_relative(folder).generic_string();
+        file.bytes = it->file_size();
+        found.push_back(std::move(file));
+    }
+}
+
+void name_results(std::vector<BatchFile>& files, const fs::path& out_folder, const std::string& ending) {
+    std::map<std::string, const BatchFile*> taken;
+    std::map<FileId, const BatchFile*> inputs;
+    FileId id;
+    for (const BatchFile& file : files) {
+        if (file_id(file.in, id)) inputs.emplace(id, &file);
+    }
+    for (BatchFile& file : files) {
+        file.out_name = fs::path(file.name).replace_extension(ending).generic_string();
+        file.out = out_folder / file.out_name;
+        const auto [other, is_new] = taken.emplace(file.out_name, &file);
+        if (!is_new) {
+            throw OptionError(file.out.string() + ": would be the result of both " +
+                              other->second->in.string() + " and " + file.in.string());
+        }
+        if (!file_id(file.out, id)) continue;
+        if (const auto input = inputs.find(id); input != inputs.end()) {
+            throw OptionError(file.out.string() + ": is the input " + input->second->in.string() +
+                              "; choose another folder for the results");
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
+                                  const std::string& ending) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a folder");
+    if (fs::equivalent(folder, out_folder, error))
+        throw OptionError(out_folder.string() + ": is the folder of the models; choose another one");
+    std::vector<BatchFile> files;
+    try {
+        find_models(folder, out_folder, files);
+    } catch (const fs::filesystem_error& problem) {
+        throw ReadError(problem.path1().empty() ? folder.string() : problem.path1().string(), "",
+                        "cannot read: " + problem.code().message());
+    }
+    if (files.empty()) throw InputError(folder.string(), "", "has no models");
+    // By name first, so that messages do not depend on the order on the disk.
+    std::sort(files.begin(), files.end(),
+              [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
+    name_results(files, out_folder, ending);
+    std::stable_sort(files.begin(), files.end(),
+                     [](const BatchFile& a, const BatchFile& b) { return a.bytes > b.bytes; });
+    return files;
+}
+
+}  // namespace faqem::tool

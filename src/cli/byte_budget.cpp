@@ -1,0 +1,142 @@
+#include "cli/byte_budget.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/temporary_folder.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t least_texture_size = 64;
+constexpr std::uint64_t least_faces = 4;
+constexpr int most_runs = 8;
+
+/// Bytes per face change a little from run to run.
+constexpr double aim = 0.98;
+
+bool is_image(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".webp";
+}
+
+std::string encoding_name(const BakeOptions& bake) {
+    switch (bake.image_format) {
+        case ImageFormat::png:
+            return "PNG";
+        case ImageFormat::jpeg:
+            return "JPEG " + std::to_string(bake.jpeg_quality);
+        case ImageFormat::source:
+            return "as the source";
+    }
+    return {};
+}
+
+/// One search.
+class Search {
+public:
+    Search(const Asset& source, const Options& options, const ByteBudget& budget)
+        : source_(source), options_(options), budget_(budget) {}
+
+    LightAsset operator()() {
+        simplify_again();
+        if (done()) return std::move(light_);
+        const bool baked = makes_atlas(options_.bake.kind) && size_.images > 0;
+        const std::uint64_t images = baked ? budget_.bytes - budget_.bytes / 2 : size_.images;
+        reduce_faces(images < budget_.bytes ? budget_.bytes - images : 0);
+        if (baked) {
+            while (!done() && smaller_images()) bake_again();
+            if (!done()) reduce_faces(size_.images < budget_.bytes ? budget_.bytes - size_.images : 0);
+        }
+        if (!done()) {
+            throw BudgetError("the smallest result has " + std::to_string(size_.total()) + " bytes, " +
+                              std::to_string(budget_.bytes) + " allowed: " + summary());
+        }
+        if (!cancelled()) light_.report.warnings.push_back("made smaller for --max-bytes: " + summary());
+        return std::move(light_);
+    }
+
+private:
+    bool cancelled() const { return light_.report.stop == StopReason::cancelled; }
+    bool done() const { return cancelled() || size_.total() <= budget_.bytes; }
+
+    void simplify_again() {
+        small_ = simplify_parts(source_, options_);
+        bake_again();
+    }
+
+    void bake_again() {
+        light_ = bake(source_, small_, options_);
+        if (!cancelled()) size_ = model_bytes(light_.asset, budget_.file);
+    }
+
+    // Until the geometry is within `bytes`, or no fewer faces come out.
+    void reduce_faces(std::uint64_t bytes) {
+        for (int run = 0; run < most_runs && !cancelled() && size_.geometry > bytes; ++run) {
+            const std::uint64_t faces = light_.report.faces_out;
+            const double share = aim * static_cast<double>(bytes) / static_cast<double>(size_.geometry);
+            const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(faces));
+            options_.target = faqem::faces(std::max(wanted, least_faces));
+            simplify_again();
+            if (light_.report.faces_out >= faces) return;
+        }
+    }
+
+    // The next step down. False at the last.
+    bool smaller_images() {
+        BakeOptions& bake = options_.bake;
+        if (budget_.encoding == Encoding::free && bake.image_format != ImageFormat::jpeg) {
+            bake.image_format = ImageFormat::jpeg;
+            return true;
+        }
+        if (bake.texture_size <= least_texture_size) return false;
+        bake.texture_size /= 2;
+        return true;
+    }
+
+    std::string summary() const {
+        std::string text = std::to_string(light_.report.faces_out) + " faces, " +
+                           std::to_string(size_.geometry) + " bytes without images";
+        if (size_.images == 0) return text;
+        text += ", images of " + std::to_string(size_.images) + " bytes";
+        if (!makes_atlas(options_.bake.kind)) return text;
+        return text + " (" + encoding_name(options_.bake) + ", up to " +
+               std::to_string(options_.bake.texture_size) + " texels)";
+    }
+
+    const Asset& source_;
+    Options options_;  // of the run at hand
+    const ByteBudget& budget_;
+    SmallParts small_;
+    LightAsset light_;
+    ModelBytes size_;
+};
+
+}  // namespace
+
+ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
+    const TemporaryFolder folder("faqem-size");
+    save(asset, folder.path() / file.filename());
+    ModelBytes result;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path())) {
+        if (!entry.is_regular_file()) continue;
+        (is_image(entry.path()) ? result.images : result.geometry) += entry.file_size();
+    }
+    if (file.extension() == ".glb") {
+        for (const Image& image : asset.images) result.images += image.encoded.size();
+        result.images = std::min(result.images, result.geometry);
+        result.geometry -= result.images;
+    }
+    return result;
+}
+
+LightAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget) {
+    return Search(source, options, budget)();
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,100 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "faqem/version.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "cli/batch/process_file.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/machine_memory.hpp"
+#include "cli/output_file.hpp"
+#include "cli/options/positive.hpp"
+#include "cli/options/profile.hpp"
+#include "cli/options/simplify_options.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+struct Arguments : SimplifyArguments {
+    std::string in, out, format = "glb";
+    std::uint32_t jobs = 0;
+    std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
+    bool resume = false, force = false;
+};
+
+int run(const Arguments& arguments) {
+    Options options = make_options(arguments);
+    const std::string ending = ending_of_format(arguments.format);
+    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, ending);
+    make_folder(arguments.out);
+    BatchRecord record(arguments.out);
+    MemoryGate memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);
+    handle_interrupts();
+    const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
+    // Files side by side make better use of the threads than the threads of one file do.
+    if (options.threads == 0)
+        options.threads =
+            static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
+    options.progress = [](Phase, double) { return interrupted() ? Continue::cancel : Continue::yes; };
+    const std::string key = std::string(version()) + " " + ending + " " + options_text(options) +
+                            (arguments.strict ? " strict" : "") +
+                            (arguments.strict_target ? " strict-target" : "");
+    const BatchWork work = {options,
+                            key,
+                            arguments.strictness(),
+                            arguments.strict_target,
+                            arguments.resume,
+                            arguments.force ? Overwrite::yes : Overwrite::no,
+                            record,
+                            memory};
+    std::mutex mutex;
+    ExitCode code = exit_ok;
+    detail::parallel_blocks(files.size(), 1, static_cast<std::uint32_t>(jobs),
+                            [&](std::size_t i, std::size_t) {
+                                Json line;
+                                const ExitCode one = do_batch_file(files[i], work, line);
+                                const std::lock_guard guard(mutex);
+                                if (one != exit_ok) code = exit_batch_incomplete;
+                                print_json_line(line);
+                            });
+    return interrupted() ? exit_cancelled : code;
+}
+
+}  // namespace
+
+void add_batch_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "batch", "Simplify all models of a folder, several at a time, a line of JSON each");
+    command->add_option("DIR", arguments->in, "Folder of models, with all folders below")->required();
+    command->add_option("OUTDIR", arguments->out, "Folder for the results, made where there is none")
+        ->required();
+    command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
+    command
+        ->add_option("--jobs", arguments->jobs, "Models at a time; 0: as many as there are threads (default)")
+        ->check(CLI::Range(0, 1024));
+    command
+        ->add_option(
+            "--max-memory", arguments->max_memory,
+            "Start no model that may bring the memory above this, as 8GB or 500MB; one too large for "
+            "it runs alone (default: three quarters of the machine's)")
+        ->transform(CLI::AsSizeValue(false))
+        ->check(positive());
+    command->add_flag("--resume", arguments->resume,
+                      "Skip what is done and unchanged, redo what is out of date");
+    add_simplify_options(*command, *arguments);
+    add_profile_option(*command);
+    command
+        ->add_option("--threads", arguments->options.threads,
+                     "Threads of each model at most (default: those there are, divided by the jobs)")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--force", arguments->force, "Replace files that exist");
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/commands/commands.hpp"
+#include "cli/report/compare_options.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/json.hpp"
+#include "cli/report/model_comparison.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+struct Arguments {
+    std::string a, b;
+    CompareOptions options;
+};
+
+Json side_json(const OneSided& side) {
+    return {{"max", side.max},
+            {"max_bound", side.max_bound},
+            {"mean", side.mean},
+            {"mean_squared", side.mean_squared},
+            {"mean_normal_degrees", side.mean_normal_degrees}};
+}
+
+Json side_json(const OneSidedColors& side) {
+    return {
+        {"rmse", side.rmse}, {"wrong", side.wrong}, {"one_sided", side.one_sided}, {"hidden", side.hidden}};
+}
+
+Json colors_json(const std::optional<ColorComparison>& colors) {
+    if (!colors) return nullptr;
+    return {{"rmse", colors->rmse},
+            {"psnr", colors->psnr},
+            {"a_to_b", side_json(colors->a_to_b)},
+            {"b_to_a", side_json(colors->b_to_a)}};
+}
+
+int run(const Arguments& arguments) {
+    const PlacedModel a = load_placed(arguments.a), b = load_placed(arguments.b);
+    const ModelComparison all = compare_models(a, b, arguments.options);
+    if (!all.colors_warning.empty()) std::cerr << "faqem: warning: " << all.colors_warning << "\n";
+    const Comparison& result = all.distances;
+    const double d = result.diagonal;
+    print_json({{"a", arguments.a},
+                {"b", arguments.b},
+                {"diagonal", d},
+                {"hausdorff", result.hausdorff},
+                {"hausdorff_rel", result.hausdorff / d},
+                {"hausdorff_bound", result.hausdorff_bound},
+                {"hausdorff_bound_rel", result.hausdorff_bound / d},
+                {"chamfer", result.chamfer},
+                {"chamfer_rel", result.chamfer / (d * d)},
+                {"mean_normal_degrees", result.mean_normal_degrees},
+                {"a_to_b", side_json(result.a_to_b)},
+                {"b_to_a", side_json(result.b_to_a)},
+                {"colors", colors_json(all.colors)},
+                {"info_a", info_json(all.a)},
+                {"info_b", info_json(all.b)},
+                {"samples", arguments.options.samples},
+                {"seed", arguments.options.seed},
+                {"tolerance", arguments.options.tolerance}});
+    return exit_ok;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "compare", "Distances and colour differences between two models, both ways, as JSON");
+    command->add_option("A", arguments->a, "The original; its diagonal is the unit of *_rel")->required();
+    command->add_option("B", arguments->b, "The other model")->required();
+    add_compare_options(*command, arguments->options);
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

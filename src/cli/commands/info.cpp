@@ -1,0 +1,169 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "asset/flatten.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/json.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+struct PartInfo {
+    std::string name;
+    MeshInfo mesh;
+    std::size_t materials = 0, uv_sets = 0, instances = 0;
+    bool colors = false, skinned = false;
+};
+
+struct ImageInfo {
+    std::string name, mime_type;
+    std::size_t bytes = 0;
+    std::uint32_t width = 0, height = 0;
+    std::string error;  ///< why the size is not known
+};
+
+struct AssetInfo {
+    std::vector<PartInfo> parts;
+    std::vector<ImageInfo> images;
+    std::size_t materials = 0, instances = 0;
+    MeshInfo scene;  ///< all instances in world space
+    std::vector<std::string> warnings;
+};
+
+MeshInfo info_of(const Part& part) { return info(MeshView{part.positions, part.triangles}); }
+
+ImageInfo image_info(const Image& image) {
+    ImageInfo result{image.name, image.mime_type, image.encoded.size(), 0, 0, {}};
+    try {
+        const Pixels pixels = decode(image);
+        result.width = pixels.width;
+        result.height = pixels.height;
+    } catch (const Error& error) {
+        result.error = error.what();
+    }
+    return result;
+}
+
+AssetInfo examine(const Asset& asset) {
+    AssetInfo result;
+    const std::vector<Instance> placed = instances(asset);
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        const Part& part = asset.parts[p];
+        PartInfo one;
+        one.name = part.name;
+        one.mesh = info_of(part);
+        one.materials = std::set<Index>(part.face_material.begin(), part.face_material.end()).size();
+        one.uv_sets = part.uvs.size();
+        one.colors = !part.colors.empty();
+        one.skinned = !part.joints.empty();
+        for (const Instance& instance : placed) one.instances += instance.part == p;
+        result.parts.push_back(std::move(one));
+    }
+    for (const Image& image : asset.images) result.images.push_back(image_info(image));
+    result.materials = asset.materials.size();
+    result.instances = placed.size();
+    result.scene = info_of(detail::flatten(asset));
+    result.warnings = asset.warnings;
+    return result;
+}
+
+Json as_json(const std::string& file, const AssetInfo& asset) {
+    Json parts = Json::array(), images = Json::array();
+    for (const PartInfo& part : asset.parts) {
+        Json one = {{"name", part.name}};
+        one.update(info_json(part.mesh));
+        one.update({{"materials", part.materials},
+                    {"uv_sets", part.uv_sets},
+                    {"vertex_colors", part.colors},
+                    {"skinned", part.skinned},
+                    {"instances", part.instances}});
+        parts.push_back(std::move(one));
+    }
+    for (const ImageInfo& image : asset.images) {
+        Json one = {{"name", image.name}, {"mime_type", image.mime_type}, {"bytes", image.bytes}};
+        if (image.error.empty()) {
+            one.update({{"width", image.width}, {"height", image.height}});
+        } else {
+            one["error"] = image.error;
+        }
+        images.push_back(std::move(one));
+    }
+    return {{"file", file},
+            {"parts", std::move(parts)},
+            {"materials", asset.materials},
+            {"images", std::move(images)},
+            {"instances", asset.instances},
+            {"total", info_json(asset.scene)},
+            {"warnings", asset.warnings}};
+}
+
+std::string point(const Vec3& p) {
+    std::ostringstream out;
+    out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
+    return out.str();
+}
+
+void print_mesh(std::ostream& out, const MeshInfo& mesh) {
+    out << mesh.faces << " faces, " << mesh.vertices << " vertices, " << mesh.components
+        << (mesh.components == 1 ? " component, " : " components, ") << mesh.boundary_edges
+        << " boundary edges, " << mesh.nonmanifold_edges << " non-manifold edges";
+    if (mesh.degenerate_faces > 0) out << ", " << mesh.degenerate_faces << " degenerate faces";
+    out << "\n    box " << point(mesh.box_min) << " to " << point(mesh.box_max) << ", diagonal "
+        << mesh.diagonal << ", area " << mesh.area << "\n";
+}
+
+void print_text(const std::string& file, const AssetInfo& asset) {
+    std::ostringstream out;
+    out << file << "\n";
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        const PartInfo& part = asset.parts[p];
+        out << "part " << p << (part.name.empty() ? "" : " '" + part.name + "'") << ": ";
+        print_mesh(out, part.mesh);
+        out << "    " << part.materials << " materials, " << part.uv_sets << " UV sets"
+            << (part.colors ? ", colours" : "") << (part.skinned ? ", skin" : "") << ", " << part.instances
+            << " instances\n";
+    }
+    for (std::size_t i = 0; i < asset.images.size(); ++i) {
+        const ImageInfo& image = asset.images[i];
+        out << "image " << i << (image.name.empty() ? "" : " '" + image.name + "'") << ": " << image.mime_type
+            << ", ";
+        if (image.error.empty())
+            out << image.width << " x " << image.height << ", " << image.bytes << " bytes\n";
+        if (!image.error.empty()) out << image.error << "\n";
+    }
+    out << "scene (" << asset.instances << " instances, " << asset.materials << " materials): ";
+    print_mesh(out, asset.scene);
+    for (const std::string& warning : asset.warnings) out << "warning: " << warning << "\n";
+    std::cout << out.str();
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Action& action) {
+    struct Arguments {
+        std::string file;
+        bool json = false;
+    };
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("info", "Count and measure what is in a file");
+    command->add_option("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
+    command->add_flag("--json", arguments->json, "As JSON");
+    command->final_callback([arguments, &action] {
+        action = [arguments] {
+            const AssetInfo asset = examine(load(arguments->file));
+            if (arguments->json) print_json(as_json(arguments->file, asset));
+            if (!arguments->json) print_text(arguments->file, asset);
+            return exit_ok;
+        };
+    });
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,305 @@
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "bake/scene/level_coverage.hpp"
+#include "bake/scene/scene_size.hpp"
+#include "bake/scene/step_progress.hpp"
+#include "faqem/bake_levels.hpp"
+#include "faqem/cut.hpp"
+#include "faqem/error.hpp"
+#include "faqem/save_levels.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/commands/lod_level.hpp"
+#include "cli/commands/lod_manifest.hpp"
+#include "cli/output_file.hpp"
+#include "cli/options/positive.hpp"
+#include "cli/options/profile.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/options/simplify_options.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments : SimplifyArguments {
+    std::string in, out, history, format = "glb", textures = "each";
+    std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
+    Viewing viewing;
+    bool without_original = false, one_file = false, force = false, quiet = false;
+
+    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+    LevelTextures level_textures() const {
+        return textures == "shared" ? LevelTextures::shared : LevelTextures::each;
+    }
+};
+
+/// The files that will be there: a model for each level, the original first, and the manifest. With
+/// --one-file all levels have the same.
+struct Outputs {
+    explicit Outputs(const Arguments& a) {
+        const std::string ending = ending_of_format(a.format);
+        const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
+        if (a.one_file && ending != ".glb" && ending != ".gltf")
+            throw OptionError("--one-file: --format must be glb or gltf");
+        const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
+        for (std::size_t i = 0; i < count; ++i)
+            models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + ending);
+        manifest = stem + "_LOD.json";
+    }
+
+    std::vector<fs::path> models;
+    fs::path manifest;
+};
+
+/// What the library refuses, too, in the words of the command.
+void check_shared(const Arguments& a, const Options& options) {
+    if (a.level_textures() != LevelTextures::shared) return;
+    if (!a.history.empty())
+        throw OptionError("--history: with --textures shared only the finest level comes from the original");
+    const Bake kind = options.bake.kind;
+    if (kind != Bake::automatic && kind != Bake::atlas)
+        throw OptionError("--textures shared: needs an atlas of charts, --bake atlas or auto");
+    if (a.keep_groups)
+        throw OptionError("--keep-groups: with --textures shared the new atlas may join their materials");
+}
+
+void check(const Arguments& a, const Outputs& outputs) {
+    for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
+    check_output(outputs.manifest, {a.in}, a.overwrite());
+    if (a.history.empty()) return;
+    check_output(a.history, {a.in}, a.overwrite());
+    std::vector<fs::path> others = outputs.models;
+    others.push_back(outputs.manifest);
+    for (const fs::path& other : others) {
+        if (other.lexically_normal() == fs::path(a.history).lexically_normal())
+            throw OptionError(a.history + ": is named twice");
+    }
+}
+
+/// Parts one after the other, each with all its levels.
+void write_histories(const Arguments& a, const std::vector<SmallPartsLevel>& levels) {
+    std::ostringstream out;
+    for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
+        std::vector<CollapseHistory> histories;
+        histories.reserve(levels.size());
+        for (const SmallPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
+        write(join(histories), out);
+    }
+    write_output(a.history, out.view(), a.overwrite());
+}
+
+void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) {
+    std::ostringstream out;
+    out << a.in << " -> " << a.out << "\n";
+    for (const WrittenLevel& level : levels) {
+        out << "  " << level.file << ": " << level.faces << " faces, error " << level.error
+            << ", from distance " << switch_distance(level.error, a.viewing) << "\n";
+    }
+    std::cout << out.str();
+}
+
+/// Makes the levels and saves them, one after the other; with --one-file together.
+class Chain {
+public:
+    Chain(const Arguments& arguments, const Outputs& outputs, const Asset& source,
+          const std::vector<Level>& levels, const Options& options)
+        : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
+
+    ExitCode operator()() {
+        size_ = detail::scene_size(source_);
+        warnings_ = source_.warnings;
+        const ExitCode code =
+            arguments_.level_textures() == LevelTextures::shared ? shared_texture() : textures_of_their_own();
+        if (code != exit_ok) return code;
+        if (arguments_.one_file) {
+            const Unattended unattended;
+            append(warnings_, save_levels(std::move(saved_), outputs_.models[0], arguments_.overwrite()));
+        }
+        Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.viewing, written_);
+        manifest["warnings"] = warnings_;
+        write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                     arguments_.overwrite());
+        return exit_ok;
+    }
+
+    const std::vector<WrittenLevel>& written() const { return written_; }
+
+private:
+    /// The images of one level are there at a time.
+    ExitCode textures_of_their_own() {
+        std::vector<SmallPartsLevel> levels =
+            naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
+        const ExitCode refusal = begin(levels);
+        if (refusal != exit_ok) return refusal;
+        if (!arguments_.history.empty()) write_histories(arguments_, levels);
+        write_original();
+        for (SmallPartsLevel& level : levels) {
+            const auto before = static_cast<double>(&level - levels.data()),
+                       count = static_cast<double>(levels.size());
+            const Options step = detail::step_of(options_, Phase::bake, before / count, (before + 1) / count);
+            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, step); });
+            level.result = {};
+            if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
+            write_level(std::move(light), level.distance, level.error);
+        }
+        return exit_ok;
+    }
+
+    ExitCode shared_texture() {
+        std::vector<LightLevel> levels = naming(arguments_.in, [&] {
+            return simplify_levels(source_, levels_, options_, LevelTextures::shared);
+        });
+        const ExitCode refusal = begin(levels);
+        if (refusal != exit_ok) return refusal;
+        write_original();
+        for (LightLevel& level : levels) write_level(std::move(level.result), level.distance, level.error);
+        return exit_ok;
+    }
+
+    /// May the levels be written?
+    template <class AnyLevel>
+    ExitCode begin(const std::vector<AnyLevel>& levels) {
+        if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
+        for (const AnyLevel& level : levels) {
+            const ExitCode refusal = why_refused(level.result.report, arguments_.strict_target);
+            if (refusal == exit_ok) continue;
+            std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
+            return refusal;
+        }
+        reports_.reserve(levels.size());  // they are pointed to
+        return exit_ok;
+    }
+
+    void write_original() {
+        if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0, nullptr));
+    }
+
+    void write_level(LightAsset light, double distance, double error) {
+        Report& report = reports_.emplace_back(std::move(light.report));
+        append(report.warnings, write(std::move(light.asset), distance, error, &report));
+    }
+
+    static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+
+    /// \return what the format could not hold
+    std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
+        const Unattended unattended;
+        const fs::path& file = outputs_.models[written_.size()];
+        WrittenLevel& level = written_.emplace_back();
+        level = {file.filename().string(), 0, 0, distance, error, report};
+        for (const Part& part : asset.parts) {
+            level.faces += part.triangles.size();
+            level.vertices += part.positions.size();
+        }
+        if (!arguments_.one_file) return save(asset, file, arguments_.overwrite());
+        saved_.push_back({std::move(asset), coverage(error)});
+        return {};
+    }
+
+    /// By part, as the scene shows it at its largest.
+    std::vector<double> coverage(double error) const {
+        const Viewing& viewing = arguments_.viewing;
+        return detail::level_coverage(source_, size_, error, viewing.pixel_error / viewing.screen_height);
+    }
+
+    const Arguments& arguments_;
+    const Outputs& outputs_;
+    const Asset& source_;
+    const std::vector<Level>& levels_;
+    const Options& options_;
+    std::vector<Report> reports_;
+    std::vector<std::string> warnings_;
+    std::vector<WrittenLevel> written_;
+    std::vector<SavedLevel> saved_;  // with --one-file
+    detail::SceneSize size_;
+};
+
+int run(const Arguments& arguments) {
+    Options options = make_options(arguments);
+    std::vector<Level> levels;
+    for (const std::string& text : arguments.levels) levels.push_back(lod_level(text, arguments.viewing));
+    check_shared(arguments, options);
+    const Outputs outputs(arguments);
+    make_folder(arguments.out);
+    check(arguments, outputs);
+    handle_interrupts();
+    Asset source;
+    Chain chain(arguments, outputs, source, levels, options);
+    ExitCode code;
+    {
+        ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
+        options.progress = [&bar](Phase phase, double fraction) {
+            bar.show(phase, fraction);
+            return interrupted() ? Continue::cancel : Continue::yes;
+        };
+        bar.show(Phase::load, 0);
+        source = load_model(arguments.in, arguments.strictness());
+        options.bake = bake_for(options.bake, source, outputs.models[0]);
+        code = chain();
+    }
+    if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
+    if (code == exit_ok && !arguments.quiet) print_summary(arguments, chain.written());
+    return code;
+}
+
+void add_viewing_options(CLI::App& command, Viewing& viewing) {
+    command.add_option("--pixel-error", viewing.pixel_error, "Pixels that a level may be off (default 1)")
+        ->check(positive());
+    command
+        .add_option("--fov", viewing.fov,
+                    "Vertical angle of view in degrees for switch distances (default 60)")
+        ->check(CLI::Range(1.0, 179.0));
+    command
+        .add_option("--screen-height", viewing.screen_height,
+                    "Pixels of the screen for switch distances (default 1080)")
+        ->check(CLI::Range(1, 1 << 20));
+}
+
+}  // namespace
+
+void add_lod_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("lod", "Make a chain of levels of detail, each with its texture and its error");
+    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
+    command->add_option("OUTDIR", arguments->out, "Folder for NAME_LOD0 ... and NAME_LOD.json")->required();
+    command
+        ->add_option(
+            "--levels", arguments->levels,
+            "From fine to coarse, with commas: 0.5 (share of the faces), 5000 (faces), error:0.01 "
+            "(distance in model units), error:0.1% or pixels:1@50 (as much as 1 pixel at distance 50) "
+            "(default 0.5,0.25,0.1,0.01)")
+        ->delimiter(',');
+    command->add_flag("--without-original", arguments->without_original,
+                      "The first level is LOD0; else the original is, as it was read");
+    command->add_flag("--one-file", arguments->one_file,
+                      "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod");
+    command
+        ->add_option("--textures", arguments->textures,
+                     "New textures: each (every level its own; default), shared (one for all, baked for the "
+                     "finest level)")
+        ->check(CLI::IsMember({"each", "shared"}));
+    command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
+    command->add_option("--history", arguments->history,
+                        "Write the collapse history to this file, for faqem cut");
+    add_viewing_options(*command, arguments->viewing);
+    add_level_options(*command, *arguments);
+    add_profile_option(*command);
+    command->add_option("--threads", arguments->options.threads, "Threads at most")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--force", arguments->force, "Replace files that exist");
+    command->add_flag("--quiet", arguments->quiet, "No summary, no progress bar");
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

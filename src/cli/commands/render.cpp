@@ -1,0 +1,67 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_file.hpp"
+#include "render/contact_sheet.hpp"
+#include "render/views.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+struct Arguments {
+    std::vector<std::string> files;  ///< models, and the picture last
+    std::uint32_t size = 480, views = 4;
+    bool unlit = false, wireframe = false, force = false;
+};
+
+int run(const Arguments& arguments) {
+    const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
+    const std::string& out = arguments.files.back();
+    const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
+    check_ending(out, {".png"});
+    check_output(out, {models.begin(), models.end()}, overwrite);
+    handle_interrupts();
+    const Unattended unattended;
+
+    std::vector<Scene> scenes;
+    for (const std::string& model : models) {
+        scenes.push_back(make_scene(load(model)));
+        for (const std::string& warning : scenes.back().warnings) {
+            std::cerr << "faqem: warning: " << model << ": " << warning << "\n";
+        }
+    }
+    const std::vector<SheetRow> rows = draw_rows(
+        scenes, cameras_around(scenes[0], models[0], arguments.views), arguments.size,
+        arguments.unlit ? Shading::unlit : Shading::lit, arguments.wireframe ? Edges::drawn : Edges::hidden);
+    const Image sheet = encode_png(compose(rows), "sheet");
+    write_output(out, {reinterpret_cast<const char*>(sheet.encoded.data()), sheet.encoded.size()}, overwrite);
+    return exit_ok;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("render", "Draw models one under the other, as seen by the same cameras");
+    command->add_option("FILES", arguments->files, "Models, then the picture: A [B ...] OUT.png")
+        ->required()
+        ->expected(2, 17);
+    command->add_option("--size", arguments->size, "Side of one view in pixels (default 480)")
+        ->check(CLI::Range(16, 2048));
+    command->add_option("--views", arguments->views, "Views around the models (default 4)")
+        ->check(CLI::Range(1, 16));
+    command->add_flag("--unlit", arguments->unlit, "Colours as they are, without light");
+    command->add_flag("--wireframe", arguments->wireframe, "Draw the faces' edges");
+    command->add_flag("--force", arguments->force, "Replace a picture that exists");
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

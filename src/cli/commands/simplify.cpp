@@ -1,0 +1,221 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "faqem/bake.hpp"
+#include "faqem/error.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+#include "cli/byte_budget.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/machine_memory.hpp"
+#include "cli/memory_estimate.hpp"
+#include "cli/output_file.hpp"
+#include "cli/options/positive.hpp"
+#include "cli/options/profile.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/options/simplify_options.hpp"
+#include "cli/simplify_model.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+using detail::Stopwatch;
+
+/// The command line as it was given.
+struct Arguments : SimplifyArguments {
+    std::string in, out, report, history, correspondence;
+    std::uint64_t max_bytes = 0;   ///< 0: any size
+    std::uint64_t max_memory = 0;  ///< bytes; 0: the machine's
+    bool force = false, quiet = false;
+
+    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+};
+
+/// Everything that can be wrong about the output, before hours of work go into it.
+void check_outputs(const Arguments& arguments) {
+    check_ending(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
+    std::vector<std::filesystem::path> taken = {arguments.in};
+    for (const std::string& file :
+         {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
+        if (file.empty()) continue;
+        check_output(file, taken, arguments.overwrite());
+        for (const auto& other : taken) {
+            if (std::filesystem::path(file).lexically_normal() == other.lexically_normal()) {
+                throw OptionError(file + ": is named twice");
+            }
+        }
+        taken.emplace_back(file);
+    }
+}
+
+void write_histories(const Arguments& arguments, const std::vector<CollapseHistory>& histories) {
+    std::ostringstream out;
+    for (const CollapseHistory& history : histories) write(history, out);
+    write_output(arguments.history, out.view(), arguments.overwrite());
+}
+
+void write_correspondence(const Arguments& arguments, const std::vector<PageOrigins>& pages) {
+    std::ostringstream out;
+    write(pages, out);
+    write_output(arguments.correspondence, out.view(), arguments.overwrite());
+}
+
+void print_counts(std::ostream& out, const Report& report) {
+    std::string_view separator = "refused: ";
+    for (std::size_t i = 0; i < refusal_kinds; ++i) {
+        if (report.refusals[i] == 0) continue;
+        out << separator << report.refusals[i] << " " << name(static_cast<Refusal>(i));
+        separator = ", ";
+    }
+    if (separator == ", ") out << "\n";
+    separator = "rungs taken: ";
+    for (std::size_t i = 0; i < rung_kinds; ++i) {
+        if (report.rungs[i] == 0) continue;
+        out << separator << name(static_cast<Rung>(i)) << " " << report.rungs[i] << " times";
+        separator = ", ";
+    }
+    if (separator == ", ") out << "\n";
+}
+
+void print_summary(const Arguments& arguments, const Report& report) {
+    std::ostringstream out;
+    out << arguments.in << " -> " << arguments.out << "\n"
+        << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
+        << name(report.stop) << ", preset " << name(report.preset) << "\n";
+    if (report.max_error) {
+        const MeasuredError& error = *report.max_error;
+        out << "distance: " << error.value << " found, at most " << error.bound << " (allowed "
+            << error.allowed << "), " << error.runs << (error.runs == 1 ? " run\n" : " runs\n");
+    }
+    print_counts(out, report);
+    out << report.warnings.size() << (report.warnings.size() == 1 ? " warning\n" : " warnings\n");
+    for (const std::string& warning : report.warnings) out << "  " << warning << "\n";
+    const PhaseSeconds& s = report.seconds;
+    out << std::fixed << std::setprecision(2) << "seconds: load " << s.load << ", simplify " << s.simplify
+        << ", map " << s.map << ", bake " << s.bake << ", save " << s.save << ", total " << s.total << "\n";
+    std::cout << out.str();
+}
+
+Asset load_input(const Arguments& arguments, PhaseSeconds& seconds) {
+    const Unattended unattended;
+    const Stopwatch watch;
+    Asset asset = load_model(arguments.in, arguments.strictness());
+    seconds.load = watch.seconds();
+    return asset;
+}
+
+int cancelled() {
+    std::cerr << "faqem: cancelled\n";
+    return exit_cancelled;
+}
+
+/// Writes the model last but for the report, which tells how long that took.
+void save_result(const Arguments& arguments, LightAsset& light) {
+    const Unattended unattended;
+    const Stopwatch watch;
+    if (!arguments.history.empty()) write_histories(arguments, light.histories);
+    if (!arguments.correspondence.empty()) write_correspondence(arguments, light.correspondence);
+    const std::vector<std::string> losses = save(light.asset, arguments.out, arguments.overwrite());
+    light.report.warnings.insert(light.report.warnings.end(), losses.begin(), losses.end());
+    light.report.seconds.save = watch.seconds();
+}
+
+std::optional<ByteBudget> byte_budget(const Arguments& arguments) {
+    if (arguments.max_bytes == 0) return std::nullopt;
+    return ByteBudget{arguments.max_bytes, arguments.out,
+                      arguments.image_format.empty() ? Encoding::free : Encoding::as_asked};
+}
+
+int run(const Arguments& arguments) {
+    Options options = make_options(arguments);
+    if (!arguments.history.empty()) options.history = Recording::on;
+    if (!arguments.correspondence.empty()) {
+        if (!makes_atlas(options.bake.kind))
+            throw OptionError("--correspondence needs a new atlas: --bake auto, atlas or per-triangle");
+        options.bake.correspondence = Recording::on;
+    }
+    check_outputs(arguments);
+    handle_interrupts();
+    const Stopwatch watch;
+    LightAsset light;
+    {
+        ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
+        options.progress = [&bar](Phase phase, double fraction) {
+            bar.show(phase, fraction);
+            return interrupted() ? Continue::cancel : Continue::yes;
+        };
+        PhaseSeconds seconds;
+        bar.show(Phase::load, 0);
+        const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
+        require_memory(arguments.in, loading_peak(arguments.in), allowed);
+        const Asset source = load_input(arguments, seconds);
+        options.bake = bake_for(options.bake, source, arguments.out);
+        require_memory(arguments.in, predicted_peak(source, options), allowed);
+        light = simplify_model(source, arguments.in, options, byte_budget(arguments));
+        light.report.seconds.load = seconds.load;
+        light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
+                                     source.warnings.end());
+        if (interrupted() || light.report.stop == StopReason::cancelled) return cancelled();
+    }
+    const ExitCode refusal = why_refused(light.report, arguments.strict_target);
+    if (refusal == exit_ok) save_result(arguments, light);
+    light.report.seconds.total = watch.seconds();
+    if (!arguments.report.empty()) {
+        const Unattended unattended;
+        write_output(arguments.report, to_json(light.report), arguments.overwrite());
+    }
+    if (!arguments.quiet) print_summary(arguments, light.report);
+    if (refusal != exit_ok)
+        std::cerr << "faqem: " << refusal_text(refusal, arguments.out, light.report) << "\n";
+    return refusal;
+}
+
+void add_run_options(CLI::App& command, Arguments& a) {
+    command
+        .add_option(
+            "--max-bytes", a.max_bytes,
+            "Largest size of all files of the result together, as 2MB or 500KB: fewer faces and smaller "
+            "images until it fits")
+        ->transform(CLI::AsSizeValue(true))
+        ->check(positive())
+        ->excludes("--max-error");
+    command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--max-memory", a.max_memory,
+                    "Refuse a model that may bring the memory above this, as 8GB or 500MB (default: the "
+                    "machine's)")
+        ->transform(CLI::AsSizeValue(false))
+        ->check(positive());
+    command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
+    command.add_option("--history", a.history, "Write the collapse history to this file");
+    command.add_option("--correspondence", a.correspondence,
+                       "Write where each texel of the new atlas lies on the original to this file");
+    command.add_flag("--force", a.force, "Replace files that exist");
+    command.add_flag("--quiet", a.quiet, "No summary, no progress bar");
+}
+
+}  // namespace
+
+void add_simplify_command(CLI::App& app, Action& action) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("simplify", "Make a model lighter and bake its look into a new texture");
+    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
+    command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
+    add_simplify_options(*command, *arguments);
+    add_run_options(*command, *arguments);
+    add_profile_option(*command);
+    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace faqem::tool

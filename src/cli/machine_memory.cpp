@@ -1,0 +1,62 @@
+#include "cli/machine_memory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace faqem::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+/// The number in a file; no limit where there is no file, or `max` in it.
+std::uint64_t limit_in(const fs::path& file) {
+    std::ifstream in(file);
+    std::uint64_t limit = 0;
+    return in >> limit ? limit : unlimited;
+}
+
+/// \param group  begins with a slash
+std::uint64_t least_limit(const fs::path& mount, const fs::path& group, const char* name) {
+    std::uint64_t least = limit_in(mount / name);
+    for (fs::path below = group.relative_path(); !below.empty(); below = below.parent_path())
+        least = std::min(least, limit_in(mount / below / name));
+    return least;
+}
+
+bool lists_memory(const std::string& controllers) {
+    return ("," + controllers + ",").find(",memory,") != std::string::npos;
+}
+
+}  // namespace
+
+std::uint64_t group_memory(const fs::path& membership, const fs::path& mounts) {
+    std::uint64_t least = unlimited;
+    std::ifstream in(membership);
+    // A line is NUMBER:CONTROLLERS:PATH, in version 2 without controllers.
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t first = line.find(':');
+        const std::size_t second = line.find(':', first + 1);
+        if (first == std::string::npos || second == std::string::npos) continue;
+        const std::string controllers = line.substr(first + 1, second - first - 1);
+        const fs::path group = line.substr(second + 1);
+        if (controllers.empty()) least = std::min(least, least_limit(mounts, group, "memory.max"));
+        if (lists_memory(controllers))
+            least = std::min(least, least_limit(mounts / "memory", group, "memory.limit_in_bytes"));
+    }
+    return least;
+}
+
+std::uint64_t machine_memory() {
+    const std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                                static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return std::min(bytes, group_memory("/proc/self/cgroup", "/sys/fs/cgroup"));
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,125 @@
+#include "cli/memory_estimate.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "asset/image/image_size.hpp"
+#include "bake/transfer/material_groups.hpp"
+#include "cli/referenced_files.hpp"
+#include "cli/output_file.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+/// Of the process so far: what is given back to the heap is used again.
+double resident_peak() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Bytes for each face of the mesh that is worked on. Measured on meshes of 0.06 to 1 million faces, rounded
+/// up.
+double work_per_face(const Options& options) {
+    switch (options.preset) {
+        case Preset::fast:
+            return 350;
+        case Preset::best:
+            return 1750;
+        case Preset::balanced:
+            return 450;
+        case Preset::qem:
+        case Preset::paper:
+        case Preset::stmw:
+            break;
+    }
+    return 700;
+}
+
+constexpr double held_per_face = 250;  // the history, and what baking finds its way with
+constexpr double looking_per_face = 400;  // of all instances: --visibility, before anything else
+constexpr double search_factor = 1.3;  // --max-error: the best mesh so far, and what measures it
+constexpr double bytes_per_corner_value = 12;
+constexpr double image_libraries =
+    140e6;  // come with the first image that is decoded or encoded (images/load.hpp)
+constexpr double work_per_texel = 36, held_per_texel = 8, bytes_per_origin = 24;
+constexpr double work_per_layer_texel = 9;  // of a texture of a material's extensions
+
+std::size_t kept_values(const Part& part) { return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4); }
+
+double decoded_bytes(const Asset& asset) {
+    double bytes = 0;
+    for (const Image& image : asset.images) {
+        const auto size = detail::declared_size(image.encoded);
+        // What is refused takes nothing.
+        if (size && size->width <= detail::max_image_side && size->height <= detail::max_image_side)
+            bytes += 4.0 * static_cast<double>(size->pixels());
+    }
+    return bytes;
+}
+
+double page_bytes(const Asset& asset, const BakeOptions& bake) {
+    const double texels = static_cast<double>(bake.texture_size) * bake.texture_size;
+    const double held = held_per_texel + (bake.correspondence == Recording::on ? bytes_per_origin : 0);
+    const auto pages = static_cast<double>(detail::group_materials(asset, bake.kind).groups.size());
+    std::size_t layers = 0;
+    for (const Material& material : asset.materials)
+        layers = std::max(layers, material.extension_textures.size());
+    return texels * (work_per_texel + work_per_layer_texel * static_cast<double>(layers) + held * pages);
+}
+
+double faces_shown(const Asset& asset) {
+    double faces = 0;
+    for (const Instance& instance : instances(asset))
+        faces += static_cast<double>(asset.parts[instance.part].triangles.size());
+    return faces;
+}
+
+std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
+
+}  // namespace
+
+std::uint64_t loading_peak(const std::filesystem::path& model) {
+    std::vector<std::filesystem::path> files;
+    std::error_code ignored;
+    // A pipe would have to be opened to be asked.
+    if (std::filesystem::is_regular_file(model, ignored)) {
+        if (lower_ending(model) != ".obj") files = referred_files(model);
+        files.push_back(model);
+    }
+    // The bytes, the arrays made of them, and these again while they grow.
+    return static_cast<std::uint64_t>(resident_peak() + 5 * static_cast<double>(bytes_of(files)));
+}
+
+std::uint64_t predicted_peak(const Asset& asset, const Options& options) {
+    double all = 0, largest = 0, values = 0;
+    for (const Part& part : asset.parts) {
+        const auto faces = static_cast<double>(part.triangles.size());
+        all += faces;
+        largest = std::max(largest, faces);
+        values = std::max(values, 3 * faces * static_cast<double>(kept_values(part)));
+    }
+    double work = held_per_face * all + work_per_face(options) * largest;
+    if (options.bake.kind == Bake::keep) work += bytes_per_corner_value * values;
+    if (options.max_error) work *= search_factor;
+    if (options.visibility == Visibility::weighs)
+        work = std::max(work, looking_per_face * faces_shown(asset));
+    double baking = 0;
+    if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none) baking += decoded_bytes(asset);
+    if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);
+    if (baking > 0) baking += image_libraries;
+    return static_cast<std::uint64_t>(resident_peak() + work + baking);
+}
+
+void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
+    if (needed <= allowed) return;
+    throw MemoryError(file.string() + ": may take " + megabytes(needed) + " of memory, " +
+                      megabytes(allowed) + " are allowed (--max-memory)");
+}
+
+}  // namespace faqem::tool

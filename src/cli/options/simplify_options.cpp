@@ -1,0 +1,280 @@
+#include "cli/options/simplify_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "faqem/error.hpp"
+#include "faqem/report.hpp"
+#include "cli/json.hpp"
+#include "cli/options/positive.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Bake>, 6> bakes = {{{"auto", Bake::automatic},
+                                                                     {"atlas", Bake::atlas},
+                                                                     {"per-triangle", Bake::per_triangle},
+                                                                     {"vertex", Bake::vertex},
+                                                                     {"keep", Bake::keep},
+                                                                     {"none", Bake::none}}};
+constexpr std::array<std::pair<std::string_view, Mapping>, 3> mappings = {
+    {{"projection", Mapping::projection}, {"lineage", Mapping::lineage}, {"closest", Mapping::closest}}};
+
+constexpr std::array<std::pair<std::string_view, NormalMap>, 3> normal_maps = {
+    {{"auto", NormalMap::automatic}, {"on", NormalMap::on}, {"off", NormalMap::off}}};
+
+constexpr std::array<std::pair<std::string_view, Normals>, 4> normals = {{{"transfer", Normals::transfer},
+                                                                          {"smooth", Normals::smooth},
+                                                                          {"flat", Normals::flat},
+                                                                          {"none", Normals::none}}};
+constexpr std::array<std::pair<std::string_view, ImageFormat>, 3> image_formats = {
+    {{"png", ImageFormat::png}, {"jpeg", ImageFormat::jpeg}, {"source", ImageFormat::source}}};
+
+constexpr std::array<std::pair<std::string_view, Budget>, 2> budgets = {
+    {{"scene", Budget::scene}, {"mesh", Budget::mesh}}};
+
+constexpr std::array<std::pair<std::string_view, Visibility>, 2> visibilities = {
+    {{"ignored", Visibility::ignored}, {"weighs", Visibility::weighs}}};
+
+template <class Value, std::size_t n>
+Value named(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
+            const char* option) {
+    std::string known;
+    for (const auto& [name, value] : names) {
+        if (name == text) return value;
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    }
+    throw OptionError(std::string(option) + ": unknown value '" + text + "' (known: " + known + ")");
+}
+
+double number(const std::string& text, const char* option) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end)
+        throw OptionError(std::string(option) + ": '" + text + "' is no number");
+    return value;
+}
+
+/// `0.01` in model units, or `0.1%` of the diagonal.
+Length length(const std::string& text, const char* option) {
+    if (!text.ends_with('%')) return model_units(number(text, option));
+    return of_diagonal(number(text.substr(0, text.size() - 1), option) / 100);
+}
+
+/// `kind` or `kind:NUMBER`. \return the number, nothing if there is none
+std::optional<double> suffix_number(std::string& text, std::string_view kind, const char* option) {
+    if (text.compare(0, kind.size() + 1, std::string(kind) + ":") != 0) return std::nullopt;
+    const double value = number(text.substr(kind.size() + 1), option);
+    text = kind;
+    return value;
+}
+
+void read_normals(std::string text, BakeOptions& bake) {
+    if (const auto angle = suffix_number(text, "smooth", "--normals")) bake.crease_angle = *angle;
+    bake.normals = named(normals, text, "--normals");
+}
+
+void read_image_format(std::string text, BakeOptions& bake) {
+    if (const auto quality = suffix_number(text, "jpeg", "--image-format")) {
+        if (!(*quality >= 1 && *quality <= 100 && *quality == std::floor(*quality)))
+            throw OptionError("--image-format: the quality must be a whole number from 1 to 100");
+        bake.jpeg_quality = static_cast<std::uint32_t>(*quality);
+    }
+    bake.image_format = named(image_formats, text, "--image-format");
+}
+
+std::string preset_names() {
+    std::string all;
+    for (const Preset preset : all_presets) {
+        if (!all.empty()) all += ", ";
+        all += name(preset);
+    }
+    return all;
+}
+
+void add_target_options(CLI::App& command, SimplifyArguments& a) {
+    auto* ratio =
+        command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
+    auto* faces =
+        command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive());
+    ratio->excludes(faces);
+    command.add_option("--max-error", a.max_error,
+                       "Largest distance from the original, in model units or with % of the diagonal: the "
+                       "smallest mesh found within it; with --ratio or --faces: a condition");
+}
+
+void add_metric_options(CLI::App& command, SimplifyArguments& a) {
+    command.add_option("--budget", a.budget,
+                       "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
+                       "proportion to their faces)");
+    command.add_option("--visibility", a.visibility,
+                       "What is hidden from outside: ignored (counts like all else, default), weighs (counts less)");
+    command.add_option(
+        "--preset", a.preset,
+        "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");
+    command.add_option("--w-area", a.options.weights.area, "Weight of the boundary area term");
+    command.add_option("--w-boundary", a.options.weights.boundary, "Weight of the boundary curvature term");
+    command.add_option("--w-normal", a.options.weights.normal, "Weight of the normal term");
+    command.add_option("--w-uv", a.options.weights.uv, "Factor on quadrics at UV seams, where UVs are kept");
+    command.add_option("--w-plane-area", a.options.weights.plane_area,
+                       "Inverse-area weight of planes; 0: unweighted");
+}
+
+void add_topology_options(CLI::App& command, SimplifyArguments& a) {
+    command.add_flag_callback(
+        "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
+    command.add_flag("--lock-border", a.lock_border, "Open borders stay where they are");
+    command.add_flag("--keep-groups", a.keep_groups,
+                     "Borders between materials stay where they are, even if the target is missed");
+    command.add_option("--weld", a.options.topology.weld_distance, "Join vertices at most this far apart");
+    command.add_option("--prune", a.prune,
+                       "Delete connected components whose box has a smaller diagonal, in model units or "
+                       "with % of the scene's diagonal; never the largest of a mesh");
+    // A flag, not an option: an option would take the file name that may follow for its value.
+    command.add_flag(
+        "--virtual-edges{0.01}", a.virtual_edges,
+        "Join parts that do not touch; =TAU: over gaps up to TAU of the diagonal (default 0.01)");
+}
+
+}  // namespace
+
+void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
+    add_target_options(command, a);
+    add_level_options(command, a);
+}
+
+void add_look_options(CLI::App& command, SimplifyArguments& a) {
+    command.add_option(
+        "--bake", a.bake,
+        "Where colours go: auto (default: atlas or per-triangle; see docs/baking.md), atlas (charts), "
+        "per-triangle, vertex, keep, none");
+    command.add_option("--texture-size", a.options.bake.texture_size,
+                       "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
+    command.add_option("--texel-density", a.options.bake.texel_density,
+                       "Texels per length of a new texture, times those of the source, 0.125 to 8 (default 1; more "
+                       "on small pages)");
+    command.add_option("--normal-map", a.normal_map,
+                       "Normal map of a new texture: auto (where the source has one or its normals differ; "
+                       "default), on, off");
+    command.add_option(
+        "--normals", a.normals,
+        "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
+        "to ANGLE degrees, 40), flat, none (with --bake none: geometry alone)");
+    command.add_option("--image-format", a.image_format,
+                       "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
+                       "images they are baked from)");
+    command.add_option("--mapping", a.mapping,
+                       "Way back to the original: projection (default), lineage, closest");
+}
+
+void add_level_options(CLI::App& command, SimplifyArguments& a) {
+    add_metric_options(command, a);
+    add_look_options(command, a);
+    add_topology_options(command, a);
+    command.add_flag("--strict", a.strict,
+                     "Exit with 3 where the input would be repaired: nothing left out, every face with area "
+                     "and once");
+    command.add_flag("--strict-target", a.strict_target,
+                     "Exit with 5, and write no model, when the target is missed");
+}
+
+namespace {
+
+/// What the library calls an option that begins its sentence, and what the command calls it.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_names = {
+    {{"target ratio", "--ratio"},
+     {"max_error", "--max-error"},
+     {"visibility: a distance counts", "--visibility weighs: a distance counts"},
+     {"weights.area", "--w-area"},
+     {"weights.boundary", "--w-boundary"},
+     {"weights.normal", "--w-normal"},
+     {"weights.uv", "--w-uv"},
+     {"weights.plane_area", "--w-plane-area"},
+     {"weld_distance", "--weld"},
+     {"virtual_edge_distance", "--virtual-edges"},
+     {"prune", "--prune"},
+     {"texture_size", "--texture-size"},
+     {"texel_density", "--texel-density"},
+     {"crease_angle", "--normals: the angle of smooth"},
+     {"normals can be left out", "--normals none: they can be left out"}}};
+
+/// validate() in the words of the command.
+void validate_as_asked(const Options& options) try { validate(options); } catch (const OptionError& error) {
+    const std::string said = error.what();
+    for (const auto& [of_library, of_command] : option_names) {
+        if (said.starts_with(of_library))
+            throw OptionError(std::string(of_command) + said.substr(of_library.size()));
+    }
+    throw;
+}
+
+}  // namespace
+
+Options make_options(const SimplifyArguments& arguments) {
+    Options options = arguments.options;
+    if (arguments.faces > 0) options.target = faces(arguments.faces);
+    if (arguments.ratio) options.target = ratio(*arguments.ratio);
+    if (arguments.max_error) options.max_error = length(*arguments.max_error, "--max-error");
+    if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
+    if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
+    if (!arguments.visibility.empty())
+        options.visibility = named(visibilities, arguments.visibility, "--visibility");
+    if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
+    if (!arguments.normal_map.empty()) {
+        options.bake.normal_map = named(normal_maps, arguments.normal_map, "--normal-map");
+    }
+    if (!arguments.normals.empty()) read_normals(arguments.normals, options.bake);
+    if (!arguments.image_format.empty()) read_image_format(arguments.image_format, options.bake);
+    if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
+    if (arguments.link) options.topology.link = LinkCondition::on;
+    if (arguments.lock_border) options.topology.border = Border::locked;
+    if (arguments.keep_groups) options.topology.group_borders = GroupBorders::kept;
+    if (arguments.prune) options.topology.prune = length(*arguments.prune, "--prune");
+    if (!arguments.virtual_edges.empty()) {
+        options.topology.virtual_edges = VirtualEdges::on;
+        options.topology.virtual_edge_distance = number(arguments.virtual_edges, "--virtual-edges");
+    }
+    validate_as_asked(options);
+    return options;
+}
+
+Level level_of(const std::string& text) {
+    constexpr std::string_view distance = "error:";
+    if (text.starts_with(distance)) return length(text.substr(distance.size()), "--levels");
+    const double value = number(text, "--levels");
+    if (value > 0 && value <= 1) return ratio(value);
+    if (!(value > 1 && value < 1e15 && value == std::floor(value)))
+        throw OptionError("--levels: '" + text + "' is neither a share of the faces nor a number of them");
+    return faces(static_cast<std::uint64_t>(value));
+}
+
+std::string options_text(const Options& o) {
+    const auto length = [](const std::optional<Length>& l) {
+        return l ? Json{l->value, static_cast<int>(l->unit)} : Json();
+    };
+    const auto number = [](const std::optional<double>& n) { return n ? Json(*n) : Json(); };
+    const auto index = [](auto value) { return static_cast<int>(value); };
+    const Weights& w = o.weights;
+    const Topology& t = o.topology;
+    return Json{
+        index(o.target.kind),
+        o.target.value,
+        index(o.budget),
+        index(o.visibility),
+        length(o.max_error),
+        name(o.preset),
+        {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
+        {index(t.link), index(t.border), index(t.group_borders), index(t.weld), number(t.weld_distance),
+         index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
+        {index(o.bake.kind), o.bake.texture_size, number(o.bake.texel_density), index(o.bake.mapping), o.bake.samples,
+         o.bake.crease_angle, index(o.bake.normal_map), index(o.bake.normals), index(o.bake.image_format), o.bake.jpeg_quality}}
+        .dump();
+}
+
+}  // namespace faqem::tool

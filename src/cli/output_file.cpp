@@ -1,0 +1,72 @@
+#include "cli/output_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+
+#include "asset/file.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::tool {
+
+namespace fs = std::filesystem;
+
+void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Overwrite overwrite) {
+    std::error_code error;
+    for (const fs::path& input : inputs) {
+        if (fs::equivalent(file, input, error)) {
+            throw OptionError(file.string() + ": is the input " + input.string() +
+                              "; choose another name for the output");
+        }
+    }
+    const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+    if (!fs::is_directory(folder, error))
+        throw WriteError(file.string() + ": there is no folder " + folder.string());
+    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a folder");
+    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+        throw WriteError(file.string() + ": is not a regular file");
+    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
+        throw WriteError(file.string() + ": exists; --force replaces it");
+    }
+    if (access(folder.c_str(), W_OK) != 0)
+        throw WriteError(file.string() + ": the folder cannot be written to");
+}
+
+std::string lower_ending(const fs::path& file) {
+    std::string ending = file.extension().string();
+    for (char& c : ending) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return ending;
+}
+
+void check_ending(const fs::path& file, const std::vector<std::string_view>& endings) {
+    const std::string ending = lower_ending(file);
+    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+    std::string known;
+    for (const std::string_view one : endings) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw OptionError(file.string() + ": the name must end in one of " + known);
+}
+
+std::string ending_of_format(const std::string& format) {
+    for (const char* known : {"glb", "gltf", "obj", "ply", "stl"}) {
+        if (format == known) return "." + format;
+    }
+    throw OptionError("--format: unknown value '" + format + "' (known: glb, gltf, obj, ply, stl)");
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder, error))
+        throw WriteError(folder.string() + ": cannot make this folder");
+}
+
+void write_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+    detail::write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()),
+                       overwrite);
+}
+
+}  // namespace faqem::tool

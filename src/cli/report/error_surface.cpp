@@ -1,0 +1,108 @@
+#include "cli/report/error_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "asset/formats/repair.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/surface.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+using engine::Vector3;
+
+constexpr Index most_strips = 1024;            // of a face
+constexpr std::uint64_t max_cuts = 1'000'000;  // faces more, of all together
+
+/// How many strips to cut a face into, along each of its sides.
+Index strips_of(const Part& mesh, const Triangle& t, double spacing) {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3 a = engine::to_eigen(mesh.positions[t[k]]),
+                      b = engine::to_eigen(mesh.positions[t[(k + 1) % 3]]);
+        longest = std::max(longest, (b - a).norm());
+    }
+    const double strips = std::ceil(longest / spacing);
+    if (!(strips > 1)) return 1;
+    return strips < most_strips ? static_cast<Index>(strips) : most_strips;
+}
+
+std::uint64_t cuts(const Part& mesh, double spacing) {
+    std::uint64_t sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const std::uint64_t strips = strips_of(mesh, t, spacing);
+        sum += strips * strips - 1;
+    }
+    return sum;
+}
+
+/// Into `strips` strips along each side: strips^2 faces. The corners are shared with the neighbours.
+void cut_face(ErrorSurface& surface, const Triangle& t, Index strips) {
+    const Vec3 a = surface.positions[t[0]], b = surface.positions[t[1]], c = surface.positions[t[2]];
+    std::vector<Index> above, row;
+    for (Index i = 0; i <= strips; ++i) {  // rows from a down to the side b c
+        row.clear();
+        for (Index j = 0; j <= i; ++j) {
+            const bool at_side = i == strips;
+            if (i == 0) {
+                row.push_back(t[0]);
+            } else if (at_side && (j == 0 || j == strips)) {
+                row.push_back(t[j == 0 ? 1 : 2]);
+            } else {
+                const double to_c = static_cast<double>(j) / strips,
+                             to_b = static_cast<double>(i - j) / strips;
+                Vec3 p;
+                for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + to_b * (b[k] - a[k]) + to_c * (c[k] - a[k]);
+                row.push_back(static_cast<Index>(surface.positions.size()));
+                surface.positions.push_back(p);
+            }
+        }
+        for (Index j = 0; j < i; ++j) {
+            surface.triangles.push_back({above[j], row[j], row[j + 1]});
+            if (j + 1 < i) surface.triangles.push_back({above[j], row[j + 1], above[j + 1]});
+        }
+        above.swap(row);
+    }
+}
+
+}  // namespace
+
+ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std::uint32_t threads) {
+    while (cuts(mesh, spacing) > max_cuts) spacing *= 1.25;
+    detail::check_index_count(mesh.positions.size() + 3 * max_cuts, "", "vertices of the error surface");
+    ErrorSurface result;
+    result.positions = mesh.positions;
+    for (const Triangle& t : mesh.triangles) {
+        const Index strips = strips_of(mesh, t, spacing);
+        if (strips > 1)
+            cut_face(result, t, strips);
+        else
+            result.triangles.push_back(t);
+    }
+    const detail::Surface surface = detail::make_surface({to.positions, to.triangles}, "the other mesh");
+    const detail::Bvh tree(surface.positions, surface.triangles);
+    result.distances.resize(result.positions.size());
+    detail::parallel_blocks(result.positions.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+        detail::CoherentQuery closest(surface, tree);
+        for (std::size_t v = begin; v < end; ++v)
+            result.distances[v] = std::sqrt(closest(result.positions[v]).distance_squared);
+    });
+    return result;
+}
+
+double distance_of_share(const ErrorSurface& a, const ErrorSurface& b, double share) {
+    std::vector<double> all = a.distances;
+    all.insert(all.end(), b.distances.begin(), b.distances.end());
+    if (all.empty()) return 0;
+    const double rank = std::ceil(share * static_cast<double>(all.size())) - 1;
+    const auto nth = all.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+    std::nth_element(all.begin(), nth, all.end());
+    return *nth;
+}
+
+}  // namespace faqem::tool

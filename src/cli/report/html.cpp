@@ -1,0 +1,74 @@
+#include "cli/report/html.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace faqem::tool {
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\'':
+                result += "&#39;";
+                break;
+            default:
+                result += c;
+        }
+    }
+    return result;
+}
+
+std::string filled(std::string_view text,
+                   const std::vector<std::pair<std::string_view, std::string>>& values) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    std::string result;
+    while (true) {
+        const std::size_t begin = text.find('@');
+        result += text.substr(0, begin);
+        if (begin == std::string_view::npos) return result;
+        const std::size_t end = std::min(text.find_first_not_of(letters, begin + 1), text.size());
+        const std::string_view name = text.substr(begin + 1, end - begin - 1);
+        if (name.empty() || end == text.size() || text[end] != '@') {  // of a style: @media
+            result += '@';
+            text.remove_prefix(begin + 1);
+            continue;
+        }
+        const auto value =
+            std::find_if(values.begin(), values.end(), [&](const auto& pair) { return pair.first == name; });
+        assert(value != values.end());
+        result += value->second;
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::string table(const std::string& caption, const std::vector<std::string>& titles,
+                  const std::vector<std::vector<std::string>>& rows) {
+    std::string html = "<div><table>\n<caption>" + escaped(caption) + "</caption>\n<thead><tr>";
+    for (const std::string& title : titles) {
+        const char* tag = title.empty() ? "td" : "th";
+        html.append("<").append(tag).append(title.empty() ? ">" : " scope=\"col\">").append(escaped(title));
+        html.append("</").append(tag).append(">");
+    }
+    html += "</tr></thead>\n<tbody>\n";
+    for (const std::vector<std::string>& row : rows) {
+        html += "<tr><th scope=\"row\">" + escaped(row.at(0)) + "</th>";
+        for (std::size_t i = 1; i < row.size(); ++i) html += "<td>" + escaped(row[i]) + "</td>";
+        html += "</tr>\n";
+    }
+    return html + "</tbody>\n</table></div>\n";
+}
+
+}  // namespace faqem::tool

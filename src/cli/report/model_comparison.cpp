@@ -1,0 +1,29 @@
+#include "cli/report/model_comparison.hpp"
+
+#include "asset/flatten.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::tool {
+
+PlacedModel load_placed(const std::string& file) {
+    PlacedModel model{file, load(file), {}};
+    model.flat = detail::flatten(model.asset);
+    if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with area");
+    return model;
+}
+
+ModelComparison compare_models(const PlacedModel& a, const PlacedModel& b, const CompareOptions& options) {
+    ModelComparison result;
+    result.distances = compare(a.view(), b.view(), options);
+    result.a = info(a.view());
+    result.b = info(b.view());
+    if (!has_colors(a.asset) || !has_colors(b.asset)) return result;
+    try {
+        result.colors = compare_colors(a.asset, b.asset, options);
+    } catch (const Error& error) {
+        result.colors_warning = std::string("colours are not compared: ") + error.what();
+    }
+    return result;
+}
+
+}  // namespace faqem::tool

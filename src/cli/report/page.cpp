@@ -1,0 +1,169 @@
+#include "cli/report/page.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "faqem/version.hpp"
+#include "cli/json.hpp"
+#include "cli/report/base64.hpp"
+#include "cli/report/heat_ramp.hpp"
+#include "cli/report/html.hpp"
+#include "cli/report/embedded_files.hpp"
+#include "render/views.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+std::string number(double value, int digits = 4) {
+    if (!std::isfinite(value)) return "∞";
+    std::array<char, 64> text;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+    return {text.data(), end};
+}
+
+std::string percent(double share) { return number(100 * share, 3) + "%"; }
+
+std::string size_text(std::uint64_t bytes) {
+    if (bytes < 1000) return std::to_string(bytes) + " bytes";
+    if (bytes < 1'000'000) return number(static_cast<double>(bytes) / 1e3, 3) + " KB";
+    return number(static_cast<double>(bytes) / 1e6, 4) + " MB";
+}
+
+std::string name_of(const ReportedModel& model) {
+    return std::filesystem::path(model.file).filename().string();
+}
+
+std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
+    const auto row = [](const char* what, std::uint64_t of_a, std::uint64_t of_b) {
+        const bool has_share = of_a > 0;
+        return std::vector<std::string>{
+            what, with_commas(of_a), with_commas(of_b),
+            has_share ? percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
+    };
+    std::vector<std::vector<std::string>> rows = {
+        row("Faces", a.mesh.faces, b.mesh.faces),
+        row("Vertices", a.mesh.vertices, b.mesh.vertices),
+        row("Components", a.mesh.components, b.mesh.components),
+        row("Boundary edges", a.mesh.boundary_edges, b.mesh.boundary_edges),
+        row("Non-manifold edges", a.mesh.nonmanifold_edges, b.mesh.nonmanifold_edges),
+        row("Materials", a.materials, b.materials),
+        row("Images", a.images, b.images),
+        row("Bytes", a.bytes, b.bytes)};
+    rows.back()[1] = size_text(a.bytes);
+    rows.back()[2] = size_text(b.bytes);
+    return table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "share"}, rows);
+}
+
+std::string distances_table(const ReportPage& page) {
+    const Comparison& c = page.comparison.distances;
+    const auto cell = [&](double distance) {
+        return number(distance) + " (" + percent(distance / c.diagonal) + ")";
+    };
+    const auto row = [&](const char* what, auto&& value) {
+        return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
+    };
+    return table("Distances, in model units and as a share of the diagonal of " + name_of(page.a),
+                 {"", "to " + name_of(page.b), "to " + name_of(page.a)},
+                 {row("Largest found", [&](const OneSided& s) { return cell(s.max); }),
+                  row("Largest, at most", [&](const OneSided& s) { return cell(s.max_bound); }),
+                  row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
+                  row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
+                  row("Normals, mean angle",
+                      [](const OneSided& s) { return number(s.mean_normal_degrees, 3) + "°"; })});
+}
+
+std::string colors_table(const ReportPage& page) {
+    if (!page.comparison.colors) return {};
+    const ColorComparison& c = *page.comparison.colors;
+    const std::string decibels = std::isfinite(c.psnr) ? number(c.psnr) + " dB" : "no difference";
+    const auto row = [&](const char* what, auto&& value) {
+        return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
+    };
+    return table("Colours, sRGB from 0 to 1 without light; PSNR of both: " + decibels,
+                 {"", "to " + name_of(page.b), "to " + name_of(page.a)},
+                 {row("Root mean square", [](const OneSidedColors& s) { return number(s.rmse, 3); }),
+                  row("More than 0.25 off", [](const OneSidedColors& s) { return percent(s.wrong); }),
+                  row("Nothing looks that way", [](const OneSidedColors& s) { return percent(s.one_sided); }),
+                  row("Masked out", [](const OneSidedColors& s) { return percent(s.hidden); })});
+}
+
+std::string summary(const ReportPage& page) {
+    const MeshInfo &a = page.a.mesh, &b = page.b.mesh;
+    const Comparison& c = page.comparison.distances;
+    return with_commas(b.faces) + " faces instead of " + with_commas(a.faces) + ", " +
+           size_text(page.b.bytes) + " instead of " + size_text(page.a.bytes) +
+           ". No point of either surface is farther than " + number(c.hausdorff_bound) + " (" +
+           percent(c.hausdorff_bound / c.diagonal) + " of the diagonal) from the other.";
+}
+
+std::string pictures(const ReportPage& page) {
+    std::string html;
+    for (const Picture& picture : page.pictures) {
+        html += "<figure><img alt=\"" + escaped(picture.description) + "\" src=\"data:image/png;base64," +
+                base64(picture.png.encoded) + "\"><figcaption>" + escaped(picture.caption) +
+                "</figcaption></figure>\n";
+    }
+    return html;
+}
+
+std::string notes(const ReportPage& page) {
+    std::string html;
+    for (const std::string& note : page.notes) html += "<p class=\"note\">" + escaped(note) + "</p>\n";
+    return html;
+}
+
+std::string caption(const ReportedModel& model) {
+    return escaped(name_of(model)) + ", " + with_commas(model.mesh.faces) + " faces";
+}
+
+std::string view(const ReportPage& page) {
+    if (!page.view) return {};
+    return filled(view_html, {{"CAPTION_A", caption(page.a)}, {"CAPTION_B", caption(page.b)}});
+}
+
+std::string scripts(const ReportPage& page) {
+    if (!page.view) return {};
+    const auto block = [](const char* id, const char* type, std::string_view text) {
+        return std::string("<script id=\"") + id + "\" type=\"" + type + "\">" + std::string(text) +
+               "</script>\n";
+    };
+    const View& v = *page.view;
+    const Json data = {{"limit", v.limit}, {"most", v.most}, {"unit", v.unit}, {"ramp", heat_ramp}};
+    return block("view-data", "application/json", data.dump()) +
+           block("model-a", "application/octet-stream", base64(v.a)) +
+           block("model-b", "application/octet-stream", base64(v.b)) + "<script>" +
+           std::string(viewer_script) + "</script>\n";
+}
+
+std::string ramp_stops() {
+    std::string stops;
+    for (const auto& colour : heat_ramp) {
+        stops += (stops.empty() ? "rgb(" : ", rgb(") + std::to_string(colour[0]) + " " +
+                 std::to_string(colour[1]) + " " + std::to_string(colour[2]) + ")";
+    }
+    return stops;
+}
+
+}  // namespace
+
+bool has_viewer() { return !viewer_script.empty(); }
+
+std::string page_of(const ReportPage& page) {
+    return filled(page_html,
+                  {{"VERSION", std::string(version())},
+                   {"NAME_A", escaped(name_of(page.a))},
+                   {"NAME_B", escaped(name_of(page.b))},
+                   {"STYLE", filled(page_style, {{"RAMP", ramp_stops()}})},
+                   {"SUMMARY", escaped(summary(page))},
+                   {"VIEW", view(page)},
+                   {"TABLES", counts_table(page.a, page.b) + distances_table(page) + colors_table(page)},
+                   {"NOTES", notes(page)},
+                   {"PICTURES", pictures(page)},
+                   {"SCRIPTS", scripts(page)}});
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,50 @@
+#include "cli/report/viewer_model.hpp"
+
+#include "asset/gltf/gltf.hpp"
+#include "cli/report/heat_ramp.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+void place(std::vector<Vec3>& positions, const ViewFrame& frame) {
+    for (Vec3& p : positions)
+        for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.centre[k]) / frame.unit;
+}
+
+Part bare_part(const ErrorSurface& error, const char* name) {
+    Part part;
+    part.name = name;
+    part.positions = error.positions;
+    part.triangles = error.triangles;
+    part.face_material.assign(part.triangles.size(), no_index);
+    return part;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> view_model(const PlacedModel& model, const ErrorSurface& error,
+                                     const ViewFrame& frame) {
+    Asset asset;
+    asset.images = model.asset.images;
+    asset.materials = model.asset.materials;
+    // What the file said of them in other words belongs to its own document.
+    for (Material& material : asset.materials) material.source = no_index;
+    asset.parts = {model.flat, bare_part(error, "error")};
+    asset.parts[0].name = "look";
+    asset.parts[1].uvs.resize(1);
+    for (const double distance : error.distances)
+        asset.parts[1].uvs[0].push_back({static_cast<float>(distance / frame.unit), 0});
+    for (Part& part : asset.parts) place(part.positions, frame);
+    return detail::glb_of(asset);
+}
+
+Asset coloured(const ErrorSurface& error, double limit) {
+    Asset asset;
+    asset.parts = {bare_part(error, "error")};
+    for (const double distance : error.distances)
+        asset.parts[0].colors.push_back(heat_colour(limit > 0 ? distance / limit : 0));
+    return asset;
+}
+
+}  // namespace faqem::tool

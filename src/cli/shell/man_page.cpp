@@ -1,0 +1,71 @@
+#include "cli/shell/man_page.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+/// Text that troff shows as it is.
+std::string plain(std::string_view text) {
+    std::string result;
+    bool at_line_start = true;
+    for (const char c : text) {
+        if (at_line_start && (c == '.' || c == '\'')) result += "\\&";
+        if (c == '\\')
+            result += "\\e";
+        else if (c == '-')
+            result += "\\-";
+        else
+            result += c;
+        at_line_start = c == '\n';
+    }
+    return result;
+}
+
+std::string in_font(char font, std::string_view text) {
+    return std::string("\\f") + font + plain(text) + "\\fR";
+}
+std::string bold(std::string_view text) { return in_font('B', text); }
+std::string italic(std::string_view text) { return in_font('I', text); }
+
+std::string entry(const OptionInfo& option) {
+    const bool is_option = option.names.front().starts_with('-');
+    std::string text = ".TP\n";
+    for (std::size_t i = 0; i < option.names.size(); ++i)
+        text.append(i > 0 ? ", " : "").append((is_option ? bold : italic)(option.names[i]));
+    if (!option.value.empty())
+        text.append(" ").append((option.choices.empty() ? italic : plain)(option.value));
+    return text.append("\n").append(plain(option.description)).append("\n");
+}
+
+std::string section(const CommandInfo& command) {
+    std::string text = ".SS ";
+    text += bold(std::string("faqem ") + command.name);
+    for (const OptionInfo& argument : command.arguments)
+        text.append(" ").append(italic(argument.names.front()));
+    text.append("\n").append(plain(command.description)).append(".\n");
+    for (const OptionInfo& argument : command.arguments) text += entry(argument);
+    for (const OptionInfo& option : command.options) text += entry(option);
+    return text;
+}
+
+}  // namespace
+
+std::string man_page(const CommandTree& tree, std::string_view version) {
+    std::string text = ".TH FAQEM 1 \"\" \"faqem ";
+    text.append(version).append("\" \"User Commands\"\n");
+    text += ".SH NAME\nfaqem \\- mesh simplification that keeps the look\n";
+    text.append(".SH SYNOPSIS\n").append(bold("faqem")).append(" ").append(italic("COMMAND"));
+    text.append(" [").append(italic("OPTION")).append("]...\n");
+    text.append(".SH DESCRIPTION\n").append(plain(tree.description)).append("\n");
+    for (const OptionInfo& option : tree.options) text += entry(option);
+    text += ".SH COMMANDS\n";
+    for (const CommandInfo& command : tree.commands) text += section(command);
+    text.append(".SH EXIT STATUS\n").append(plain(tree.exit_codes)).append("\n");
+    text += ".SH EXAMPLES\n.nf\n";
+    for (const CommandInfo& command : tree.commands) {
+        for (const std::string& example : command.examples) text.append(plain(example)).append("\n");
+    }
+    return text + ".fi\n";
+}
+
+}  // namespace faqem::tool

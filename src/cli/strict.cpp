@@ -1,0 +1,57 @@
+#include "cli/strict.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "bake/texture/bake_job.hpp"
+#include "faqem/error.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+
+namespace faqem::tool {
+namespace {
+
+/// Corners by position, the smallest place first, so that doubles are equal and faces back to back are not.
+std::array<Vec3, 3> places(const Part& part, const Triangle& t) {
+    std::array<Vec3, 3> p = {part.positions[t[0]], part.positions[t[1]], part.positions[t[2]]};
+    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+    return p;
+}
+
+void require_area(const Part& part, const std::string& where) {
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        const auto [a, b, c] = places(part, part.triangles[f]);
+        if (detail::has_no_area(a, b, c)) throw InputError(where, "face " + std::to_string(f), "has no area");
+    }
+}
+
+void require_once(const Part& part, const std::string& where) {
+    std::vector<Index> order(part.triangles.size());
+    for (Index f = 0; f < order.size(); ++f) order[f] = f;
+    const auto key = [&](Index f) {
+        return std::pair(places(part, part.triangles[f]),
+                         part.face_material.empty() ? no_index : part.face_material[f]);
+    };
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        const auto first = key(a), second = key(b);
+        return first != second ? first < second : a < b;
+    });
+    Index earlier = no_index, later = no_index;
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (key(order[i - 1]) == key(order[i]) && order[i] < later) earlier = order[i - 1], later = order[i];
+    if (later != no_index)
+        throw InputError(where, "face " + std::to_string(later),
+                         "is face " + std::to_string(earlier) + " again");
+}
+
+}  // namespace
+
+void require_clean(const Asset& asset, const std::string& file) {
+    if (!asset.warnings.empty()) throw InputError(file, "", "not clean: " + asset.warnings.front());
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        const std::string where = file + ": " + detail::part_title(asset, p);
+        require_area(asset.parts[p], where);
+        require_once(asset.parts[p], where);
+    }
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,103 @@
+#include "render/contact_sheet.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "asset/image/srgb.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float top_grey = 0.80f, bottom_grey = 0.58f, ink = 0.035f;  // linear light
+constexpr std::uint32_t glyph_width = 5, glyph_height = 7;
+
+/// Rows of five dots, the leftmost in the highest bit.
+struct Glyph {
+    char character;
+    std::array<std::uint8_t, glyph_height> rows;
+};
+
+constexpr std::array<Glyph, 17> font = {{
+    {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
+    {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
+    {'2', {0x0e, 0x11, 0x01, 0x06, 0x08, 0x10, 0x1f}},
+    {'3', {0x1f, 0x02, 0x04, 0x06, 0x01, 0x11, 0x0e}},
+    {'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}},
+    {'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
+    {'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}},
+    {'7', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
+    {'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}},
+    {'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
+    {',', {0x00, 0x00, 0x00, 0x00, 0x0c, 0x04, 0x08}},
+    {'f', {0x06, 0x08, 0x1e, 0x08, 0x08, 0x08, 0x08}},
+    {'a', {0x00, 0x00, 0x0e, 0x01, 0x0f, 0x11, 0x0f}},
+    {'c', {0x00, 0x00, 0x0e, 0x10, 0x10, 0x10, 0x0e}},
+    {'e', {0x00, 0x00, 0x0e, 0x11, 0x1f, 0x10, 0x0e}},
+    {'s', {0x00, 0x00, 0x0f, 0x10, 0x0e, 0x01, 0x1e}},
+    {' ', {}},
+}};
+
+std::uint8_t encode(float linear) {
+    const double c = detail::srgb_from_linear(std::clamp(static_cast<double>(linear), 0.0, 1.0));
+    return static_cast<std::uint8_t>(std::lround(c * 255));
+}
+
+void put(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& colour) {
+    std::uint8_t* p = &sheet.rgba[(std::size_t{y} * sheet.width + x) * 4];
+    for (int k = 0; k < 3; ++k) p[k] = encode(colour[k]);
+    p[3] = 255;
+}
+
+void paste(Pixels& sheet, const Frame& frame, std::uint32_t left, std::uint32_t top) {
+    for (std::uint32_t y = 0; y < frame.size; ++y) {
+        const float t = static_cast<float>(y) / static_cast<float>(frame.size);
+        const float grey = (1 - t) * top_grey + t * bottom_grey;
+        for (std::uint32_t x = 0; x < frame.size; ++x) {
+            const Eigen::Vector4f& c = frame.pixels[std::size_t{y} * frame.size + x];
+            put(sheet, left + x, top + y, c.head<3>() + (1 - c[3]) * Vector3f::Constant(grey));
+        }
+    }
+}
+
+void write(Pixels& sheet, const std::string& text, std::uint32_t left, std::uint32_t top, std::uint32_t dot) {
+    for (const char character : text) {
+        const auto* glyph =
+            std::find_if(font.begin(), font.end(), [&](const Glyph& g) { return g.character == character; });
+        if (glyph == font.end()) continue;
+        for (std::uint32_t y = 0; y < glyph_height * dot; ++y) {
+            for (std::uint32_t x = 0; x < glyph_width * dot; ++x) {
+                const bool set = glyph->rows[y / dot] >> (glyph_width - 1 - x / dot) & 1;
+                if (set && left + x < sheet.width) put(sheet, left + x, top + y, Vector3f::Constant(ink));
+            }
+        }
+        left += (glyph_width + 1) * dot;
+    }
+}
+
+}  // namespace
+
+Pixels compose(const std::vector<SheetRow>& rows) {
+    const std::uint32_t size = rows.at(0).frames.at(0).size;
+    Pixels sheet;
+    sheet.width = size * static_cast<std::uint32_t>(rows[0].frames.size());
+    sheet.height = size * static_cast<std::uint32_t>(rows.size());
+    sheet.rgba.resize(std::size_t{sheet.width} * sheet.height * 4);
+    const std::uint32_t dot = std::max(1u, size / 240);
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        for (std::uint32_t c = 0; c < rows[r].frames.size(); ++c) {
+            paste(sheet, rows[r].frames[c], c * size, r * size);
+        }
+        const std::uint32_t margin = 6 * dot;
+        if (size > glyph_height * dot + 2 * margin) {
+            write(sheet, rows[r].label, margin, r * size + size - margin - glyph_height * dot, dot);
+        }
+    }
+    return sheet;
+}
+
+}  // namespace faqem::tool

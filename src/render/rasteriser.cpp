@@ -1,0 +1,326 @@
+#include "render/rasteriser.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "render/occlusion.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+
+constexpr std::uint32_t samples_per_axis = 2;
+constexpr double edge_width = 0.8;  // pixels of the supersampled picture, to either side
+const Vector4f edge_colour(0.02f, 0.03f, 0.05f, 1.0f);
+
+/// One corner of a triangle on the screen.
+struct Corner {
+    Vector3 world, normal;
+    Vector2d screen;       ///< pixels, y down
+    double inverse_depth;  ///< 1 / distance along the view axis: linear on the screen
+    Index vertex;
+};
+
+/// What is the same all over one triangle.
+struct Face {
+    std::array<Corner, 3> corners;
+    const Part* part;
+    const Material* material;
+    Vector3 normal;  ///< of the plane, towards the eye
+    double side;     ///< 1: seen from the front, -1: from behind
+    double area;     ///< on the screen, twice, signed
+};
+
+const Material default_material;
+
+struct Target {
+    const Scene& scene;
+    const Camera& camera;
+    Shading shading;
+    Edges edges;
+    Surfels surfels;               ///< depth and normals, for the occlusion
+    std::vector<Vector4f> colour;  ///< premultiplied
+};
+
+/// Perspective-correct weights of the corners.
+Vector3 weights_at(const Face& face, const Vector3& screen_weights) {
+    Vector3 w;
+    for (int k = 0; k < 3; ++k)
+        w[k] = screen_weights[k] * face.corners[static_cast<std::size_t>(k)].inverse_depth;
+    return w / w.sum();
+}
+
+template <class Value>
+auto mix(const Face& face, const Vector3& w, Value&& value) {
+    auto sum = (w[0] * value(face.corners[0])).eval();
+    sum += w[1] * value(face.corners[1]);
+    sum += w[2] * value(face.corners[2]);
+    return sum;
+}
+
+bool has_uvs(const Face& face, const TextureRef& use) {
+    return use && use.uv_set < face.part->uvs.size() && !face.part->uvs[use.uv_set].empty();
+}
+
+/// Transformed UV of a corner.
+Vector2d corner_uv(const Face& face, const TextureRef& use, std::size_t k) {
+    const Vec2f& uv = face.part->uvs[use.uv_set][face.corners[k].vertex];
+    return transformed(use, {uv[0], uv[1]});
+}
+
+/// Mip level: half the logarithm of texels per pixel. One per face, as faces are small.
+double level_of_detail(const Face& face, const Texture& texture, const std::array<Vector2d, 3>& uv) {
+    const Vector2d a = uv[1] - uv[0], b = uv[2] - uv[0];
+    const double texels =
+        std::abs(a.x() * b.y() - a.y() * b.x()) * texture.levels[0].width * texture.levels[0].height;
+    const double ratio = texels / std::max(std::abs(face.area), 1e-9);
+    return ratio > 1 ? 0.5 * std::log2(ratio) : 0;
+}
+
+/// RGBA of a texture at a place on the face; nothing where there is no such texture.
+std::optional<Vector4f> fetch(const Face& face, const TextureRef& use, const std::vector<Texture>& textures,
+                              const Vector3& w) {
+    if (!has_uvs(face, use) || use.image >= textures.size() || !textures[use.image]) return std::nullopt;
+    const Texture& texture = textures[use.image];
+    const std::array<Vector2d, 3> uv = {corner_uv(face, use, 0), corner_uv(face, use, 1),
+                                        corner_uv(face, use, 2)};
+    const Vector2d at = w[0] * uv[0] + w[1] * uv[1] + w[2] * uv[2];
+    return sample(texture, use, at, level_of_detail(face, texture, uv));
+}
+
+Vector4f base_colour(const Target& target, const Face& face, const Vector3& w) {
+    Vector4f colour(face.material->base_color.data());
+    if (const auto texel = fetch(face, face.material->base_color_texture, target.scene.colours, w)) {
+        colour = colour.cwiseProduct(*texel);
+    }
+    if (!face.part->colors.empty()) {
+        const auto of = [&](const Corner& c) -> Vector4f {
+            return Vector4f(face.part->colors[c.vertex].data());
+        };
+        const Vector3f u = w.cast<float>();
+        colour = colour.cwiseProduct(u[0] * of(face.corners[0]) + u[1] * of(face.corners[1]) +
+                                     u[2] * of(face.corners[2]));
+    }
+    return colour;
+}
+
+/// Bends a normal by the material's normal map, in the frame of the face's own UVs.
+Vector3 bent_normal(const Target& target, const Face& face, const Vector3& w, const Vector3& normal) {
+    const TextureRef& use = face.material->normal_texture;
+    const auto texel = fetch(face, use, target.scene.normal_maps, w);
+    if (!texel) return normal;
+    const auto uv = [&](std::size_t k) {
+        const Vec2f& p = face.part->uvs[use.uv_set][face.corners[k].vertex];
+        return Vector2d(p[0], p[1]);
+    };
+    const Vector2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+    const Vector3 e1 = face.corners[1].world - face.corners[0].world,
+                  e2 = face.corners[2].world - face.corners[0].world;
+    const double turn = d1.x() * d2.y() - d1.y() * d2.x() < 0 ? -1 : 1;
+    Vector3 tangent = turn * (d2.y() * e1 - d1.y() * e2);
+    tangent -= normal * normal.dot(tangent);
+    tangent.stableNormalize();
+    // glTF: the bitangent goes up in the picture, that is against v.
+    Vector3 bitangent = -turn * (d1.x() * e2 - d2.x() * e1);
+    bitangent -= normal * normal.dot(bitangent);
+    bitangent.stableNormalize();
+    const Vector3 bump = texel->head<3>().cast<double>() * 2.0 - Vector3::Ones();
+    const double scale = face.material->normal_scale;
+    const Vector3 bent =
+        scale * (bump.x() * tangent + bump.y() * bitangent) + std::max(bump.z(), 0.05) * normal;
+    return bent.stableNormalized();
+}
+
+Vector3 shading_normal(const Target& target, const Face& face, const Vector3& w) {
+    Vector3 normal = mix(face, w, [](const Corner& c) -> const Vector3& { return c.normal; });
+    if (!(normal.squaredNorm() > 1e-12)) return face.normal;
+    normal.normalize();
+    normal = bent_normal(target, face, w, normal);
+    return face.side * normal;
+}
+
+/// A key light from the upper left, a weak one from the right, sky above and ground below; a soft highlight.
+Vector3f lit(const Camera& camera, const Vector3f& albedo, const Vector3& normal, const Vector3& to_eye) {
+    const Vector3 key = (-0.55 * camera.right + 0.75 * camera.up + 0.75 * camera.back).normalized();
+    const Vector3 fill = (0.9 * camera.right + 0.15 * camera.up + 0.45 * camera.back).normalized();
+    const double up = 0.5 + 0.5 * normal.dot(camera.up);
+    const double k = std::max(0.0, normal.dot(key)), f = std::max(0.0, normal.dot(fill));
+    const Vector3f sky(0.46f, 0.49f, 0.55f), ground(0.20f, 0.18f, 0.16f);
+    const Vector3f light = static_cast<float>(up) * sky + static_cast<float>(1 - up) * ground +
+                           static_cast<float>(k) * Vector3f(1.02f, 0.98f, 0.91f) +
+                           static_cast<float>(f) * Vector3f(0.16f, 0.18f, 0.22f);
+    const Vector3 half = (key + to_eye).normalized();
+    const auto shine = static_cast<float>(0.10 * std::pow(std::max(0.0, normal.dot(half)), 28.0));
+    return albedo.cwiseProduct(light) + shine * Vector3f::Ones();
+}
+
+/// Colour of a face at a place, alpha as in its material; nothing where a mask cuts it away.
+std::optional<Vector4f> shade(const Target& target, const Face& face, const Vector3& w, Vector3& normal) {
+    Vector4f colour = base_colour(target, face, w);
+    const Material& material = *face.material;
+    if (material.alpha_mode == AlphaMode::mask && !(colour[3] >= material.alpha_cutoff)) return std::nullopt;
+    if (material.alpha_mode != AlphaMode::blend) colour[3] = 1;
+    normal = face.normal;
+    if (target.shading == Shading::lit && !material.unlit) {
+        normal = shading_normal(target, face, w);
+        const Vector3 world = mix(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
+        const Vector3f glow(material.emissive.data());
+        Vector3f rgb = lit(target.camera, colour.head<3>(), normal, (target.camera.eye - world).normalized());
+        if (glow.maxCoeff() > 0) {
+            const auto texel = fetch(face, material.emissive_texture, target.scene.colours, w);
+            rgb += texel ? Vector3f(glow.cwiseProduct(texel->head<3>())) : glow;
+        }
+        colour.head<3>() = rgb;
+    }
+    return colour;
+}
+
+/// Distance in pixels from a place to the nearest edge of the face.
+double edge_distance(const Face& face, const Vector3& screen_weights) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = (face.corners[(k + 2) % 3].screen - face.corners[(k + 1) % 3].screen).norm();
+        nearest =
+            std::min(nearest, screen_weights[static_cast<Eigen::Index>(k)] * std::abs(face.area) / length);
+    }
+    return nearest;
+}
+
+void draw_pixel(Target& target, const Face& face, std::size_t pixel, const Vector3& screen_weights) {
+    double inverse_depth = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        inverse_depth += screen_weights[static_cast<Eigen::Index>(k)] * face.corners[k].inverse_depth;
+    }
+    Surfel& surfel = target.surfels.at[pixel];
+    if (!(inverse_depth > surfel.inverse_depth)) return;
+    Vector3 normal;
+    auto colour = shade(target, face, weights_at(face, screen_weights), normal);
+    if (!colour) return;
+    if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
+        *colour = 0.6f * edge_colour + 0.4f * *colour;
+    }
+    const float alpha = std::clamp((*colour)[3], 0.0f, 1.0f);
+    Vector4f premultiplied = *colour * alpha;
+    premultiplied[3] = alpha;
+    target.colour[pixel] = premultiplied + (1 - alpha) * target.colour[pixel];
+    if (face.material->alpha_mode == AlphaMode::blend) return;  // lets through what is behind: drawn last
+    surfel.inverse_depth = static_cast<float>(inverse_depth);
+    surfel.normal = normal.cast<float>();
+}
+
+void draw_face(Target& target, const Face& face) {
+    const Vector2d &a = face.corners[0].screen, &b = face.corners[1].screen, &c = face.corners[2].screen;
+    const auto size = static_cast<double>(target.surfels.size);
+    const auto range = [size](double low, double high) {
+        return std::pair(static_cast<std::uint32_t>(std::clamp(std::floor(low), 0.0, size)),
+                         static_cast<std::uint32_t>(std::clamp(std::ceil(high), 0.0, size)));
+    };
+    const auto [x0, x1] = range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}));
+    const auto [y0, y1] = range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}));
+    const auto cross = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
+    for (std::uint32_t y = y0; y < y1; ++y) {
+        for (std::uint32_t x = x0; x < x1; ++x) {
+            const Vector2d p(x + 0.5, y + 0.5);
+            const Vector3 w =
+                Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / face.area;
+            if (w.minCoeff() >= 0) {
+                draw_pixel(target, face, std::size_t{y} * target.surfels.size + x, w);
+            }
+        }
+    }
+}
+
+std::optional<Face> make_face(const Target& target, const Scene::PlacedPart& placed, std::size_t f) {
+    Face face;
+    face.part = &target.scene.asset.parts[placed.part];
+    const Index material = face.part->face_material.empty() ? no_index : face.part->face_material[f];
+    face.material = material < target.scene.asset.materials.size() ? &target.scene.asset.materials[material]
+                                                                   : &default_material;
+    const Camera& camera = target.camera;
+    const double half = target.surfels.size / 2.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Corner& corner = face.corners[k];
+        corner.vertex = face.part->triangles[f][k];
+        corner.world = placed.positions[corner.vertex];
+        corner.normal = placed.normals.empty() ? Vector3::Zero().eval() : placed.normals[corner.vertex];
+        const Vector3 d = corner.world - camera.eye;
+        const double depth = -d.dot(camera.back);
+        if (!(depth > 0)) return std::nullopt;
+        corner.inverse_depth = 1 / depth;
+        corner.screen = {half + half * d.dot(camera.right) / (depth * camera.tangent),
+                         half - half * d.dot(camera.up) / (depth * camera.tangent)};
+    }
+    const Vector2d u = face.corners[1].screen - face.corners[0].screen,
+                   v = face.corners[2].screen - face.corners[0].screen;
+    face.area = u.x() * v.y() - u.y() * v.x();
+    if (!(std::abs(face.area) > 0)) return std::nullopt;
+    face.normal = engine::area_vector(face.corners[0].world, face.corners[1].world, face.corners[2].world)
+                      .stableNormalized();
+    if (face.normal.dot(camera.eye - face.corners[0].world) < 0) face.normal = -face.normal;
+    // y points down on the screen, so what is counter-clockwise in the world has a negative area there.
+    face.side = (face.area < 0) != placed.mirrored ? 1 : -1;
+    return face;
+}
+
+/// Opaque faces in any order, then those that let light through from the back to the front.
+void draw_scene(Target& target) {
+    std::vector<std::pair<double, Face>> blended;
+    for (const Scene::PlacedPart& placed : target.scene.parts) {
+        for (std::size_t f = 0; f < target.scene.asset.parts[placed.part].triangles.size(); ++f) {
+            const auto face = make_face(target, placed, f);
+            if (!face) continue;
+            if (face->material->alpha_mode != AlphaMode::blend) {
+                draw_face(target, *face);
+                continue;
+            }
+            double nearness = 0;
+            for (const Corner& corner : face->corners) nearness += corner.inverse_depth;
+            blended.emplace_back(nearness, *face);
+        }
+    }
+    std::stable_sort(blended.begin(), blended.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [nearness, face] : blended) draw_face(target, face);
+}
+
+Frame downsample(const std::vector<Vector4f>& colour, std::uint32_t size) {
+    Frame frame;
+    frame.size = size;
+    frame.pixels.assign(std::size_t{size} * size, Vector4f::Zero());
+    const std::uint32_t fine = size * samples_per_axis;
+    for (std::uint32_t y = 0; y < fine; ++y) {
+        for (std::uint32_t x = 0; x < fine; ++x) {
+            Vector4f c = colour[std::size_t{y} * fine + x];
+            for (int k = 0; k < 3; ++k) c[k] = std::min(c[k], 1.0f);  // before averaging, or highlights fray
+            frame.pixels[std::size_t{y / samples_per_axis} * size + x / samples_per_axis] +=
+                c / static_cast<float>(samples_per_axis * samples_per_axis);
+        }
+    }
+    return frame;
+}
+
+}  // namespace
+
+Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges) {
+    const std::uint32_t fine = size * samples_per_axis;
+    Target target{scene, camera, shading, edges, {}, {}};
+    target.surfels.size = fine;
+    target.surfels.tangent = camera.tangent;
+    target.surfels.at.resize(std::size_t{fine} * fine);
+    target.colour.assign(std::size_t{fine} * fine, Vector4f::Zero());
+    draw_scene(target);
+    if (shading == Shading::lit) {
+        const std::vector<float> openness = ambient_openness(target.surfels, camera);
+        for (std::size_t i = 0; i < openness.size(); ++i) target.colour[i].head<3>() *= openness[i];
+    }
+    return downsample(target.colour, size);
+}
+
+}  // namespace faqem::tool

@@ -1,0 +1,129 @@
+#include "render/texture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "asset/image/srgb.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+// Coarser levels than this mix unrelated charts of an atlas, whose gutters are a few texels wide.
+constexpr std::size_t most_levels = 4;
+
+const std::array<float, 256>& decode_table() {
+    static const auto table = [] {
+        std::array<float, 256> t{};
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            t[i] = static_cast<float>(detail::linear_from_srgb(static_cast<double>(i) / 255));
+        }
+        return t;
+    }();
+    return table;
+}
+
+std::uint8_t to_byte(double x) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.0, 1.0) * 255));
+}
+
+Eigen::Vector4f texel(const Texture& texture, const Texture::Level& level, std::uint32_t x, std::uint32_t y) {
+    const std::uint8_t* p = &level.rgba[(std::size_t{y} * level.width + x) * 4];
+    if (texture.encoding == Encoding::linear) {
+        return Eigen::Vector4f(p[0], p[1], p[2], p[3]) / 255.0f;
+    }
+    const auto& decode = decode_table();
+    return {decode[p[0]], decode[p[1]], decode[p[2]], static_cast<float>(p[3]) / 255.0f};
+}
+
+Texture::Level half(const Texture& texture, const Texture::Level& from) {
+    Texture::Level to;
+    to.width = std::max(1u, from.width / 2);
+    to.height = std::max(1u, from.height / 2);
+    to.rgba.resize(std::size_t{to.width} * to.height * 4);
+    std::size_t out = 0;
+    for (std::uint32_t y = 0; y < to.height; ++y) {
+        for (std::uint32_t x = 0; x < to.width; ++x) {
+            const std::uint32_t x1 = std::min(2 * x + 1, from.width - 1),
+                                y1 = std::min(2 * y + 1, from.height - 1);
+            const Eigen::Vector4f mean =
+                0.25f * (texel(texture, from, 2 * x, 2 * y) + texel(texture, from, x1, 2 * y) +
+                         texel(texture, from, 2 * x, y1) + texel(texture, from, x1, y1));
+            for (int k = 0; k < 4; ++k) {
+                const double c = mean[k];
+                const bool encode = k < 3 && texture.encoding == Encoding::srgb;
+                to.rgba[out++] = to_byte(encode ? detail::srgb_from_linear(c) : c);
+            }
+        }
+    }
+    return to;
+}
+
+std::uint32_t wrapped(std::int64_t i, std::uint32_t size, Wrap wrap) {
+    const auto n = static_cast<std::int64_t>(size);
+    if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
+    const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
+    std::int64_t r = i % period;
+    if (r < 0) r += period;
+    return static_cast<std::uint32_t>(r < n ? r : 2 * n - 1 - r);
+}
+
+Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, const TextureRef& use,
+                         const Eigen::Vector2d& uv) {
+    // Coordinates far outside say nothing any more, and must not overflow.
+    const auto place = [](double u, std::uint32_t size) {
+        const double x = u * size;
+        return std::isfinite(x) && std::abs(x) < 1e15 ? x : 0.0;
+    };
+    double x = place(uv.x(), level.width), y = place(uv.y(), level.height);
+    if (use.filter == Filter::nearest) {
+        return texel(texture, level,
+                     wrapped(static_cast<std::int64_t>(std::floor(x)), level.width, use.wrap_u),
+                     wrapped(static_cast<std::int64_t>(std::floor(y)), level.height, use.wrap_v));
+    }
+    x -= 0.5;
+    y -= 0.5;
+    const auto x0 = static_cast<std::int64_t>(std::floor(x)), y0 = static_cast<std::int64_t>(std::floor(y));
+    const auto s = static_cast<float>(x - static_cast<double>(x0)),
+               t = static_cast<float>(y - static_cast<double>(y0));
+    const auto at = [&](int i, int j) {
+        return texel(texture, level, wrapped(x0 + i, level.width, use.wrap_u),
+                     wrapped(y0 + j, level.height, use.wrap_v));
+    };
+    const Eigen::Vector4f top = (1 - s) * at(0, 0) + s * at(1, 0), bottom = (1 - s) * at(0, 1) + s * at(1, 1);
+    return (1 - t) * top + t * bottom;
+}
+
+}  // namespace
+
+Texture make_texture(Pixels pixels, Encoding encoding) {
+    Texture texture;
+    texture.encoding = encoding;
+    if (pixels.width == 0 || pixels.height == 0) return texture;
+    texture.levels.push_back({pixels.width, pixels.height, std::move(pixels.rgba)});
+    while (texture.levels.size() < most_levels &&
+           (texture.levels.back().width > 1 || texture.levels.back().height > 1)) {
+        texture.levels.push_back(half(texture, texture.levels.back()));
+    }
+    return texture;
+}
+
+Eigen::Vector2d transformed(const TextureRef& use, const Eigen::Vector2d& uv) {
+    const double c = std::cos(use.rotation), s = std::sin(use.rotation);
+    const double u = use.scale[0] * uv.x(), v = use.scale[1] * uv.y();
+    return {use.offset[0] + c * u + s * v, use.offset[1] - s * u + c * v};
+}
+
+Eigen::Vector4f sample(const Texture& texture, const TextureRef& use, const Eigen::Vector2d& uv, double lod) {
+    const double last = static_cast<double>(texture.levels.size() - 1);
+    const double clamped = lod > 0 ? std::min(lod, last) : 0;
+    const auto level = static_cast<std::size_t>(clamped);
+    const auto t = static_cast<float>(clamped - static_cast<double>(level));
+    Eigen::Vector4f fine = bilinear(texture, texture.levels[level], use, uv);
+    if (!(t > 0)) return fine;
+    return (1 - t) * fine + t * bilinear(texture, texture.levels[level + 1], use, uv);
+}
+
+}  // namespace faqem::tool

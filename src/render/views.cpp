@@ -1,0 +1,54 @@
+#include "render/views.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "faqem/error.hpp"
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::tool {
+
+namespace {
+
+constexpr double turn = 6.283185307179586, first_azimuth = 0.35, margin = 1.04;
+constexpr std::array<double, 2> elevations = {0.16, 0.42};  // in turn: from the side, and a little into it
+
+}  // namespace
+
+std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views) {
+    Vector3 low, high;
+    if (!bounds(scene, low, high)) throw InputError(file, "", "has no triangles");
+    const Vector3 centre = 0.5 * low + 0.5 * high;
+    std::vector<Camera> result;
+    double distance = 0;
+    for (std::uint32_t i = 0; i < views; ++i) {
+        result.push_back(
+            looking_at(centre, first_azimuth + turn * i / views, elevations[i % elevations.size()]));
+        distance = std::max(distance, fitting_distance(scene, result.back(), centre));
+    }
+    if (!(distance > 0)) distance = 1;
+    for (Camera& camera : result) camera.eye = centre + margin * distance * camera.back;
+    return result;
+}
+
+std::vector<SheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
+                                std::uint32_t size, Shading shading, Edges edges) {
+    std::vector<SheetRow> rows(scenes.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        rows[r].frames.resize(cameras.size());
+        rows[r].label = with_commas(scenes[r].faces) + " faces";
+    }
+    detail::parallel_blocks(scenes.size() * cameras.size(), 1, 0, [&](std::size_t i, std::size_t) {
+        const std::size_t r = i / cameras.size(), v = i % cameras.size();
+        rows[r].frames[v] = render(scenes[r], cameras[v], size, shading, edges);
+    });
+    return rows;
+}
+
+std::string with_commas(std::uint64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
+    return text;
+}
+
+}  // namespace faqem::tool
