@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "asset/gltf_builder.hpp"
+#include "support/gltf_builder.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "asset/file.hpp"
-#include "asset/format_support.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

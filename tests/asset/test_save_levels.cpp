@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "asset/gltf_builder.hpp"
+#include "support/gltf_builder.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "asset/format_support.hpp"
+#include "support/format_support.hpp"
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/formats/off.hpp"

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "bake/scenes.hpp"
+#include "support/scenes.hpp"
 #include "faqem/asset.hpp"
 
 using namespace faqem;

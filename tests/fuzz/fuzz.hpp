@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-#include "core/meshes.hpp"
+#include "support/meshes.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "asset/gltf_compressed_builder.hpp"
-#include "bake/scenes.hpp"
+#include "support/gltf_compressed_builder.hpp"
+#include "support/scenes.hpp"
 #include "faqem/bake.hpp"
 
 using namespace faqem;

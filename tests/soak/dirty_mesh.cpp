@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/meshes.hpp"
+#include "support/meshes.hpp"
 
 namespace faqem::soak {
 

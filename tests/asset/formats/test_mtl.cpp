@@ -1,0 +1,219 @@
+#include "asset/formats/mtl.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/format_support.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/image/srgb.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string png = "\x89PNG\r\n\x1a\n and so on";
+const std::string jpeg = "\xFF\xD8\xFF and so on";
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+
+/// The only material of a library.
+MtlMaterial one(const std::string& text, std::vector<std::string>* warnings = nullptr) {
+    std::vector<std::string> own;
+    const auto materials = read_mtl(bytes_of(text), "a.mtl", warnings ? *warnings : own);
+    REQUIRE(materials.size() == 1);
+    return materials[0];
+}
+
+float linear(double display) { return static_cast<float>(linear_from_srgb(display)); }
+
+}  // namespace
+
+TEST_CASE("Kd is sRGB, a material is not metallic by default", "[mtl]") {
+    const Material m = one("newmtl a b\nKd 0.5 0.25 1\nKa 1 1 1\nKs 0 0 0\nNi 1.45\nillum 2\n").values;
+    CHECK(m.name == "a b");
+    CHECK(m.base_color == Vec4f{linear(0.5), linear(0.25), 1, 1});
+    CHECK(m.metallic == 0);
+    CHECK(m.roughness == 1);
+    CHECK(m.alpha_mode == AlphaMode::opaque);
+    CHECK(one("newmtl a\n").values.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(one("newmtl a\nKd 0.5\n").values.base_color == Vec4f{linear(0.5), linear(0.5), linear(0.5), 1});
+}
+
+TEST_CASE("d and Tr are the alpha, d counts where both are there", "[mtl]") {
+    CHECK(one("newmtl a\nd 0.25\n").values.base_color[3] == 0.25f);
+    CHECK(one("newmtl a\nd -halo 0.25\n").values.base_color[3] == 0.25f);
+    CHECK(one("newmtl a\nTr 0.25\n").values.base_color[3] == 0.75f);
+    CHECK(one("newmtl a\nd 1\nTr 1\n").values.base_color[3] == 1);
+    CHECK(one("newmtl a\nd 0.25\n").values.alpha_mode == AlphaMode::blend);
+    CHECK(one("newmtl a\nd 1.0\n").values.alpha_mode == AlphaMode::opaque);
+}
+
+TEST_CASE("roughness comes from Pr, else from Ns", "[mtl]") {
+    CHECK(one("newmtl a\nNs 30\n").values.roughness == Approx(0.5));  // (2 / 32)^(1/4)
+    CHECK(one("newmtl a\nNs 0\n").values.roughness == 1);
+    const Material m = one("newmtl a\nPr 0.3\nPm 0.7\nNs 30\n").values;
+    CHECK(m.roughness == 0.3f);
+    CHECK(m.metallic == 0.7f);
+}
+
+TEST_CASE("a black Kd beside a texture means white, with a warning", "[mtl]") {
+    std::vector<std::string> warnings;
+    CHECK(one("newmtl a\nKd 0 0 0\nmap_Kd a.png\n", &warnings).values.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(any_contains(warnings, "Kd 0 0 0"));
+    warnings.clear();
+    CHECK(one("newmtl a\nKd 0 0 0\n", &warnings).values.base_color == Vec4f{0, 0, 0, 1});
+    CHECK(warnings.empty());
+}
+
+TEST_CASE("emission is white where only its texture is given", "[mtl]") {
+    CHECK(one("newmtl a\nKe 0.5 0 0\n").values.emissive == Vec3f{linear(0.5), 0, 0});
+    CHECK(one("newmtl a\nmap_Ke e.png\n").values.emissive == Vec3f{1, 1, 1});
+    CHECK(one("newmtl a\n").values.emissive == Vec3f{0, 0, 0});
+}
+
+TEST_CASE("texture statements: options, blanks in names, names like numbers", "[mtl]") {
+    const auto texture = [](const std::string& statement) {
+        return one("newmtl a\nmap_Kd " + statement + "\n").color;
+    };
+    CHECK(texture("my wood.png ").file == "my wood.png");
+    const MtlTexture all = texture(
+        "-blendu on -blendv off -cc on -clamp on -mm 0 1 -texres 512 -bm 0.5 -imfchan l -boost 2 -type "
+        "sphere a b.png");
+    CHECK(all.file == "a b.png");
+    CHECK(all.wrap == Wrap::clamp);
+    const MtlTexture moved = texture("-s 2 3 1 -o 0.1 0.2 -t 1 1 1 a.png");
+    CHECK(moved.file == "a.png");
+    CHECK(moved.scale == Vec2f{2, 3});
+    CHECK(moved.offset == Vec2f{0.1f, 0.2f});
+    const MtlTexture one_number = texture("-s 2 2048");
+    CHECK(one_number.scale == Vec2f{2, 1});
+    CHECK(one_number.file == "2048");
+    CHECK(texture("-o 1 2 3 4.png").file == "4.png");
+    CHECK(texture("-clamp off a.png").wrap == Wrap::repeat);
+    CHECK(texture("-unknown.png").file == "-unknown.png");
+    CHECK(texture("").file.empty());
+    CHECK(texture("-s").file == "-s");
+}
+
+TEST_CASE("statements without a place are skipped, others counted, bad numbers are errors", "[mtl]") {
+    std::vector<std::string> warnings;
+    one("newmtl a\nmap_Bump b.png\ndisp d.png\ndisp e.png\nmap_Ka k.png\nillum 2\n", &warnings);
+    REQUIRE(warnings.size() == 2);
+    CHECK(contains(warnings[0], "a.mtl: 'disp' is not used (2 statements)"));
+    CHECK(contains(warnings[1], "'map_Bump'"));
+    CHECK(contains(message_of([] { one("newmtl a\nKd 1,0 0 0\n"); }), "a.mtl: line 2: '1,0'"));
+    warnings.clear();
+    CHECK(one("newmtl a\nKd 2 -1 nan\n", &warnings).values.base_color == Vec4f{1, 0, 1, 1});
+    CHECK(any_contains(warnings, "line 2"));
+    // The word of the next line is not the argument of this one.
+    CHECK(one("newmtl xyz\nKd 1 0 0\n").values.base_color == Vec4f{1, 0, 0, 1});
+}
+
+TEST_CASE("the transform of a texture turns v round", "[mtl]") {
+    const TemporaryFolder folder;
+    put(folder / "t.png", png);
+    put(folder / "a.mtl", "newmtl m\nmap_Kd -s 2 4 -o 0.5 0.25 t.png\n");
+    put(folder / "a.obj", "mtllib a.mtl\nusemtl m\n" + triangle);
+    const Asset asset = read_obj(folder / "a.obj");
+    const TextureRef& ref = asset.materials.at(0).base_color_texture;
+    REQUIRE(ref);
+    // At v = 0.3 (up) the file means 0.25 + 4 * 0.3 = 1.45 up, which is -0.45 down.
+    CHECK(ref.offset[1] + ref.scale[1] * (1 - 0.3f) == Approx(1 - 1.45));
+    CHECK(ref.offset[0] + ref.scale[0] * 0.3f == Approx(1.1));
+}
+
+TEST_CASE("materials and their images are loaded in the order of use, each once", "[mtl]") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "tex");
+    put(folder / "tex/wood.png", png);
+    put(folder / "tex/stone.dat", jpeg);
+    put(folder / "my lib.mtl",
+        "newmtl unused\nmap_Kd tex/none.png\nnewmtl wood\nmap_Kd tex\\wood.png\nmap_d tex\\wood.png\n"
+        "newmtl wood again\nmap_Kd ./tex/wood.png\n");
+    put(folder / "other.mtl", "newmtl stone\nmap_Kd tex/stone.dat\nmap_d mask.png\n");
+    put(folder / "a.obj",
+        "mtllib my lib.mtl\nmtllib other.mtl\n" + triangle +
+            "usemtl stone\nf 1/1 2/1 3/1\nusemtl wood\nf 1/1 2/1 3/1\nusemtl wood again\nf 1/1 2/1 3/1\n");
+    const Asset asset = read_obj(folder / "a.obj");
+    CHECK(asset.parts[0].face_material == std::vector<Index>{no_index, 0, 1, 2});
+    REQUIRE(asset.materials.size() == 3);
+    CHECK(asset.materials[0].name == "stone");
+    CHECK(asset.materials[1].name == "wood");
+    CHECK(asset.materials[1].alpha_mode == AlphaMode::blend);
+    REQUIRE(asset.images.size() == 2);
+    CHECK(asset.images[0].mime_type == "image/jpeg");
+    CHECK(asset.images[0].uri == "tex/stone.dat");
+    CHECK(asset.images[1].mime_type == "image/png");
+    CHECK(std::string(asset.images[1].encoded.begin(), asset.images[1].encoded.end()) == png);
+    CHECK(asset.materials[2].base_color_texture.image == 1);
+    CHECK(asset.warnings.size() == 1);
+    CHECK(any_contains(asset.warnings, "map_d is read only where it is the map_Kd"));
+}
+
+TEST_CASE("several libraries may share one statement", "[mtl]") {
+    const TemporaryFolder folder;
+    put(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
+    put(folder / "b c.mtl", "newmtl b\nKd 0 1 0\n");
+    put(folder / "a.obj", "mtllib a.mtl b c.mtl\nusemtl a\n" + triangle + "usemtl b\nf 1 2 3\n");
+    const Asset asset = read_obj(folder / "a.obj");
+    CHECK(asset.materials.at(0).base_color == Vec4f{1, 0, 0, 1});
+    CHECK(asset.materials.at(1).base_color == Vec4f{0, 1, 0, 1});
+    CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("a missing library, material or texture is a warning", "[mtl]") {
+    const TemporaryFolder folder;
+    put(folder / "a.obj", "mtllib none.mtl\nusemtl m\n" + triangle);
+    const Asset no_library = read_obj(folder / "a.obj");
+    CHECK(any_contains(no_library.warnings, "none.mtl"));
+    CHECK(any_contains(no_library.warnings, "material 'm'"));
+    CHECK(no_library.materials.at(0).name == "m");
+    CHECK(no_library.materials.at(0).metallic == 0);
+    put(folder / "none.mtl", "newmtl m\nKd 1 0 0\nmap_Kd none.png\n");
+    const Asset no_texture = read_obj(folder / "a.obj");
+    CHECK(any_contains(no_texture.warnings, "none.png"));
+    CHECK(no_texture.warnings.size() == 1);
+    CHECK(no_texture.materials.at(0).base_color == Vec4f{1, 0, 0, 1});
+    CHECK(!no_texture.materials.at(0).base_color_texture);
+}
+
+TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "in/lib");
+    put(folder / "secret.png", png);
+    put(folder / "secret.mtl", "newmtl m\nKd 1 0 0\n");
+    put(folder / "in/inside.png", png);
+    fs::create_symlink("../secret.png", folder / "in/link.png");
+    const std::vector<std::string> names = {
+        "../secret.png",  "..\\secret.png", (folder / "secret.png").string(),
+        "C:\\secret.png", "link.png",       "lib/../../secret.png"};
+    for (const std::string& name : names) {
+        CAPTURE(name);
+        put(folder / "in/a.mtl", "newmtl m\nmap_Kd " + name + "\n");
+        put(folder / "in/a.obj", "mtllib a.mtl\nusemtl m\n" + triangle);
+        const Asset asset = read_obj(folder / "in/a.obj");
+        CHECK(asset.images.empty());
+        CHECK(asset.warnings.size() == 1);
+    }
+    put(folder / "in/a.obj", "mtllib ../secret.mtl\nusemtl m\n" + triangle);
+    CHECK(read_obj(folder / "in/a.obj").materials.at(0).base_color == Vec4f{1, 1, 1, 1});
+    // A library in a folder of its own may refer to what lies above it, inside the model's folder.
+    put(folder / "in/lib/a.mtl", "newmtl m\nmap_Kd ../inside.png\n");
+    put(folder / "in/a.obj", "mtllib lib/a.mtl\nusemtl m\n" + triangle);
+    const Asset asset = read_obj(folder / "in/a.obj");
+    REQUIRE(asset.images.size() == 1);
+    CHECK(asset.images[0].uri == "inside.png");
+    CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("a library that no face uses is told of", "[mtl]") {
+    const TemporaryFolder folder;
+    put(folder / "a.mtl", "newmtl m\nKd 1 0 0\n");
+    put(folder / "a.obj", "mtllib a.mtl\n" + triangle);
+    const Asset asset = read_obj(folder / "a.obj");
+    CHECK(asset.materials.empty());
+    REQUIRE(asset.warnings.size() == 1);
+    CHECK_THAT(asset.warnings[0], Catch::Contains("no face uses a material"));
+}

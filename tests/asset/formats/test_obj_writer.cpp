@@ -1,0 +1,227 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "support/format_support.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/image/srgb.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string png = "\x89PNG\r\n\x1a\n first";
+const std::string jpeg = "\xFF\xD8\xFF second";
+
+Image image(const std::string& type, const std::string& bytes) {
+    Image result;
+    result.mime_type = type;
+    result.encoded.assign(bytes.begin(), bytes.end());
+    return result;
+}
+
+/// Two triangles with two materials that share an edge, with a UV seam along it.
+Asset textured() {
+    Asset asset =
+        one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
+    Part& part = asset.parts[0];
+    part.name = "leaf";
+    part.face_material = {1, 0};
+    part.normals.assign(6, {0, 0, 1});
+    part.uvs = {{{0, 0.25f}, {0.5f, 1}, {0.125f, 0}, {0.75f, 0}, {1, 1}, {0, 0.5f}}};
+    asset.images = {image("image/png", png), image("image/jpeg", jpeg)};
+    asset.materials.resize(2);
+    asset.materials[0].name = "same name";
+    asset.materials[0].base_color = {0.5f, 0.25f, 0.125f, 0.5f};
+    asset.materials[0].base_color_texture.image = 0;
+    asset.materials[0].alpha_mode = AlphaMode::blend;
+    asset.materials[0].roughness = 0.3f;
+    asset.materials[0].metallic = 0.1f;
+    asset.materials[1].name = "same name";
+    asset.materials[1].base_color_texture.image = 1;
+    asset.materials[1].base_color_texture.wrap_u = asset.materials[1].base_color_texture.wrap_v = Wrap::clamp;
+    asset.materials[1].emissive = {0.5f, 1, 0};
+    asset.materials[1].emissive_texture.image = 0;
+    asset.materials[1].normal_texture.image = 0;
+    return asset;
+}
+
+std::size_t count_lines(const std::string& text, const std::string& start) {
+    std::istringstream in(text);
+    std::size_t count = 0;
+    for (std::string line; std::getline(in, line);) count += line.rfind(start, 0) == 0;
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("an OBJ file comes with its library and images", "[obj_writer]") {
+    const TemporaryFolder folder;
+    CHECK(write_obj(textured(), folder / "my model.obj", Overwrite::no).empty());
+    const std::string obj = get(folder / "my model.obj");
+    CHECK(contains(obj, "mtllib my model.mtl\no leaf\n"));
+    CHECK(count_lines(obj, "v ") == 4);  // positions are shared across the seam
+    CHECK(count_lines(obj, "vt ") == 6);
+    CHECK(count_lines(obj, "vn ") == 1);
+    CHECK(contains(obj, "vt 0 0.75\n"));  // v points up
+    CHECK(contains(obj, "usemtl same name\nf 1/1/1 2/2/1 3/3/1\nusemtl same name_2\nf 1/4/1 3/5/1 4/6/1\n"));
+    CHECK(get(folder / "my model_0.jpg") == jpeg);
+    CHECK(get(folder / "my model_1.png") == png);
+    const std::string mtl = get(folder / "my model.mtl");
+    CHECK(contains(mtl, "map_Kd -clamp on my model_0.jpg\nmap_Ke my model_1.png\nnorm my model_1.png\n"));
+    CHECK(contains(mtl, "d 0.5\nPr 0.3\nPm 0.1\nmap_Kd my model_1.png\nmap_d my model_1.png\n"));
+    CHECK(contains(mtl, "Kd 0.735357 0.537099 0.388573\n"));  // the sRGB of 1/2, 1/4, 1/8
+}
+
+TEST_CASE("a textured OBJ file reads back as it was, and written again is the same", "[obj_writer]") {
+    const TemporaryFolder first, second;
+    const Asset asset = textured();
+    write_obj(asset, first / "a.obj", Overwrite::no);
+    const Asset back = read_obj(first / "a.obj");
+    CHECK(back.warnings.empty());
+    const Part &part = back.parts.at(0), &original = asset.parts[0];
+    CHECK(part.name == "leaf");
+    REQUIRE(part.triangles.size() == 2);
+    for (std::size_t f = 0; f < 2; ++f)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index v = part.triangles[f][c], w = original.triangles[f][c];
+            CHECK(part.positions[v] == original.positions[w]);
+            CHECK(part.uvs[0][v] == original.uvs[0][w]);
+            CHECK(part.normals[v] == original.normals[w]);
+        }
+    CHECK(part.face_material == std::vector<Index>{0, 1});
+    const Material &m = back.materials.at(1), &expected = asset.materials[0];
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(m.base_color[k] == Approx(expected.base_color[k]).epsilon(1e-5));
+    CHECK(m.roughness == expected.roughness);
+    CHECK(m.metallic == expected.metallic);
+    CHECK(m.alpha_mode == AlphaMode::blend);
+    CHECK(back.images.at(m.base_color_texture.image).encoded == asset.images[0].encoded);
+    CHECK(back.materials[0].base_color_texture.wrap_u == Wrap::clamp);
+    CHECK(back.materials[0].emissive_texture.image == m.base_color_texture.image);
+    CHECK(back.materials[0].normal_texture.image == m.base_color_texture.image);
+    write_obj(back, second / "a.obj", Overwrite::no);
+    for (const char* name : {"a.obj", "a.mtl", "a_0.jpg", "a_1.png"})
+        CHECK(get(first / name) == get(second / name));
+}
+
+TEST_CASE("random meshes written, read and written again are the same", "[obj_writer]") {
+    const TemporaryFolder folder;
+    std::mt19937 random(11);
+    const auto number = [&] {
+        const double mantissa = random() / 4294967296.0 - 0.5;
+        return static_cast<float>(std::ldexp(mantissa, static_cast<int>(random() % 60) - 30));
+    };
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Vec3> positions;
+        std::vector<Triangle> triangles;
+        for (int i = 0; i < 60; ++i) positions.push_back({number(), number(), number()});
+        for (int i = 0; i < 80; ++i)
+            triangles.push_back({Index(random() % 50), Index(random() % 50), Index(random() % 50)});
+        Asset asset = one_part(positions, triangles);
+        Part& part = asset.parts[0];
+        part.uvs.resize(1);
+        asset.materials.resize(3);
+        for (int i = 0; i < 60; ++i) {
+            part.normals.push_back(i % 7 ? Vec3f{number(), number(), number()} : Vec3f{0, 0, 0});
+            part.uvs[0].push_back({number(), number()});
+            part.colors.push_back({std::abs(number()), 0.3f, random() / 4294967296.0f, 1});
+        }
+        for (Index& m : part.face_material) m = random() % 4 ? random() % 3 : no_index;
+        if (round % 2) part.positions[3] = {0.1, 1e-17, 12345.678901234};
+        write_obj(asset, folder / "a.obj", Overwrite::yes);
+        const std::string once = get(folder / "a.obj"), library = get(folder / "a.mtl");
+        write_obj(read_obj(folder / "a.obj"), folder / "a.obj", Overwrite::yes);
+        CHECK(get(folder / "a.obj") == once);
+        CHECK(get(folder / "a.mtl") == library);
+    }
+}
+
+TEST_CASE("doubles are written as doubles, floats short", "[obj_writer]") {
+    const TemporaryFolder folder;
+    write_obj(one_part({{0.1f, 0, 0}, {1, 0, 0}, {1, 1e10f, 0}}, {{0, 1, 2}}), folder / "a.obj",
+              Overwrite::yes);
+    CHECK(contains(get(folder / "a.obj"), "v 0.1 0 0\n"));
+    const Asset precise = one_part({{0.1f, 0, 0}, {1. / 3, 0, 0}, {1, 1e-300, 0}}, {{0, 1, 2}});
+    write_obj(precise, folder / "a.obj", Overwrite::yes);
+    CHECK(contains(get(folder / "a.obj"), "v 0.10000000149011612 0 0\nv 0.3333333333333333 0 0\n"));
+    CHECK(read_obj(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
+}
+
+TEST_CASE("a plain mesh has no library, a face without a material beside others gets a default",
+          "[obj_writer]") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});
+    write_obj(asset, folder / "a.obj", Overwrite::no);
+    CHECK(get(folder / "a.obj") == "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
+    CHECK(!fs::exists(folder / "a.mtl"));
+    asset.materials.resize(1);
+    asset.materials[0].name = "default";
+    asset.parts[0].face_material = {0, no_index};
+    write_obj(asset, folder / "b.obj", Overwrite::no);
+    CHECK(contains(get(folder / "b.obj"), "usemtl default\nf 1 2 3\nusemtl default_2\nf 3 2 1\n"));
+}
+
+TEST_CASE("names that would break a statement are changed", "[obj_writer]") {
+    const TemporaryFolder folder;
+    Asset asset = textured();
+    asset.parts[0].name = " a\nf 1 2 3\\ ";
+    asset.materials[1].name = "x\r\nKd 0 0 0";
+    write_obj(asset, folder / "a.obj", Overwrite::no);
+    CHECK(contains(get(folder / "a.obj"), "o a_f 1 2 3\n"));
+    CHECK(read_obj(folder / "a.obj").materials.at(0).name == "x__Kd 0 0 0");
+}
+
+TEST_CASE("the UV set and transform of the leading texture are baked into the UVs", "[obj_writer]") {
+    const TemporaryFolder folder;
+    Asset asset = textured();
+    Part& part = asset.parts[0];
+    part.uvs.push_back(std::vector<Vec2f>(6, {0.5f, 0.25f}));
+    TextureRef& ref = asset.materials[1].base_color_texture;
+    ref.uv_set = 1;
+    ref.scale = {2, 4};
+    ref.offset = {0.25f, 0.5f};
+    ref.rotation = static_cast<float>(std::acos(-1.0) / 2);
+    const auto losses = write_obj(asset, folder / "a.obj", Overwrite::no);
+    const Asset back = read_obj(folder / "a.obj");
+    // Scaled (1, 1); a quarter turn, v pointing down: (u, v) -> (v, -u); moved: (1.25, -0.5).
+    const Vec2f uv = back.parts[0].uvs.at(0)[back.parts[0].triangles[0][0]];
+    CHECK(uv[0] == Approx(1.25));
+    CHECK(uv[1] == Approx(-0.5));
+    CHECK(any_contains(losses, "different UVs for the textures of a material (1 material)"));
+}
+
+TEST_CASE("the OBJ writer says what it leaves out", "[obj_writer]") {
+    const TemporaryFolder folder;
+    Asset asset = textured();
+    Material& m = asset.materials[0];
+    m.metallic_roughness_texture.image = m.occlusion_texture.image = 0;
+    m.normal_texture.image = 0;
+    m.normal_scale = 0.5f;
+    m.alpha_mode = AlphaMode::mask;
+    m.unlit = m.double_sided = true;
+    m.extensions = {"KHR_materials_sheen"};
+    m.base_color_texture.wrap_u = Wrap::mirror;
+    asset.parts[0].colors.assign(6, {1, 1, 1, 0.5f});
+    const auto losses = write_obj(asset, folder / "a.obj", Overwrite::no);
+    for (const char* what : {"metallic-roughness", "occlusion", "scale of normal maps", "cutoffs", "unlit",
+                             "double-sided", "extensions", "mirrored", "alpha of vertex colours"}) {
+        CAPTURE(what);
+        CHECK(any_contains(losses, what));
+    }
+}
+
+TEST_CASE("an OBJ file that exists, or whose images do, is not replaced unasked, and nothing is left behind",
+          "[obj_writer]") {
+    for (const char* existing : {"a.obj", "a.mtl", "a_1.png"}) {
+        const TemporaryFolder folder;
+        put(folder / existing, "old");
+        CHECK_THROWS_AS(write_obj(textured(), folder / "a.obj", Overwrite::no), WriteError);
+        CHECK(get(folder / existing) == "old");
+        CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
+    }
+}

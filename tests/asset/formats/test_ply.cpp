@@ -1,0 +1,305 @@
+#include "asset/formats/ply.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "support/format_support.hpp"
+#include "asset/image/srgb.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+
+namespace {
+
+Asset parse(const std::string& text) { return read_ply(bytes_of(text), "a.ply"); }
+
+std::string error_of(const std::string& text) {
+    return message_of([&] { parse(text); });
+}
+
+/// The bytes of values one after the other, little or big end first.
+class Binary {
+public:
+    explicit Binary(bool big) : big_(big) {}
+    template <class T>
+    Binary& put(T value) {
+        auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+        if (big_ != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+        text_.append(raw.data(), raw.size());
+        return *this;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    bool big_;
+    std::string text_;
+};
+
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+
+std::string ascii(const std::string& vertex, const std::string& face, const std::string& data,
+                  int vertices = 3, int faces = 1) {
+    return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) + "\n" + xyz + vertex +
+           "element face " + std::to_string(faces) + "\n" + face + "end_header\n" + data;
+}
+
+const std::string indices = "property list uchar int vertex_indices\n";
+const std::string three = "0 0 0\n1 0 0\n1 1 0\n";
+
+}  // namespace
+
+TEST_CASE("ASCII PLY", "[ply]") {
+    const Asset asset = parse(ascii("", indices, three + "3 0 1 2\n"));
+    CHECK(asset.parts.at(0).positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+    CHECK(asset.parts[0].triangles == std::vector<Triangle>{{0, 1, 2}});
+    CHECK(asset.parts[0].face_material == std::vector<Index>{no_index});
+    CHECK(asset.parts[0].name == "a");
+    CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("header variants: CRLF, CR, comments, obj_info, other names of types and lists", "[ply]") {
+    const std::string text =
+        "ply\ncomment made by hand\nformat ascii 1.0\nobj_info num 1\nelement vertex 3\nproperty float64 x\n"
+        "property double y\nproperty float32 z\ncomment between\nelement face 1\n"
+        "property list uint8 uint32 vertex_index\nend_header\n0.1 0 0\n1 0 0\n\n1 1 0\n3 0 1 2";
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        std::string copy;
+        for (const char c : text) copy += c == '\n' ? end : std::string(1, c);
+        const Part part = parse(copy).parts.at(0);
+        CHECK(part.positions[0] == Vec3{0.1, 0, 0});
+        CHECK(part.triangles.size() == 1);
+    }
+}
+
+TEST_CASE("binary PLY of both byte orders with every type of number and of list", "[ply]") {
+    for (const bool big : {false, true}) {
+        CAPTURE(big);
+        const std::string header =
+            std::string("ply\nformat binary_") + (big ? "big" : "little") +
+            "_endian 1.0\nelement other 2\nproperty list ushort double a\nproperty char b\n"
+            "element vertex 4\nproperty short x\nproperty list int8 float skip\nproperty double y\n"
+            "property int z\nproperty uchar extra\nelement face 2\nproperty float before\n"
+            "property list uint ushort vertex_indices\nproperty list short uint after\nend_header\n";
+        Binary data(big);
+        data.put<std::uint16_t>(2).put(1.5).put(2.5).put<std::int8_t>(-1);
+        data.put<std::uint16_t>(0).put<std::int8_t>(-1);
+        const std::array<std::array<double, 3>, 4> points = {
+            {{0, 0, 0}, {1, 0.5, 0}, {1, 1, -70000}, {-300, 1, 0}}};
+        for (const auto& p : points) {
+            data.put(static_cast<std::int16_t>(p[0])).put<std::int8_t>(1).put(9.0f).put(p[1]);
+            data.put(static_cast<std::int32_t>(p[2])).put<std::uint8_t>(7);
+        }
+        data.put(1.0f).put<std::uint32_t>(3);
+        for (const std::uint16_t i : {0, 1, 2}) data.put(i);
+        data.put<std::int16_t>(1).put<std::uint32_t>(5);
+        data.put(1.0f).put<std::uint32_t>(4);
+        for (const std::uint16_t i : {0, 1, 2, 3}) data.put(i);
+        data.put<std::int16_t>(0);
+        const Asset asset = parse(header + data.text());
+        const Part& part = asset.parts.at(0);
+        for (std::size_t v = 0; v < 4; ++v) CHECK(part.positions[v] == points[v]);
+        CHECK(part.triangles.size() == 3);
+        CHECK(part.triangles[0] == Triangle{0, 1, 2});
+        CHECK(asset.warnings.empty());
+    }
+}
+
+TEST_CASE("data after a CR-only header may start with a line feed", "[ply]") {
+    std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
+        "property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+    std::replace(header.begin(), header.end(), '\n', '\r');
+    const Part part = parse(header + std::string("\x0A\0\0\1\0\0\0\1\0\3\0\1\2", 13)).parts.at(0);
+    CHECK(part.positions[0] == Vec3{10, 0, 0});
+}
+
+TEST_CASE("normals, colours and UVs of vertices", "[ply]") {
+    const std::string properties =
+        "property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n"
+        "property uchar blue\nproperty uchar alpha\nproperty float s\nproperty float t\n";
+    const Part part = parse(ascii(properties, indices,
+                                  "0 0 0 0 0 1 255 128 0 51 0.5 0.25\n1 0 0 0 0 1 0 0 0 255 0 0\n"
+                                  "1 1 0 0 0 1 0 0 0 255 0 0\n3 0 1 2\n"))
+                          .parts.at(0);
+    CHECK(part.normals.at(0) == Vec3f{0, 0, 1});
+    CHECK(part.colors.at(0) == Vec4f{1, static_cast<float>(linear_from_srgb(128 / 255.0)), 0, 0.2f});
+    CHECK(part.uvs.at(0).at(0) == Vec2f{0.5f, 0.75f});
+}
+
+TEST_CASE("other names and types of colours and UVs", "[ply]") {
+    const std::string data = "0 0 0 1 0.5 0 0.5 1\n1 0 0 1 0.5 0 0 0\n1 1 0 1 0.5 0 0 0\n3 0 1 2\n";
+    for (const std::string names :
+         {"r g b u v", "red green blue texture_u texture_v", "diffuse_red diffuse_green diffuse_blue s t"}) {
+        std::string properties = "property float ";
+        for (const char c : names) properties += c == ' ' ? "\nproperty float " : std::string(1, c);
+        const Part part = parse(ascii(properties + "\n", indices, data)).parts.at(0);
+        CHECK(part.colors.at(0) == Vec4f{1, static_cast<float>(linear_from_srgb(0.5)), 0, 1});
+        CHECK(part.uvs.at(0).at(0) == Vec2f{0.5f, 0});
+    }
+    const Part wide = parse(ascii("property ushort red\nproperty ushort green\nproperty ushort blue\n",
+                                  indices, "0 0 0 65535 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n3 0 1 2\n"))
+                          .parts.at(0);
+    CHECK(wide.colors.at(0) == Vec4f{1, 0, 0, 1});
+}
+
+TEST_CASE("colours and UVs of faces are warned of", "[ply]") {
+    const Asset asset = parse(ascii("", indices + "property list uchar float texcoord\nproperty uchar red\n",
+                                    three + "3 0 1 2 2 0.5 0.5 255\n"));
+    CHECK(asset.warnings.size() == 2);
+    CHECK(any_contains(asset.warnings, "texcoord"));
+    CHECK(any_contains(asset.warnings, "red"));
+}
+
+TEST_CASE("polygons are split, faces of two corners left out, faces may come before vertices", "[ply]") {
+    const Asset asset = parse("ply\nformat ascii 1.0\nelement face 2\n" + indices + "element vertex 4\n" +
+                              xyz + "end_header\n4 0 1 2 3\n2 0 1\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n");
+    REQUIRE(asset.parts.at(0).triangles.size() == 2);
+    CHECK(any_contains(asset.warnings, "1 face of fewer than three"));
+    // Corner 2 is reflex: the cut goes through it, not from 1 to 3.
+    for (const Triangle& t : asset.parts[0].triangles) CHECK(std::count(t.begin(), t.end(), 2u) == 1);
+}
+
+//  0---2---4        strip 0 1 2 3 4 5; every second triangle is turned round to keep one side up
+//   \ / \ / \       .
+//    1---3---5
+TEST_CASE("triangle strips", "[ply]") {
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 6\n" + xyz +
+                               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    const Part part =
+        parse(header + "0 1 0\n0 0 0\n1 1 0\n1 0 0\n2 1 0\n2 0 0\n10 0 1 2 3 4 5 -1 3 4 5\n").parts.at(0);
+    CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}, {3, 4, 5}});
+    CHECK(contains(error_of(header + three + three + "3 0 1 -2\n"), "vertex -2 is out of range"));
+}
+
+TEST_CASE("counts are checked against the size of the file before memory is taken", "[ply]") {
+    const auto file = [](const std::string& format, const std::string& vertices, const std::string& faces) {
+        return "ply\nformat " + format + " 1.0\nelement vertex " + vertices + "\n" + xyz + "element face " +
+               faces + "\n" + indices + "end_header\n";
+    };
+    for (const std::string format : {"ascii", "binary_little_endian"}) {
+        CHECK(contains(error_of(file(format, "4000000000", "1")),
+                       "a.ply: element vertex: the file is too short"));
+        CHECK(contains(error_of(file(format, "0", "4000000000")),
+                       "a.ply: element face: the file is too short"));
+        CHECK(contains(error_of(file(format, "4294967296", "1")), "more than the 4294967295"));
+        CHECK(contains(error_of(file(format, "18446744073709551615", "1")), "more than the 4294967295"));
+        CHECK(contains(error_of(file(format, "99999999999999999999", "1")), "a.ply: line 3: "));
+        CHECK(contains(error_of(file(format, "-1", "1")), "a.ply: line 3: "));
+    }
+    const std::string long_list = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + xyz +
+                                  "element face 1\nproperty list uint double vertex\nproperty list uint int "
+                                  "vertex_indices\nend_header\n";
+    CHECK(contains(error_of(long_list + std::string("\xFF\xFF\xFF\xFF\0\0\0\0", 8)),
+                   "a.ply: the file is too short for a list of 4294967295 (face 0)"));
+    // Rows without properties take no bytes; there may be any number of them.
+    CHECK(parse("ply\nformat ascii 1.0\nelement nothing 4000000000\nelement vertex 3\n" + xyz +
+                "element face 1\n" + indices + "end_header\n" + three + "3 0 1 2\n")
+              .parts.size() == 1);
+}
+
+TEST_CASE("errors name the element and its number", "[ply]") {
+    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")),
+                   "a.ply: line 11: 'x' is not a number (vertex 1)"));
+    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0\n1 1 0\n3 0 1 2\n")), "(vertex 1)"));
+    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0 0 7\n1 1 0\n3 0 1 2\n")),
+                   "unexpected '7' (vertex 1)"));
+    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 3\n")),
+                   "vertex 3 is out of range: there are 3 (face 0)"));
+    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 -1\n")), "vertex -1 is out of range"));
+    CHECK(contains(error_of(ascii("", indices, three + "300 0 1 2\n")), "does not fit"));
+    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 2.0\n")), "(face 0)"));
+    CHECK(contains(error_of(ascii("", "property list char int vertex_indices\n", three + "-3 0 1 2\n")),
+                   "negative length (face 0)"));
+}
+
+TEST_CASE("headers that make no sense are errors with their line", "[ply]") {
+    const std::string good = ascii("", indices, three + "3 0 1 2\n");
+    const auto with = [&](const std::string& what, const std::string& by) {
+        std::string text = good;
+        text.replace(text.find(what), what.size(), by);
+        return error_of(text);
+    };
+    CHECK(contains(error_of("solid"), "does not start with 'ply'"));
+    CHECK(contains(with("ascii 1.0", "ascii 2.0"), "line 2: only version 1.0"));
+    CHECK(contains(with("ascii", "text"), "line 2: unknown format 'text'"));
+    CHECK(contains(with("format ascii 1.0\n", ""), "no format"));
+    CHECK(contains(with("float x", "quad x"), "line 4: unknown type 'quad'"));
+    CHECK(contains(with("float x", "float q"), "lacks x, y or z"));
+    CHECK(contains(with("element vertex 3", "property float w"), "line 3: a property before"));
+    CHECK(contains(with("element vertex 3", "element points 3"), "no element vertex"));
+    CHECK(contains(with("element face 1", "element vertex 1"), "more than one element vertex"));
+    CHECK(contains(with("end_header", "end_headers"), "unknown statement 'end_headers'"));
+    CHECK(contains(with("list uchar int", "list float int"), "must be an integer"));
+    CHECK(contains(with("list uchar int", "list uchar float"), "lacks a list vertex_indices of integers"));
+    CHECK(contains(with("vertex_indices", "indices"), "lacks a list vertex_indices"));
+    CHECK(contains(error_of("ply\nformat ascii 1.0\n"), "no end_header"));
+}
+
+TEST_CASE("bytes that are left over are warned of", "[ply]") {
+    CHECK(any_contains(parse(ascii("", indices, three + "3 0 1 2\n3 0 1 2\n")).warnings, "8 bytes after"));
+    CHECK(parse(ascii("", indices, three + "3 0 1 2\n\n \n")).warnings.empty());
+}
+
+TEST_CASE("no faces is an error, non-finite positions are repaired", "[ply]") {
+    CHECK(contains(error_of(ascii("", indices, three, 3, 0)), "a.ply: no faces"));
+    CHECK(contains(error_of("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "end_header\n" + three),
+                   "a.ply: no faces"));
+    const Asset asset = parse(ascii("", indices, "0 0 0\n1 0 0\n1 1 0\nnan 0 0\n3 0 1 2\n4 0 1 2 3\n", 4, 2));
+    CHECK(asset.parts[0].triangles.size() == 1);
+    CHECK(asset.parts[0].positions.size() == 3);
+    CHECK(any_contains(asset.warnings,
+                       "1 vertex with a position that is not finite: left out, and 1 face there"));
+}
+
+TEST_CASE("PLY written, read and written again is the same", "[ply]") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0, 0, 0}, {0.5f, 0.25f, 0}, {1, 1, 0}, {0.1f, 7, 9}}, {{0, 1, 2}, {2, 1, 0}});
+    Part& part = asset.parts[0];
+    part.normals = {{0, 0, 1}, {0, 1, 0}, {0.6f, 0.8f, 0}, {0, 0, 0}};
+    part.colors = {{1, 0.5f, 0.01f, 1}, {0, 0.2f, 0.7f, 1}, {0.1f, 0.3f, 0.9f, 0.999f}, {1, 1, 1, 1}};
+    part.uvs = {{{0.1f, 0.2f}, {0.3f, 0.7f}, {-4, 5.5f}, {1e-9f, 1e-9f}}};
+    for (const bool doubles : {false, true}) {
+        if (doubles) part.positions[0][0] = 0.1;
+        CHECK(write_ply(asset, folder / "a.ply", Overwrite::yes).empty());
+        const Asset back = read_ply(folder / "a.ply");
+        CHECK(back.warnings.empty());
+        CHECK(back.parts[0].positions == part.positions);
+        CHECK(back.parts[0].triangles == part.triangles);
+        CHECK(back.parts[0].normals == part.normals);
+        CHECK(write_ply(back, folder / "b.ply", Overwrite::yes).empty());
+        CHECK(get(folder / "a.ply") == get(folder / "b.ply"));
+        CHECK(contains(get(folder / "a.ply"), doubles ? "property double x" : "property float x"));
+        for (std::size_t v = 0; v < 4; ++v)
+            for (std::size_t k = 0; k < 2; ++k)
+                CHECK(back.parts[0].uvs.at(0)[v][k] == Approx(part.uvs[0][v][k]).margin(1e-7));
+    }
+}
+
+TEST_CASE("all 256 levels of a colour come back from a PLY file", "[ply]") {
+    const TemporaryFolder folder;
+    std::vector<Vec3> positions(256, Vec3{0, 0, 0});
+    Asset asset = one_part(positions, {{0, 1, 2}});
+    for (int i = 0; i < 256; ++i) {
+        const auto c = static_cast<float>(linear_from_srgb(i / 255.0));
+        asset.parts[0].colors.push_back({c, c, c, static_cast<float>(i) / 255.0f});
+    }
+    write_ply(asset, folder / "a.ply", Overwrite::no);
+    CHECK(read_ply(folder / "a.ply").parts[0].colors == asset.parts[0].colors);
+}
+
+TEST_CASE("the PLY writer says what it leaves out", "[ply]") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+    asset.materials.emplace_back();
+    asset.parts[0].uvs.resize(2, std::vector<Vec2f>(3));
+    asset.parts[0].tangents.resize(3);
+    asset.parts[0].joints.resize(3);
+    asset.parts[0].morph_targets.resize(1);
+    const auto losses = write_ply(asset, folder / "a.ply", Overwrite::no);
+    for (const char* what : {"materials", "more than one set", "tangents", "skins", "morph targets"})
+        CHECK(any_contains(losses, what));
+}

@@ -1,0 +1,143 @@
+#include "asset/formats/stl.hpp"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "support/format_support.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+
+namespace {
+
+Asset parse(const std::string& text) { return read_stl(bytes_of(text), "a.stl"); }
+
+std::string error_of(const std::string& text) {
+    return message_of([&] { parse(text); });
+}
+
+std::string u32(std::uint32_t value) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(value >> shift);
+    return text;
+}
+
+std::string facet(const std::vector<float>& corners) {
+    std::string text(12, '\0');
+    for (const float x : corners) text += u32(std::bit_cast<std::uint32_t>(x));
+    return text + std::string(2, '\0');
+}
+
+std::string binary(const std::string& start, const std::vector<std::string>& facets) {
+    std::string text =
+        start + std::string(80 - start.size(), ' ') + u32(static_cast<std::uint32_t>(facets.size()));
+    for (const std::string& f : facets) text += f;
+    return text;
+}
+
+const std::string ascii_facet =
+    " facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 1 1 0\n  endloop\n "
+    "endfacet\n";
+
+}  // namespace
+
+TEST_CASE("binary STL shares equal positions, -0 being 0", "[stl]") {
+    for (const std::string start : {"", "solid like a text"}) {
+        const Asset asset = parse(
+            binary(start, {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({-0.0f, 0, -0.0f, 1, 1, 0, 0, 1, 0})}));
+        const Part& part = asset.parts.at(0);
+        CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+        CHECK(part.positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+        CHECK(!std::signbit(part.positions[0][0]));
+        CHECK(part.face_material.size() == 2);
+        CHECK(asset.warnings.empty());
+    }
+}
+
+TEST_CASE("binary STL of another size than its count says is an error", "[stl]") {
+    const std::string good = binary("x", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0})});
+    CHECK(contains(error_of(good.substr(0, good.size() - 1)),
+                   "a.stl: header: 1 facet need 134 bytes, the file has 133"));
+    CHECK(contains(error_of(good + "x"), "the file has 135"));
+    CHECK(contains(error_of(binary("solid x", {}) + "rest"), "0 facets need 84 bytes, the file has 88"));
+    std::string many = good;
+    many.replace(80, 4, "\xFF\xFF\xFF\xFF");
+    CHECK(contains(error_of(many), "4294967295 facets need 214748364834 bytes"));
+    CHECK(contains(error_of(std::string(20, '\0')), "neither ASCII STL nor long enough"));
+    CHECK(contains(error_of(binary("", {})), "a.stl: no faces"));
+}
+
+TEST_CASE("ASCII STL: several solids, any case of letters, any line end", "[stl]") {
+    const std::string text =
+        "solid a b c\n" + ascii_facet + ascii_facet + "endsolid a b c\n\nsolid\n" + ascii_facet + "endsolid";
+    std::string upper = text;
+    for (char& c : upper) c = static_cast<char>(std::toupper(c));
+    std::string cr = text;
+    for (char& c : cr) c = c == '\n' ? '\r' : c;
+    for (const std::string& variant : {text, upper, cr, "\xEF\xBB\xBF" + text}) {
+        const Part part = parse(variant).parts.at(0);
+        CHECK(part.triangles.size() == 3);
+        CHECK(part.positions.size() == 3);
+    }
+    CHECK(parse("solid\nfacet normal nan nan nan\nouter loop\nvertex 1e-3 0 0\nvertex +1 0 0\nvertex 1 1 "
+                "0\nendloop\n"
+                "endfacet\nendsolid\n")
+              .parts[0]
+              .positions[0] == Vec3{0.001, 0, 0});
+}
+
+TEST_CASE("broken ASCII STL is an error with its line", "[stl]") {
+    const std::string good = "solid\n" + ascii_facet + "endsolid\n";
+    const auto with = [&](const std::string& what, const std::string& by) {
+        std::string text = good;
+        text.replace(text.find(what), what.size(), by);
+        return error_of(text);
+    };
+    CHECK(contains(with("vertex 1 0 0", "vertex 1,5 0 0"), "a.stl: line 5: '1,5' is not a number"));
+    CHECK(contains(with("   vertex 1 1 0\n", ""), "line 6: 'endloop' instead of 'vertex'"));
+    CHECK(contains(with("  endloop", "vertex 0 1 0\n  endloop"), "instead of 'endloop'"));
+    CHECK(contains(with("endsolid\n", ""), "the file ends where 'endsolid'"));
+    CHECK(contains(error_of("solid\nendsolid\n"), "a.stl: no faces"));
+    CHECK(contains(error_of(""), "the file ends where 'solid'"));
+    CHECK(contains(error_of("hello"), "'hello' instead of 'solid'"));
+}
+
+TEST_CASE("non-finite positions are repaired, colours in the header warned of", "[stl]") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Asset asset = parse(
+        binary("COLOR=abcd", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({0, 0, 0, 1, 0, 0, nan, 1, 0})}));
+    CHECK(asset.parts[0].triangles.size() == 1);
+    CHECK(asset.parts[0].positions.size() == 3);
+    CHECK(asset.warnings.size() == 2);
+}
+
+TEST_CASE("STL written, read and written again is the same", "[stl]") {
+    const TemporaryFolder folder;
+    const Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.25, 3}}, {{0, 1, 2}, {0, 2, 3}});
+    CHECK(write_stl(asset, folder / "a.stl", Overwrite::no).empty());
+    const std::string bytes = get(folder / "a.stl");
+    CHECK(bytes.size() == 84 + 2 * 50);
+    CHECK(bytes.substr(84, 12) == u32(0) + u32(0) + u32(std::bit_cast<std::uint32_t>(1.0f)));  // its normal
+    const Asset back = read_stl(folder / "a.stl");
+    CHECK(back.parts[0].positions == asset.parts[0].positions);
+    CHECK(back.parts[0].triangles == asset.parts[0].triangles);
+    write_stl(back, folder / "b.stl", Overwrite::no);
+    CHECK(get(folder / "b.stl") == bytes);
+}
+
+TEST_CASE("the STL writer says what it leaves out, and does not write infinities", "[stl]") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0.1, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+    asset.materials.emplace_back();
+    asset.parts[0].uvs.resize(1, std::vector<Vec2f>(3));
+    asset.parts[0].normals.resize(3);
+    asset.parts[0].colors.resize(3);
+    const auto losses = write_stl(asset, folder / "a.stl", Overwrite::no);
+    for (const char* what : {"double precision", "normals", "texture coordinates", "colours", "materials"})
+        CHECK(any_contains(losses, what));
+    asset.parts[0].positions[0][0] = 1e39;
+    CHECK_THROWS_AS(write_stl(asset, folder / "b.stl", Overwrite::no), WriteError);
+}

@@ -1,0 +1,365 @@
+// Every glTF input that must be refused, with the message that says why.
+
+#include <catch2/catch.hpp>
+
+#include "support/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+/// Refused as InputError with all these words in the message.
+void check_refused(const std::string& glb, const std::vector<std::string>& words) {
+    const std::string message = refusal(glb);
+    INFO(message);
+    CHECK(contains(message, "a.glb"));
+    for (const std::string& word : words) {
+        INFO(word);
+        CHECK(contains(message, word));
+    }
+}
+
+void check_refused(const GltfBuilder& builder, const std::vector<std::string>& words) {
+    check_refused(builder.glb(), words);
+}
+
+}  // namespace
+
+TEST_CASE("a GLB cut off anywhere is refused") {
+    const std::string glb = square_gltf().glb();
+    REQUIRE_NOTHROW(load_glb(glb));
+    for (std::size_t size = 4; size < glb.size(); ++size) {
+        INFO(size);
+        CHECK(refusal(glb.substr(0, size)) != "(nothing thrown)");
+    }
+    check_refused(glb.substr(0, glb.size() - 4), {"GLB header", "truncated"});
+}
+
+TEST_CASE("the GLB version must be 2") {
+    std::string glb = square_gltf().glb();
+    glb[4] = 1;
+    CHECK(contains(refusal<UnsupportedError>(glb), "version 1 is not supported"));
+}
+
+TEST_CASE("a BIN chunk 8 bytes longer than the file is refused") {
+    const GltfBuilder builder = square_gltf();
+    std::string glb = builder.glb();
+    const std::size_t bin_header = glb.size() - builder.bin.size() - 8;
+    glb[bin_header] = static_cast<char>(glb[bin_header] + 8);
+    check_refused(glb, {"GLB chunk 1", "needs 68 bytes, 60 bytes are left"});
+}
+
+TEST_CASE("a BIN chunk longer than its buffer loses the rest, with a warning beyond the padding") {
+    GltfBuilder builder = square_gltf();
+    builder.json["buffers"] = {{{"byteLength", builder.bin.size() + 1}}};
+    builder.bin += "abcd";
+    CHECK(load_glb(builder).warnings.empty());
+    builder.bin += "efghi";
+    const Asset asset = load_glb(builder);
+    CHECK(asset.parts[0].triangles.size() == 2);
+    CHECK(any_contains(asset.warnings, "11 bytes more than the buffer"));
+}
+
+TEST_CASE("a BIN chunk shorter than its buffer is refused") {
+    GltfBuilder builder = square_gltf();
+    builder.json["buffers"] = {{{"byteLength", 1000}}};
+    check_refused(builder, {"/buffers/0", "needs 1000 bytes, there are 60"});
+}
+
+TEST_CASE("an empty BIN chunk is legal") {
+    std::string glb = GltfBuilder().glb();
+    GltfBuilder::put_u32(glb, 0);
+    glb += std::string("BIN\0", 4);
+    glb[8] = static_cast<char>(glb.size());
+    CHECK(load_glb(glb).parts.empty());
+}
+
+TEST_CASE("brackets nested 20000 deep are refused, inside strings they are not counted") {
+    const std::string many(20000, '[');
+    check_refused(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"extras":)" + many, ""),
+                  {"nested deeper than 64"});
+    CHECK_NOTHROW(
+        load_glb(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"extras":"\")" + many + "\"}", "")));
+}
+
+TEST_CASE("broken JSON is refused") {
+    check_refused(GltfBuilder::glb_of("{\"asset\":", ""), {"JSON", "parse error"});
+    check_refused(GltfBuilder::glb_of("[1]", ""), {"neither a GLB nor a JSON object"});
+    check_refused(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"nodes":[7]})", ""),
+                  {"/nodes/0", "object"});
+}
+
+TEST_CASE("only glTF 2 is read") {
+    GltfBuilder builder;
+    builder.json["asset"]["version"] = "1.0";
+    CHECK(contains(refusal<UnsupportedError>(builder), "/asset/version: '1.0' is not supported"));
+    builder.json["asset"] = {{"version", "2.0"}, {"minVersion", "2.1"}};
+    CHECK(contains(refusal<UnsupportedError>(builder), "/asset/minVersion"));
+    builder.json.erase("asset");
+    check_refused(builder, {"/asset", "missing"});
+}
+
+TEST_CASE("accessors beyond their view are refused with both sizes") {
+    GltfBuilder builder = square_gltf();
+    SECTION("too many elements") {
+        builder.json["accessors"][0]["count"] = 5;
+        check_refused(builder, {"/accessors/0", "needs 60 bytes, bufferView 0 has 48"});
+    }
+    SECTION("offset") {
+        builder.json["accessors"][0]["byteOffset"] = 4;
+        check_refused(builder, {"/accessors/0", "needs 52 bytes, bufferView 0 has 48"});
+    }
+    SECTION("a count of 2^62 does not overflow") {
+        builder.json["accessors"][0]["count"] = std::uint64_t{1} << 62;
+        check_refused(builder, {"/accessors/0", "needs 4611686018427387904 elements, bufferView 0 has 48"});
+    }
+    SECTION("an offset near 2^64 does not overflow") {
+        builder.json["accessors"][0]["byteOffset"] = UINT64_MAX - 7;
+        check_refused(builder, {"/accessors/0", "bufferView 0 has 48"});
+    }
+    SECTION("without a view, no bytes vouch for a large count") {
+        builder.json["accessors"][0] = {
+            {"componentType", f32}, {"type", "VEC3"}, {"count", std::uint64_t{1} << 40}};
+        check_refused(builder, {"/accessors/0/count", "without a bufferView"});
+    }
+    SECTION("count 0") {
+        builder.json["accessors"][0]["count"] = 0;
+        check_refused(builder, {"/accessors/0/count", "is 0"});
+    }
+    SECTION("negative") {
+        builder.json["accessors"][0]["count"] = -4;
+        check_refused(builder, {"/accessors/0/count", "not an unsigned integer"});
+    }
+    SECTION("component type") {
+        builder.json["accessors"][0]["componentType"] = 5130;
+        check_refused(builder, {"/accessors/0/componentType", "5130"});
+    }
+    SECTION("type") {
+        builder.json["accessors"][0]["type"] = "VEC5";
+        check_refused(builder, {"/accessors/0/type", "'VEC5'"});
+    }
+}
+
+TEST_CASE("views beyond their buffer are refused") {
+    GltfBuilder builder = square_gltf();
+    builder.json["bufferViews"][1]["byteLength"] = 13;
+    check_refused(builder, {"/bufferViews/1", "needs 13 bytes from byte 48, buffer 0 has 60"});
+    builder.json["bufferViews"][1]["byteLength"] = UINT64_MAX - 40;
+    check_refused(builder, {"/bufferViews/1", "buffer 0 has 60"});
+}
+
+TEST_CASE("strides less than the element or out of range are refused") {
+    GltfBuilder builder = square_gltf();
+    builder.json["bufferViews"][0]["byteStride"] = 8;
+    check_refused(builder, {"/accessors/0", "elements of 12 bytes, bufferView 0 a stride of 8"});
+    builder.json["bufferViews"][0]["byteStride"] = 256;
+    check_refused(builder, {"/bufferViews/0/byteStride", "256"});
+}
+
+TEST_CASE("sparse indices must be in range and increase") {
+    GltfBuilder builder = square_gltf();
+    const auto values = builder.view(std::vector<Vec3f>{{5, 5, 5}, {6, 6, 6}});
+    const auto sparse = [&](std::vector<std::uint16_t> indices) {
+        const auto places = builder.view(indices);
+        builder.json["accessors"][0]["sparse"] = {
+            {"count", 2},
+            {"indices", {{"bufferView", places}, {"componentType", u16}}},
+            {"values", {{"bufferView", values}}}};
+    };
+    sparse({1, 4});
+    check_refused(builder, {"/accessors/0/sparse/indices", "holds 4, the accessor has 4 elements"});
+    sparse({2, 1});
+    check_refused(builder, {"/accessors/0/sparse/indices", "not increasing: 1 comes after 2"});
+    sparse({1, 1});
+    check_refused(builder, {"/accessors/0/sparse/indices", "not increasing"});
+    sparse({0, 3});
+    builder.json["accessors"][0]["sparse"]["count"] = 3;
+    check_refused(builder, {"/accessors/0/sparse", "needs 6 bytes"});
+    builder.json["accessors"][0]["sparse"]["count"] = 5;
+    check_refused(builder, {"/accessors/0/sparse/count", "is 5, the accessor has 4 elements"});
+}
+
+TEST_CASE("indices beyond the vertices are refused") {
+    GltfBuilder builder = square_gltf();
+    const auto indices = builder.accessor(std::vector<std::uint16_t>{0, 1, 4}, u16, "SCALAR");
+    builder.json["meshes"][0]["primitives"][0]["indices"] = indices;
+    check_refused(builder, {"/meshes/0/primitives/0/indices", "holds 4, there are 4 vertices"});
+}
+
+TEST_CASE("node graphs that are no forest are refused") {
+    GltfBuilder builder;
+    SECTION("cycle") {
+        builder.json["nodes"] = Json::parse(R"([{"children":[1]},{"children":[2]},{"children":[0]}])");
+        check_refused(builder, {"/nodes/", "its own ancestor"});
+    }
+    SECTION("a node that is its own child") {
+        builder.json["nodes"] = Json::parse(R"([{"children":[0]}])");
+        check_refused(builder, {"/nodes/0", "its own ancestor"});
+    }
+    SECTION("a tail that leads into a cycle") {
+        builder.json["nodes"] = Json::parse(R"([{}, {"children":[2]},{"children":[1,0]}])");
+        check_refused(builder, {"its own ancestor"});
+    }
+    SECTION("two parents") {
+        builder.json["nodes"] = Json::parse(R"([{"children":[2]},{"children":[2]},{}])");
+        check_refused(builder, {"/nodes/2", "two parents: /nodes/0 and /nodes/1"});
+    }
+    SECTION("a scene that lists a child") {
+        builder.json["nodes"] = Json::parse(R"([{"children":[1]},{}])");
+        builder.json["scenes"] = Json::parse(R"([{"nodes":[0,1]}])");
+        check_refused(builder, {"/scenes/0/nodes/1", "has a parent"});
+    }
+}
+
+TEST_CASE("dangling references are refused wherever they are") {
+    GltfBuilder builder = square_gltf();
+    builder.json["materials"] = Json::array({Json::object()});
+    const auto refused_at = [&](const std::string& pointer, Json value, const std::string& where) {
+        GltfBuilder wrong = builder;
+        wrong.json[Json::json_pointer(pointer)] = std::move(value);
+        check_refused(wrong, {where, "refers to", "there are"});
+    };
+    refused_at("/nodes/0/mesh", 1, "/nodes/0/mesh");
+    refused_at("/nodes/0/skin", 0, "/nodes/0/skin");
+    refused_at("/nodes/0/camera", 0, "/nodes/0/camera");
+    refused_at("/nodes/0/children", {7}, "/nodes/0/children/0");
+    refused_at("/scene", 1, "/scene");
+    refused_at("/scenes/0/nodes", {9}, "/scenes/0/nodes/0");
+    refused_at("/meshes/0/primitives/0/indices", 2, "/meshes/0/primitives/0/indices");
+    refused_at("/meshes/0/primitives/0/material", 1, "/meshes/0/primitives/0/material");
+    refused_at("/meshes/0/primitives/0/attributes/NORMAL", 5, "/meshes/0/primitives/0/attributes/NORMAL");
+    refused_at("/meshes/0/primitives/0/targets", Json::parse(R"([{"POSITION":8}])"),
+               "/meshes/0/primitives/0/targets/0/POSITION");
+    refused_at("/accessors/0/bufferView", 2, "/accessors/0/bufferView");
+    refused_at("/bufferViews/0/buffer", 1, "/bufferViews/0/buffer");
+    refused_at("/materials/0/normalTexture", {{"index", 0}}, "/materials/0/normalTexture/index");
+    refused_at("/materials/0/extensions",
+               Json::parse(R"({"KHR_materials_sheen":{"sheenColorTexture":{"index":0}}})"),
+               "/materials/0/extensions/KHR_materials_sheen/sheenColorTexture/index");
+    refused_at("/materials/0/teapotTexture", {{"index", 0}}, "/materials/0/teapotTexture/index");
+    refused_at("/extensions",
+               Json::parse(R"({"EXT_lights_image_based":{"lights":[{"specularImages":[[2]]}]}})"),
+               "/extensions/EXT_lights_image_based/lights/0/specularImages");
+    refused_at("/textures", Json::parse(R"([{"source":0}])"), "/textures/0/source");
+    refused_at("/textures", Json::parse(R"([{"sampler":0}])"), "/textures/0/sampler");
+    refused_at("/images", Json::parse(R"([{"bufferView":9,"mimeType":"image/png"}])"),
+               "/images/0/bufferView");
+    refused_at("/skins", Json::parse(R"([{"joints":[3]}])"), "/skins/0/joints/0");
+    refused_at("/skins", Json::parse(R"([{"joints":[0],"inverseBindMatrices":9}])"),
+               "/skins/0/inverseBindMatrices");
+    refused_at("/animations", Json::parse(R"([{"channels":[],"samplers":[{"input":9,"output":0}]}])"),
+               "/animations/0/samplers/0/input");
+}
+
+TEST_CASE("extensions must be objects of objects, in extras anything goes") {
+    GltfBuilder builder = square_gltf();
+    builder.json["extras"] = Json::parse(R"({"extensions":[1]})");
+    CHECK_NOTHROW(load_glb(builder));
+    builder.json["extensions"] = {1};
+    check_refused(builder, {"/extensions", "is not an object"});
+    builder.json["extensions"] = {{"ACME_a", {{"deep", Json::parse(R"([{"extensions":{"ACME_b":3}}])")}}}};
+    check_refused(builder, {"/extensions/ACME_a/deep/0/extensions/ACME_b", "is not an object"});
+}
+
+TEST_CASE("attributes must have their type and one common count") {
+    GltfBuilder builder = square_gltf();
+    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["TEXCOORD_0"] = 0;
+    check_refused(builder, {"attributes/TEXCOORD_0", "is a VEC3, TEXCOORD_0 must be a VEC2"});
+    attributes.erase("TEXCOORD_0");
+    attributes["NORMAL"] = builder.accessor(std::vector<Vec3f>{{0, 0, 1}}, f32, "VEC3");
+    check_refused(builder, {"elements, other attributes of the primitive"});
+}
+
+TEST_CASE("required extensions that cannot be read are unsupported, by name") {
+    GltfBuilder builder = square_gltf();
+    const auto required = [&](const char* name) {
+        builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
+        return refusal<UnsupportedError>(builder);
+    };
+    CHECK(contains(required("KHR_texture_basisu"), "KHR_texture_basisu: KTX2 images are not supported"));
+    CHECK(contains(required("ACME_teapots"),
+                   "/extensionsRequired/0: the extension ACME_teapots is not supported"));
+    for (const char* name : {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit",
+                             "KHR_materials_variants", "KHR_lights_punctual"})
+        CHECK(required(name) == "(nothing thrown)");
+}
+
+TEST_CASE("textures whose only image is KTX2 are unsupported") {
+    GltfBuilder builder = square_gltf();
+    const std::string ktx = "\xabKTX 20\xbb\r\n\x1a\n";
+    const auto view = builder.view(std::vector<char>(ktx.begin(), ktx.end()));
+    builder.add("images", {{"bufferView", view}, {"mimeType", "image/ktx2"}});
+    SECTION("in the extension") {
+        builder.json["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+        CHECK(contains(refusal<UnsupportedError>(builder),
+                       "/textures/0: its only image is in KHR_texture_basisu"));
+    }
+    SECTION("as a plain source") {
+        builder.json["textures"] = Json::parse(R"([{"source":0}])");
+        builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
+        CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is KTX2 (KHR_texture_basisu)"));
+    }
+}
+
+TEST_CASE("URIs that leave the folder are refused, for buffers and for images") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "inside");
+    put(folder / "secret.bin", std::string(60, 'x'));
+    put(folder / "secret.png", std::string(60, 'x'));
+    const auto message = [&](const char* array, const std::string& uri) {
+        GltfBuilder builder;
+        Json entry = {{"uri", uri}};
+        if (array == std::string("buffers")) entry["byteLength"] = 4;
+        builder.add(array, entry);
+        put(folder / "inside/a.gltf", builder.text());
+        return message_of<InputError>([&] { load(folder / "inside/a.gltf"); });
+    };
+    for (const char* array : {"buffers", "images"}) {
+        const std::string name = array == std::string("buffers") ? "secret.bin" : "secret.png";
+        for (const std::string& uri :
+             {"../" + name, "%2e%2e/" + name, "%2E%2E%2F" + name, "./x/../../" + name}) {
+            INFO(uri);
+            const std::string text = message(array, uri);
+            INFO(text);
+            CHECK(contains(text, std::string("/") + array + "/0/uri"));
+            CHECK(contains(text, "leads out of the folder"));
+        }
+        CHECK(contains(message(array, (folder / name).string()), "absolute"));
+        CHECK(contains(message(array, "http://example.org/" + name), "not a path relative"));
+        CHECK(contains(message(array, "."), "not a regular file"));
+    }
+}
+
+TEST_CASE("a file beside the program does not stand in for a missing one") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "inside");
+    put(folder / "a.bin", std::string(4, 'x'));
+    put(folder / "inside/a.gltf",
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"a.bin"}]})");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const std::string message = message_of<ReadError>([&] { load(folder / "inside/a.gltf"); });
+    std::filesystem::current_path(before);
+    CHECK(contains(message, "/buffers/0/uri"));
+    CHECK(contains(message, "a.bin"));
+}
+
+TEST_CASE("buffers without bytes are refused") {
+    GltfBuilder builder;
+    builder.json["buffers"] = Json::parse(R"([{"byteLength":0}])");
+    check_refused(builder, {"/buffers/0/byteLength", "is 0"});
+    builder.json["buffers"] = Json::parse(R"([{"byteLength":4}])");
+    check_refused(builder, {"/buffers/0", "neither a uri nor a BIN chunk"});
+    builder.json["buffers"] =
+        Json::parse(R"([{"byteLength":4,"uri":"data:application/octet-stream;base64,AAA="}])");
+    check_refused(builder, {"/buffers/0", "needs 4 bytes, there are 2"});
+}
+
+TEST_CASE("a mesh whose faces all lost a corner to NaN is refused") {
+    GltfBuilder builder;
+    const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {0, std::nanf(""), 0}};
+    builder.mesh({{"attributes", {{"POSITION", builder.accessor(positions, f32, "VEC3")}}}});
+    check_refused(builder, {"/meshes", "all faces"});
+}

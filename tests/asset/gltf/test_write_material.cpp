@@ -1,0 +1,225 @@
+// What save() makes of materials.
+
+#include <catch2/catch.hpp>
+
+#include "support/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+TEST_CASE("an untouched material keeps its digits, extras and extensions, and their textures") {
+    GltfBuilder builder = square_gltf();
+    for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
+    builder.json["materials"] = Json::parse(R"([{"name":"m","alphaMode":"BLEND",
+        "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.7],"roughnessFactor":0.123456789012,
+            "baseColorTexture":{"index":2,"extras":"slot","extensions":{"KHR_texture_transform":{"scale":[2,2]}}}},
+        "extras":{"a":1},
+        "extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.9,"clearcoatTexture":{"index":1}}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const Json json = through(builder);
+    Json expected = builder.json["materials"][0];
+    expected["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    expected["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"]["index"] = 1;
+    CHECK(json["materials"][0] == expected);
+    REQUIRE(json["images"].size() == 2);
+    CHECK(json["extensionsUsed"] == Json({"KHR_materials_clearcoat", "KHR_texture_transform"}));
+}
+
+TEST_CASE("textures of members nobody knows are followed, and go with a warning when the texture is new") {
+    GltfBuilder builder = square_gltf();
+    for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
+    builder.json["materials"] = Json::parse(R"([{"name":"m","teapotTexture":{"index":2,"lid":true},
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":1},"spoutTexture":{"index":2}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Json expected = builder.json["materials"][0];
+    expected["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    expected["pbrMetallicRoughness"]["spoutTexture"]["index"] = expected["teapotTexture"]["index"] = 1;
+    CHECK(through(builder)["materials"][0] == expected);
+
+    Asset asset = load_glb(builder);
+    asset.materials[0].rebaked = true;
+    const TemporaryFolder folder;
+    const std::vector<std::string> warnings = save(asset, folder / "out.glb");
+    CHECK(any_contains(warnings, "material 'm': the textures of teapotTexture do not fit"));
+    CHECK(any_contains(warnings, "material 'm': the textures of spoutTexture do not fit"));
+    const Json json = json_of(get(folder / "out.glb"));
+    CHECK_FALSE(json["materials"][0].contains("teapotTexture"));
+    CHECK_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("spoutTexture"));
+}
+
+TEST_CASE("a rebaked material has its new texture and loses those that were not baked, with a warning") {
+    GltfBuilder builder = square_gltf();
+    add_texture(builder, 1);
+    builder.json["materials"] = Json::parse(R"([{"name":"m","extras":5,
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}},
+        "extensions":{"KHR_materials_clearcoat":
+            {"clearcoatFactor":0.9,"clearcoatRoughnessFactor":0.5,"clearcoatTexture":{"index":0}}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Asset asset = load_glb(builder);
+    asset.images = {small_png(99)};
+    Material& material = asset.materials[0];
+    material.rebaked = true;
+    material.extension_textures.clear();
+    material.base_color_texture = {};
+    material.base_color_texture.image = 0;
+    material.roughness = 0.3f;
+    const TemporaryFolder folder;
+    const std::vector<std::string> warnings = save(asset, folder / "out.glb");
+    const Json json = json_of(get(folder / "out.glb"));
+    CHECK(any_contains(warnings, "material 'm': the textures of KHR_materials_clearcoat"));
+    const Json& written = json["materials"][0];
+    CHECK(written["extras"] == 5);
+    // Without the texture, the factor would put a coat everywhere.
+    CHECK(written["extensions"]["KHR_materials_clearcoat"] == Json({{"clearcoatRoughnessFactor", 0.5}}));
+    CHECK(written["pbrMetallicRoughness"] ==
+          Json({{"baseColorTexture", {{"index", 0}}}, {"roughnessFactor", 0.3}}));
+    CHECK(json["images"].size() == 1);
+    CHECK(load(folder / "out.glb").images[0].encoded == asset.images[0].encoded);
+}
+
+TEST_CASE("textures of a new material are written once per use") {
+    Asset asset = new_square();
+    asset.images = {small_png(1), small_png(2)};
+    asset.materials.resize(2);
+    for (Material& material : asset.materials) {
+        material.base_color_texture.image = 1;
+        material.base_color_texture.wrap_u = Wrap::clamp;
+        material.base_color_texture.uv_set = 1;
+        material.base_color_texture.offset = {0.1f, 0};
+    }
+    asset.materials[1].unlit = true;
+    asset.materials[1].alpha_mode = AlphaMode::mask;
+    asset.materials[1].alpha_cutoff = 0.25f;
+    asset.parts[0].face_material = {0, 1};
+    const std::string glb = saved(asset);
+    const Json json = json_of(glb);
+    CHECK(json["images"].size() == 1);
+    CHECK(json["textures"].size() == 1);
+    CHECK(json["samplers"].size() == 1);
+    CHECK(json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] ==
+          Json::parse(R"({"KHR_texture_transform":{"offset":[0.1,0.0]}})"));
+    const Asset back = load_glb(glb);
+    CHECK(back.materials[0].base_color_texture.wrap_u == Wrap::clamp);
+    CHECK(back.materials[0].base_color_texture.uv_set == 1);
+    CHECK(back.materials[1].unlit);
+    CHECK(back.materials[1].alpha_mode == AlphaMode::mask);
+    CHECK(back.materials[1].alpha_cutoff == 0.25f);
+}
+
+TEST_CASE("material variants follow their materials, and go with a warning when the texture is new") {
+    GltfBuilder builder = square_gltf();
+    builder.json["materials"] = Json::parse(R"([{"name":"unused"},{"name":"red"},{"name":"blue"}])");
+    builder.json["extensions"] =
+        Json::parse(R"({"KHR_materials_variants":{"variants":[{"name":"r"},{"name":"b"}]}})");
+    builder.json["extensionsUsed"] = {"KHR_materials_variants"};
+    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 1;
+    primitive["extensions"] = Json::parse(
+        R"({"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0]},{"material":2,"variants":[1]}]}})");
+    Asset asset = load_glb(builder);
+    Json json = json_of(saved(asset));
+    REQUIRE(json["materials"].size() == 2);
+    const Json& mappings =
+        json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"];
+    CHECK(json["materials"][mappings[0]["material"].get<std::size_t>()]["name"] == "red");
+    CHECK(json["materials"][mappings[1]["material"].get<std::size_t>()]["name"] == "blue");
+
+    for (Material& material : asset.materials) material.rebaked = true;
+    const TemporaryFolder folder;
+    CHECK(any_contains(save(asset, folder / "out.glb"), "variants"));
+    json = json_of(get(folder / "out.glb"));
+    CHECK_FALSE(json["meshes"][0]["primitives"][0].contains("extensions"));
+    CHECK_FALSE(json.contains("extensions"));
+    CHECK_FALSE(json.contains("extensionsUsed"));
+    CHECK(json["materials"].size() == 1);
+}
+
+TEST_CASE("textures of extensions are read, written where they are new, and read again") {
+    GltfBuilder builder = square_gltf();
+    for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
+    builder.json["samplers"] = Json::parse(R"([{"wrapS":33071}])");
+    builder.json["textures"][2]["sampler"] = 0;
+    builder.json["materials"] = Json::parse(R"([{"name":"m","extensions":{
+        "KHR_materials_sheen":{"sheenColorFactor":[0.5,0.5,0.5],"sheenRoughnessTexture":{"index":1},
+            "sheenColorTexture":{"index":1,"texCoord":1,"extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}}},
+        "KHR_materials_clearcoat":{"clearcoatNormalTexture":{"index":2,"scale":0.5}},
+        "VENDOR_teapot":{"lidTexture":{"index":0}}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Asset asset = load_glb(builder);
+    std::vector<ExtensionTexture>& textures = asset.materials[0].extension_textures;
+    REQUIRE(textures.size() == 3);
+    CHECK(textures[0].extension == "KHR_materials_clearcoat");
+    CHECK(textures[0].name == "clearcoatNormalTexture");
+    CHECK(textures[0].normal_scale == 0.5f);
+    CHECK(textures[0].texture.wrap_u == Wrap::clamp);
+    CHECK(textures[1].name == "sheenColorTexture");
+    CHECK(textures[1].texture.uv_set == 1);
+    CHECK(textures[1].texture.offset == Vec2f{0.5f, 0});
+    CHECK(textures[2].name == "sheenRoughnessTexture");
+    CHECK(textures[2].texture.image == textures[1].texture.image);
+    CHECK(asset.images.size() == 2);
+
+    asset.materials[0].rebaked = true;
+    asset.images.push_back(small_png(99));
+    for (ExtensionTexture& texture : textures) {
+        texture.texture = {};
+        texture.texture.image = 2;
+        texture.normal_scale = 1;
+    }
+    const TemporaryFolder folder;
+    const std::vector<std::string> warnings = save(asset, folder / "out.glb");
+    CHECK(warnings.size() == 1);
+    CHECK(any_contains(warnings, "the textures of VENDOR_teapot do not fit"));
+    const Json json = json_of(get(folder / "out.glb"));
+    CHECK(json["materials"][0]["extensions"] == Json::parse(R"({
+        "KHR_materials_sheen":{"sheenColorFactor":[0.5,0.5,0.5],"sheenRoughnessTexture":{"index":0},
+            "sheenColorTexture":{"index":0}},
+        "KHR_materials_clearcoat":{"clearcoatNormalTexture":{"index":0}},
+        "VENDOR_teapot":{}})"));
+    CHECK(json["images"].size() == 1);
+    const Asset back = load(folder / "out.glb");
+    CHECK(back.materials[0].extension_textures.size() == 3);
+    CHECK(back.images[0].encoded == asset.images[2].encoded);
+}
+
+TEST_CASE("an extension's texture whose image cannot be decoded is passed through like what nobody knows") {
+    GltfBuilder builder = square_gltf();
+    const std::string ktx = "\xABKTX 20\xBB\r\n\x1A\n";
+    builder.add("images", {{"bufferView", builder.view(std::vector<char>(ktx.begin(), ktx.end()))},
+                           {"mimeType", "image/ktx2"}});
+    builder.add("textures", {{"source", 0}});
+    builder.json["materials"] =
+        Json::parse(R"([{"extensions":{"KHR_materials_sheen":{"sheenColorTexture":{"index":0}}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const Asset asset = load_glb(builder);
+    CHECK(asset.materials[0].extension_textures.empty());
+    CHECK(json_of(saved(asset))["materials"] == builder.json["materials"]);
+}
+
+TEST_CASE("a new asset may have textures of extensions") {
+    Asset asset = new_square();
+    asset.images = {small_png(1)};
+    asset.materials.resize(1);
+    TextureRef use;
+    use.image = 0;
+    asset.materials[0].extension_textures = {{"KHR_materials_sheen", "sheenColorTexture", use}};
+    asset.parts[0].face_material = {0, 0};
+    const Json json = json_of(saved(asset));
+    CHECK(json["materials"][0]["extensions"] ==
+          Json::parse(R"({"KHR_materials_sheen":{"sheenColorTexture":{"index":0}}})"));
+    CHECK(json["extensionsUsed"] == Json({"KHR_materials_sheen"}));
+}
+
+TEST_CASE("anisotropy goes with the texture coordinates that its directions were of, with a warning") {
+    GltfBuilder builder = square_gltf();
+    builder.json["materials"] =
+        Json::parse(R"([{"name":"m","extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.6}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Asset asset = load_glb(builder);
+    CHECK(json_of(saved(asset))["materials"] == builder.json["materials"]);
+    asset.materials[0].rebaked = true;
+    const TemporaryFolder folder;
+    CHECK(any_contains(save(asset, folder / "out.glb"),
+                       "material 'm': the directions of KHR_materials_anisotropy do not fit"));
+    CHECK_FALSE(json_of(get(folder / "out.glb"))["materials"][0].contains("extensions"));
+}

@@ -1,0 +1,98 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "support/format_support.hpp"
+#include "asset/text/text_scanner.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::testing;
+
+namespace {
+
+TextScanner scanner(const std::string& text, Continuation continuation = Continuation::yes) {
+    return TextScanner(bytes_of(text), "f", continuation);
+}
+
+}  // namespace
+
+TEST_CASE("lines end with LF, CR or CRLF and are counted the same", "[text]") {
+    for (const std::string end : {"\n", "\r", "\r\n"}) {
+        const std::string text = "a" + end + end + "# c" + end + "b";
+        TextScanner in = scanner(text);
+        CHECK(in.word() == "a");
+        CHECK(in.skip_to_content());
+        CHECK(in.line() == 4);
+        CHECK(in.word() == "b");
+        CHECK(!in.skip_to_content());
+    }
+}
+
+TEST_CASE("a byte order mark is skipped", "[text]") {
+    const std::string text = "\xEF\xBB\xBFv";
+    CHECK(scanner(text).word() == "v");
+}
+
+TEST_CASE("a backslash joins lines, but not after a comment and not where it has no meaning", "[text]") {
+    const std::string text = "a \\\r\n b\\\nc # d \\\ne \\";
+    TextScanner in = scanner(text);
+    CHECK(in.word() == "a");
+    CHECK(in.word() == "b");
+    CHECK(in.word() == "c");
+    CHECK(in.at_line_end());
+    in.next_line();
+    CHECK(in.line() == 4);
+    CHECK(in.word() == "e");
+    CHECK(in.word() == "\\");
+    TextScanner plain = scanner(text, Continuation::no);
+    plain.word();
+    CHECK(plain.word() == "\\");
+    CHECK(plain.at_line_end());
+}
+
+TEST_CASE("numbers are read to their last character", "[text]") {
+    const std::string text = "1 -2.5e3 +4 .5 5. 1e-3";
+    TextScanner in = scanner(text);
+    for (const double expected : {1.0, -2500.0, 4.0, 0.5, 5.0, 0.001}) CHECK(in.number<double>() == expected);
+    for (const std::string bad : {"1,5", "1.2.3", "0x10", "abc", "", "--1", "+-1", "1e", "e5", "1f"}) {
+        CAPTURE(bad);
+        TextScanner wrong = scanner(bad);
+        CHECK(contains(message_of([&] { wrong.number<double>(); }), "f: line 1: "));
+    }
+}
+
+TEST_CASE("integers do not take fractions or what does not fit", "[text]") {
+    for (const std::string bad : {"1.0", "1e3", "-1", "4294967296"}) {
+        CAPTURE(bad);
+        TextScanner in = scanner(bad);
+        CHECK_THROWS_AS(in.number<std::uint32_t>(), InputError);
+    }
+    const std::string good = "4294967295";
+    CHECK(scanner(good).number<std::uint32_t>() == 4294967295u);
+}
+
+TEST_CASE("infinities and NaN in every spelling are numbers", "[text]") {
+    const std::string nans = "nan NaN -nan nan(ind) 1.#QNAN -1.#IND 1.#SNAN";
+    TextScanner in = scanner(nans);
+    for (int i = 0; i < 7; ++i) CHECK(std::isnan(in.number<double>()));
+    const std::string infinities = "inf -Infinity 1.#INF 1e400 -1e400";
+    TextScanner more = scanner(infinities);
+    for (int i = 0; i < 5; ++i) CHECK(std::isinf(more.number<double>()));
+}
+
+TEST_CASE("numbers too small for their type are zero, and the smallest is kept", "[text]") {
+    const std::string text = "1e-400 4.9406564584124654e-324 1e-50";
+    TextScanner in = scanner(text);
+    CHECK(in.number<double>() == 0);
+    CHECK(in.number<double>() == std::numeric_limits<double>::denorm_min());
+    CHECK(in.number<float>() == 0);
+}
+
+TEST_CASE("a message does not carry control characters or a whole line", "[text]") {
+    const std::string text = std::string("x\x1b[31m") + std::string(1000, 'y');
+    TextScanner in = scanner(text);
+    const std::string message = message_of([&] { in.number<double>(); });
+    CHECK(message.size() < 100);
+    CHECK(message.find('\x1b') == std::string::npos);
+}

@@ -1,0 +1,230 @@
+#include "bake/atlas/charts.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <set>
+
+#include "bake/atlas/parametrization.hpp"
+#include "bake/atlas/segmentation.hpp"
+#include "bake/atlas/triangle_overlap.hpp"
+#include "support/chart_meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using test::Flat;
+
+namespace {
+
+constexpr std::uint64_t plenty = 1000000000;
+
+std::vector<Index> all_of(std::size_t n) {
+    std::vector<Index> result(n);
+    for (Index i = 0; i < n; ++i) result[i] = i;
+    return result;
+}
+
+// What must hold for charts of any input.
+void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
+    std::vector<int> seen(faces.size(), 0);
+    for (const Chart& chart : charts.charts) {
+        REQUIRE(chart.places.size() == chart.faces.size());
+        CHECK(std::is_sorted(chart.faces.begin(), chart.faces.end()));
+        CHECK(chart.stretch >= 1 - 1e-9);
+        CHECK(chart.stretch <= 1.06);
+        for (Index f : chart.faces) ++seen[f];
+        for (const Flat& t : chart.places) REQUIRE(turn(t[0], t[1], t[2]) > 0);
+        CHECK(test::worst_overlap(chart.places) < 1e-6);
+    }
+    CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+}
+
+// Largest difference between an edge in its chart and on the surface, over the latter.
+double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
+    double worst = 0;
+    for (const Chart& chart : charts.charts) {
+        for (std::size_t i = 0; i < chart.faces.size(); ++i) {
+            const ChartFace& face = faces[chart.faces[i]];
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Vec3 d = test::minus(face.corners[c], face.corners[(c + 1) % 3]);
+                const double length = face.density * std::hypot(d[0], d[1], d[2]);
+                const double flat = std::abs(chart.places[i][c] - chart.places[i][(c + 1) % 3]);
+                worst = std::max(worst, std::abs(flat / length - 1));
+            }
+        }
+    }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a cube's sides are six charts without stretch") {
+    const auto faces = test::chart_faces(test::cube(), 10);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(worst_edge(faces, charts) < 1e-9);
+    // Without creases the sides may unfold into each other.
+    CHECK(charts.charts.size() <= 6);
+    auto creased = faces;
+    for (ChartFace& face : creased) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto n = [](const ChartFace& f) {
+                return engine::area_vector(engine::to_eigen(f.corners[0]), engine::to_eigen(f.corners[1]),
+                                           engine::to_eigen(f.corners[2]));
+            };
+            face.crease[c] = n(face).dot(n(faces[face.across[c].triangle])) == 0;
+        }
+    }
+    const Charts sides = make_charts(creased, 1);
+    check_charts(creased, sides);
+    CHECK(sides.charts.size() == 6);
+}
+
+TEST_CASE("a tube is unrolled") {
+    const auto faces = test::chart_faces(test::cylinder(48, 6, 2), 20);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(worst_edge(faces, charts) < 1e-6);
+    CHECK(charts.charts.size() < 8);
+}
+
+TEST_CASE("a sphere takes few charts with little stretch") {
+    const auto faces = test::chart_faces(test::icosphere(3), 40);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(charts.charts.size() < 16);
+}
+
+TEST_CASE("a band with one side only is cut") {
+    const auto faces = test::chart_faces(test::moebius(48, 4), 40);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(charts.charts.size() > 1);
+    CHECK(charts.charts.size() < 16);
+}
+
+TEST_CASE("a spiral ramp does not lie on itself") {
+    // Three rounds over one place, all looking up.
+    TriangleMesh mesh;
+    for (Index i = 0; i <= 96; ++i) {
+        const double a = 2 * test::pi * i / 32;
+        for (const double r : {1.0, 1.5})
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), 0.01 * i});
+        if (i == 96) continue;
+        mesh.triangles.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+        mesh.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 2});
+    }
+    const auto faces = test::chart_faces(mesh, 20);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(charts.charts.size() > 1);
+}
+
+TEST_CASE("soup, doubles and faces without area pass") {
+    TriangleMesh mesh = test::soup(3, 60, 400);
+    mesh.triangles.push_back(mesh.triangles.front());
+    mesh.triangles.push_back({0, 1, 0});
+    mesh.positions[5] = mesh.positions[6];
+    const Index line = static_cast<Index>(mesh.positions.size());
+    for (int i = 0; i < 3; ++i) mesh.positions.push_back({double(i), 0, 0});
+    mesh.triangles.push_back({line, line + 1, line + 2});
+    mesh.triangles.push_back({line, line, line});
+    const auto faces = test::chart_faces(mesh, 30);
+    check_charts(faces, make_charts(faces, 1));
+}
+
+TEST_CASE("a plane of more faces than are laid flat at once is cut in pieces of that size") {
+    const auto faces = test::chart_faces(test::grid(70), 1);
+    REQUIRE(faces.size() > most_faces_per_chart);
+    const Charts charts = make_charts(faces, 1);
+    check_charts(faces, charts);
+    CHECK(charts.given_up == 0);
+    CHECK(charts.charts.size() < 8);
+    for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= most_faces_per_chart);
+}
+
+TEST_CASE("densities that differ by more than a factor of two keep charts apart") {
+    auto faces = test::chart_faces(test::grid(8), 10);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (faces[f].corners[0][0] + faces[f].corners[1][0] + faces[f].corners[2][0] > 12)
+            faces[f].density = 25;
+    }
+    for (const std::vector<Index>& region : grow_regions(faces)) {
+        for (Index f : region) CHECK(faces[f].density == faces[region[0]].density);
+    }
+}
+
+TEST_CASE("charts do not depend on the number of threads") {
+    // Of the second one so many joins fail that the work for them is used up.
+    for (const TriangleMesh& mesh :
+         {test::shaken(test::torus(40, 20), 0.01, 5), test::shaken(test::torus(40, 20), 0.1, 5)}) {
+        const auto faces = test::chart_faces(mesh, 30);
+        const Charts one = make_charts(faces, 1), three = make_charts(faces, 3);
+        check_charts(faces, one);
+        REQUIRE(one.charts.size() == three.charts.size());
+        for (std::size_t i = 0; i < one.charts.size(); ++i) {
+            CHECK(one.charts[i].faces == three.charts[i].faces);
+            CHECK(one.charts[i].places == three.charts[i].places);
+        }
+    }
+}
+
+TEST_CASE("a chart has the area that is wanted") {
+    const auto faces = test::chart_faces(test::globe(6, 1), 10);
+    for (const Chart& chart : make_charts(faces, 1).charts) {
+        double flat = 0, wanted = 0;
+        for (const Flat& t : chart.places) flat += turn(t[0], t[1], t[2]) / 2;
+        for (Index f : chart.faces) wanted += wanted_texels(faces[f]);
+        CHECK(chart.texels == Approx(wanted));
+        if (chart.faces.size() > 1) CHECK(flat == Approx(wanted));
+    }
+}
+
+TEST_CASE("overlaps are found, and touching is none") {
+    const Flat a = {ChartPoint(0, 0), {4, 0}, {0, 4}};
+    std::uint64_t work = plenty;
+    CHECK(apart(std::vector<Flat>{a, {ChartPoint(4, 0), {4, 4}, {0, 4}}}, work));
+    CHECK_FALSE(apart(std::vector<Flat>{a, a}, work));
+    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(1, 1), {1.1, 1}, {1, 1.1}}}, work));
+    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(-1, 1), {9, 1}, {9, 1.1}}}, work));
+    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(NAN, 1), {9, 1}, {9, 1.1}}}, work));
+}
+
+TEST_CASE("what apart says agrees with the areas that random triangles share") {
+    std::mt19937 random(11);
+    const auto number = [&] { return (random() % 1000) / 100.0; };
+    int overlapping = 0;
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Flat> triangles;
+        while (triangles.size() < 3) {
+            const ChartPoint at = {3 * number(), 3 * number()};
+            const Flat t = {at, at + ChartPoint(number(), number()), at + ChartPoint(-number(), number())};
+            if (turn(t[0], t[1], t[2]) > 1e-3) triangles.push_back(t);
+        }
+        std::uint64_t work = plenty;
+        const bool expected = test::worst_overlap(triangles) < 1e-9;
+        CHECK(apart(triangles, work) == expected);
+        overlapping += !expected;
+    }
+    CHECK((overlapping > 50 && overlapping < 250));
+}
+
+TEST_CASE("work that is used up is no claim") {
+    const auto faces = test::chart_faces(test::grid(6), 10);
+    std::uint64_t work = flatten_work * faces.size() + 10;
+    CHECK(flatten(faces, all_of(faces.size()), work).outcome == Flattening::Outcome::overlaps);
+    CHECK(work == 0);
+    work = plenty;
+    CHECK(flatten(faces, all_of(faces.size()), work).outcome == Flattening::Outcome::flat);
+}
+
+TEST_CASE("a cut gives two connected halves") {
+    const auto faces = test::chart_faces(test::grid(9), 1);
+    const auto halves = split_in_two(faces, all_of(faces.size()));
+    std::set<Index> seen;
+    for (const auto& half : halves) {
+        CHECK(half.size() == faces.size() / 2);
+        CHECK(connected_groups(faces, half).size() == 1);
+        seen.insert(half.begin(), half.end());
+    }
+    CHECK(seen.size() == faces.size());
+}

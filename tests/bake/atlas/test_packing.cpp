@@ -1,0 +1,231 @@
+#include "bake/atlas/packing.hpp"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "bake/atlas/occupancy_grid.hpp"
+#include "bake/atlas/tiles.hpp"
+#include "bake/atlas/charts.hpp"
+#include "support/chart_meshes.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+
+namespace {
+
+struct Made {
+    std::vector<ChartFace> faces;
+    Charts charts;
+    ChartPage page;
+    std::vector<std::array<Across, 3>> across;
+};
+
+Made made(const TriangleMesh& mesh, double density, std::uint32_t side = 1024) {
+    Made result;
+    result.faces = test::chart_faces(mesh, density);
+    result.charts = make_charts(result.faces, 1);
+    auto page = pack_charts(result.charts.charts, result.faces.size(), side);
+    REQUIRE(page);
+    result.page = *std::move(page);
+    for (const ChartFace& face : result.faces) result.across.push_back(face.across);
+    return result;
+}
+
+// By texel: the chart that owns it, -1 for none.
+std::vector<int> owners(const ChartPage& page) {
+    std::vector<int> result(std::size_t{page.atlas.width} * page.atlas.height, -1);
+    for (std::size_t i = 0; i < page.charts.size(); ++i) {
+        const AtlasChart& chart = page.charts[i];
+        CHECK(std::has_single_bit(chart.grain));
+        CHECK((chart.x % chart.grain == 0 && chart.y % chart.grain == 0));
+        REQUIRE(chart.x + chart.columns * chart.grain <= page.atlas.width);
+        REQUIRE(chart.y + chart.rows * chart.grain <= page.atlas.height);
+        for (std::uint32_t y = chart.y; y < chart.y + chart.rows * chart.grain; ++y) {
+            for (std::uint32_t x = chart.x; x < chart.x + chart.columns * chart.grain; ++x) {
+                if (!chart.owns(x, y)) continue;
+                int& owner = result[std::size_t{y} * page.atlas.width + x];
+                REQUIRE(owner == -1);
+                owner = static_cast<int>(i);
+            }
+        }
+    }
+    return result;
+}
+
+// Texels of the image that a bilinear read on a mip level rests on all belong to the chart that is read.
+void check_reads(const ChartPage& page, const std::vector<int>& owner) {
+    const auto width = static_cast<int>(page.atlas.width), height = static_cast<int>(page.atlas.height);
+    for (std::size_t i = 0; i < page.charts.size(); ++i) {
+        const AtlasChart& chart = page.charts[i];
+        for (int size = 1; size <= int(chart.grain); size *= 2) {
+            for (Index t : chart.triangles) {
+                for (const Vec3& w : test::spread(5)) {
+                    double x = -0.5, y = -0.5;
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        x += w[c] * page.atlas.places[t].uv[c][0] / size;
+                        y += w[c] * page.atlas.places[t].uv[c][1] / size;
+                    }
+                    for (int column = int(std::floor(x)); column < std::floor(x) + 2; ++column) {
+                        for (int row = int(std::floor(y)); row < std::floor(y) + 2; ++row) {
+                            if (!(std::abs(column - x) < 1 - 1e-6 && std::abs(row - y) < 1 - 1e-6)) continue;
+                            const int left = column * size, top = row * size;
+                            REQUIRE((left >= 0 && top >= 0 && left < width && top < height));
+                            REQUIRE(owner[std::size_t(top) * std::size_t(width) + std::size_t(left)] ==
+                                    int(i));
+                            REQUIRE(owner[std::size_t(top + size - 1) * std::size_t(width) +
+                                          std::size_t(left + size - 1)] == int(i));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+double page_turn(const AtlasPlace& place) {
+    const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+}  // namespace
+
+TEST_CASE("charts do not share texels, nor do their reads on the levels that their grain keeps clean") {
+    const auto mesh =
+        GENERATE(test::icosphere(3), test::cylinder(24, 3, 2), test::moebius(32, 3), test::soup(3, 40, 150));
+    const double density = GENERATE(3.0, 40.0);
+    const Made m = made(mesh, density);
+    CHECK(std::has_single_bit(m.page.atlas.width));
+    CHECK(std::has_single_bit(m.page.atlas.height));
+    check_reads(m.page, owners(m.page));
+}
+
+TEST_CASE("on the page no triangle is mirrored or lies on another one") {
+    const Made m = made(test::both(test::icosphere(2), test::moved(test::cylinder(16, 3, 2), {5, 0, 0})), 30);
+    std::vector<test::Flat> flat;
+    for (const AtlasPlace& place : m.page.atlas.places) {
+        REQUIRE(page_turn(place) < 0);  // v points down
+        test::Flat t;
+        for (std::size_t c = 0; c < 3; ++c) t[c] = {place.uv[c][0], -place.uv[c][1]};
+        flat.push_back(t);
+    }
+    CHECK(test::worst_overlap(flat) < 1e-6);
+}
+
+TEST_CASE("charts keep their shape and the scale of the page") {
+    const Made m = made(test::icosphere(3), 30);
+    CHECK(m.page.atlas.scale >= 1);
+    CHECK(m.page.atlas.scale <= std::sqrt(2.0));
+    for (std::size_t i = 0; i < m.page.charts.size(); ++i) {
+        for (std::size_t k = 0; k < m.page.charts[i].triangles.size(); ++k) {
+            const auto& uv = m.page.atlas.places[m.page.charts[i].triangles[k]].uv;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto &a = uv[c], &b = uv[(c + 1) % 3];
+                const double wanted =
+                    std::abs(m.charts.charts[i].places[k][c] - m.charts.charts[i].places[k][(c + 1) % 3]);
+                CHECK(std::hypot(a[0] - b[0], a[1] - b[1]) == Approx(m.page.atlas.scale * wanted));
+            }
+        }
+    }
+}
+
+TEST_CASE("a page that is too small shrinks the charts, down to one texel each, and then there is none") {
+    const auto mesh = test::soup(1, 100, 3000);
+    const auto faces = test::chart_faces(mesh, 30);
+    const Charts charts = make_charts(faces, 1);
+    const auto small = pack_charts(charts.charts, faces.size(), 64);
+    REQUIRE(small);
+    CHECK(small->atlas.scale < 1);
+    owners(*small);
+    REQUIRE(charts.charts.size() > 16 * 16);
+    CHECK_FALSE(pack_charts(charts.charts, faces.size(), 16));
+}
+
+TEST_CASE("a chart longer than the page is squeezed") {
+    TriangleMesh needle = test::make({{0, 0, 0}, {1000, 0, 0}, {1000, 0.001, 0}}, {{0, 1, 2}});
+    const Made m = made(test::both(needle, test::square(2, 8, 1)), 8, 64);
+    owners(m.page);
+    CHECK(m.page.atlas.scale > 0.5);
+    for (const AtlasPlace& place : m.page.atlas.places) {
+        for (const auto& uv : place.uv) CHECK((uv[0] >= 0 && uv[0] <= 64 && uv[1] >= 0 && uv[1] <= 64));
+    }
+}
+
+TEST_CASE("every sample in a chart's texels has the triangle that it is in, or the closest one") {
+    const Made m = made(test::cylinder(12, 2, 1), 20);
+    constexpr std::uint32_t samples = 2;
+    std::size_t inside = 0, outside = 0;
+    for (const ChartTile& tile : cut_tiles(m.page.charts)) {
+        const AtlasChart& chart = m.page.charts[tile.chart];
+        const TileOwners o = tile_owners(m.page.atlas, chart, m.across, tile, samples);
+        for (std::uint32_t j = 0; j < tile.height * samples; ++j) {
+            for (std::uint32_t i = 0; i < tile.width * samples; ++i) {
+                const std::uint32_t owner = o.owners[std::size_t{j} * tile.width * samples + i];
+                const bool own = chart.owns(tile.x + i / samples, tile.y + j / samples);
+                REQUIRE((owner != TileOwners::none) == own);
+                if (!own) continue;
+                const double x = tile.x + (i + 0.5) / samples, y = tile.y + (j + 0.5) / samples;
+                const auto gap = [&](Index t) {  // to the closest point
+                    const AtlasFrame frame(m.page.atlas.places[t]);
+                    const Vec3 w = frame.closest(x, y);
+                    double dx = -x, dy = -y;
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        dx += w[c] * m.page.atlas.places[t].uv[c][0];
+                        dy += w[c] * m.page.atlas.places[t].uv[c][1];
+                    }
+                    return std::hypot(dx, dy);
+                };
+                double least = HUGE_VAL;
+                for (Index t : chart.triangles) least = std::min(least, gap(t));
+                CHECK(gap(o.triangles[owner]) == Approx(least).margin(1e-6));
+                ++(least > 1e-9 ? outside : inside);
+            }
+        }
+    }
+    CHECK((inside > 1000 && outside > 100));
+}
+
+TEST_CASE("a mask turned four times is itself, and finds the first room") {
+    const BlockMask mask{3, 2, {1, 1, 1, 1, 0, 0}};
+    const BlockMask once = mask.turned();
+    CHECK((once.columns == 2 && once.rows == 3));
+    CHECK(once.blocks == std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1});
+    CHECK(once.turned().turned().turned().blocks == mask.blocks);
+    BlockSheet sheet(100, 8);
+    for (std::uint32_t k = 0; k < 33; ++k) {  // the first row of masks, side by side
+        const auto spot = sheet.find(mask, 0, 8, 1);
+        REQUIRE(spot);
+        CHECK((spot->y == 0 && spot->x == 3 * k));
+        sheet.take(mask, *spot);
+    }
+    const auto hole = sheet.find({2, 1, {1, 1}}, 0, 8, 1);
+    REQUIRE(hole);
+    CHECK((hole->x == 1 && hole->y == 1));
+    sheet.refine();
+    const auto fine = sheet.find({4, 2, {1, 1, 1, 1, 1, 1, 1, 1}}, 0, 16, 1);
+    REQUIRE(fine);
+    CHECK((fine->x == 2 && fine->y == 2));
+    CHECK_FALSE(sheet.find({201, 1, std::vector<std::uint8_t>(201, 1)}, 0, 16, 1));
+}
+
+TEST_CASE("charts of numbers beyond all range become one texel, and harm no other") {
+    const Made ball = made(test::icosphere(2), 10);
+    for (const double far : {std::nan(""), HUGE_VAL, 1e300, 1e101}) {
+        std::vector<Chart> charts = ball.charts.charts;
+        const auto faces = static_cast<Index>(ball.faces.size());
+        charts.push_back({{faces}, {{ChartPoint(0, 0), ChartPoint(far, 0), ChartPoint(0, far)}}, 1, far});
+        const auto page = pack_charts(charts, faces + 1u, 256);
+        REQUIRE(page);
+        CHECK(page->charts.size() == charts.size());
+        owners(*page);
+        for (const AtlasPlace& place : page->atlas.places) {
+            for (const auto& uv : place.uv) {
+                CHECK((uv[0] >= 0 && uv[0] <= page->atlas.width));
+                CHECK((uv[1] >= 0 && uv[1] <= page->atlas.height));
+            }
+        }
+        CHECK(page->charts.back().single);
+    }
+}

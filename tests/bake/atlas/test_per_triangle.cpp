@@ -1,0 +1,198 @@
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "bake/atlas/per_triangle.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+
+namespace {
+
+std::vector<AtlasTriangle> random_triangles(std::size_t count, double largest) {
+    std::mt19937 random(7);
+    std::vector<AtlasTriangle> result(count);
+    for (AtlasTriangle& t : result) {
+        const double a = largest * std::exp2(-6.0 * (random() % 1000) / 1000.0);
+        t.right = static_cast<std::uint8_t>(random() % 3);
+        t.legs = {a, a * std::exp2(-3.0 * (random() % 1000) / 1000.0)};
+        if (random() % 2) std::swap(t.legs[0], t.legs[1]);
+        t.order = random();
+    }
+    return result;
+}
+
+// The same, every other one with its successor as partner.
+std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
+    std::vector<AtlasTriangle> result = random_triangles(count, largest);
+    for (std::size_t i = 0; i + 3 < count; i += 4) {
+        result[i].partner = static_cast<Index>(i + 1);
+        result[i + 1].partner = static_cast<Index>(i);
+        result[i + 1].legs = {result[i].legs[0] * 1.1, result[i].legs[1] * 0.9};
+    }
+    return result;
+}
+
+// Texels that bilinear filtering reads in a triangle. Weights of rounding errors do not count.
+std::set<std::pair<int, int>> texels_read(const AtlasPlace& place) {
+    std::set<std::pair<int, int>> result;
+    const int n = 4 * static_cast<int>(place.legs[0] + place.legs[1]) + 1;
+    for (const Vec3& w : test::spread(n)) {
+        double x = -0.5, y = -0.5;
+        for (std::size_t i = 0; i < 3; ++i) {
+            x += w[i] * place.uv[i][0];
+            y += w[i] * place.uv[i][1];
+        }
+        for (double i : {std::floor(x), std::floor(x) + 1}) {
+            for (double j : {std::floor(y), std::floor(y) + 1}) {
+                if (std::abs(i - x) < 1 - 1e-9 && std::abs(j - y) < 1 - 1e-9) result.insert({int(i), int(j)});
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("no texel is read by two triangles but partners, and all are on the page") {
+    const double largest = GENERATE(3.0, 20.0, 90.0);
+    const auto triangles = GENERATE_COPY(random_triangles(300, largest), random_partners(300, largest));
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    CHECK(std::has_single_bit(atlas->width));
+    CHECK(std::has_single_bit(atlas->height));
+    CHECK(atlas->scale >= 1);
+    std::map<std::pair<int, int>, std::size_t> owner;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (const auto& [x, y] : texels_read(atlas->places[t])) {
+            REQUIRE((x >= 0 && y >= 0 && x < int(atlas->width) && y < int(atlas->height)));
+            const auto [found, fresh] = owner.insert({{x, y}, t});
+            REQUIRE((fresh || found->second == t || triangles[t].partner == found->second));
+        }
+    }
+}
+
+TEST_CASE("partners meet on their common edge") {
+    const double largest = GENERATE(0.9, 20.0, 90.0);
+    const auto triangles = random_partners(300, largest);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    std::size_t joined = 0;
+    for (const AtlasCell& cell : atlas->cells) {
+        if (!cell.joined) continue;
+        ++joined;
+        REQUIRE(triangles[cell.first].partner == cell.second);
+        const AtlasPlace &a = atlas->places[cell.first], &b = atlas->places[cell.second];
+        CHECK(a.legs == b.legs);
+        const std::size_t ra = triangles[cell.first].right, rb = triangles[cell.second].right;
+        CHECK(a.uv[(ra + 1) % 3] == b.uv[(rb + 2) % 3]);
+        CHECK(a.uv[(ra + 2) % 3] == b.uv[(rb + 1) % 3]);
+        CHECK(a.uv[ra] != b.uv[rb]);
+    }
+    CHECK(joined > 0);
+    if (largest > 50) CHECK(joined == 75);  // none is too small
+}
+
+TEST_CASE("mip levels read texels of their own cell only, down to a level that grows with the cell") {
+    const auto triangles = random_partners(300, 90);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    std::map<std::uint32_t, int> seen;
+    for (const AtlasCell& cell : atlas->cells) {
+        if (!cell.joined) continue;
+        double low_x = 1e9, low_y = 1e9, high_x = 0, high_y = 0;
+        for (Index t : {cell.first, cell.second}) {
+            for (const auto& uv : atlas->places[t].uv) {
+                low_x = std::min(low_x, uv[0]);
+                low_y = std::min(low_y, uv[1]);
+                high_x = std::max(high_x, uv[0]);
+                high_y = std::max(high_y, uv[1]);
+            }
+        }
+        const double inset = low_x - cell.x;
+        const auto grain = static_cast<std::uint32_t>(2 * inset);  // texels of the clean level
+        CHECK(std::has_single_bit(grain));
+        for (std::uint32_t n : {cell.x, cell.y, cell.width, cell.height}) CHECK(n % grain == 0);
+        CHECK(low_y == cell.y + inset);
+        CHECK(high_x == cell.x + cell.width - inset);
+        CHECK(high_y == cell.y + cell.height - inset);
+        CHECK((grain >= 2 || std::min(high_x - low_x, high_y - low_y) < 8));
+        ++seen[grain];
+    }
+    CHECK(seen.size() > 2);
+}
+
+TEST_CASE("cells do not overlap and every triangle is in one") {
+    const auto triangles = random_triangles(500, 40);
+    const auto atlas = pack_triangles(triangles, 2048);
+    REQUIRE(atlas);
+    std::vector<int> texels(std::size_t{atlas->width} * atlas->height, 0), seen(triangles.size(), 0);
+    for (const AtlasCell& cell : atlas->cells) {
+        REQUIRE(cell.x + cell.width <= atlas->width);
+        REQUIRE(cell.y + cell.height <= atlas->height);
+        for (Index t : {cell.first, cell.second}) {
+            if (t != no_index) ++seen[t];
+        }
+        for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
+            for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) ++texels[y * atlas->width + x];
+        }
+    }
+    CHECK(*std::max_element(texels.begin(), texels.end()) == 1);
+    CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+    const auto used = std::accumulate(texels.begin(), texels.end(), 0.0);
+    CHECK(used / static_cast<double>(texels.size()) > 0.8);
+}
+
+TEST_CASE("triangles keep about the wanted size and are never mirrored") {
+    const auto triangles = random_triangles(300, 60);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const AtlasPlace& place = atlas->places[t];
+        const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        CHECK(twice == -double(place.legs[0]) * place.legs[1]);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double wanted = triangles[t].legs[i] * atlas->scale;
+            CHECK(place.legs[i] > 0.75 * wanted - 2.5);
+            CHECK(place.legs[i] < 1.35 * wanted + 2.5);
+            const auto& r = place.uv[triangles[t].right];
+            const auto& end = place.uv[(triangles[t].right + 1 + i) % 3];
+            CHECK(std::abs(end[0] - r[0]) + std::abs(end[1] - r[1]) == place.legs[i]);
+        }
+    }
+}
+
+TEST_CASE("a full page shrinks everything, down to one texel per triangle, and then gives up") {
+    const auto triangles = random_triangles(4000, 100);
+    const auto small = pack_triangles(triangles, 256);
+    REQUIRE(small);
+    CHECK(small->scale < 1);
+    CHECK(small->width == 256);
+    REQUIRE(pack_triangles(triangles, 64));
+    const auto crammed = pack_triangles(std::span(triangles).first(64 * 64 - 96), 64);
+    REQUIRE(crammed);
+    std::set<std::pair<double, double>> places;
+    for (const AtlasPlace& place : crammed->places) places.insert({place.uv[0][0], place.uv[0][1]});
+    CHECK(places.size() == crammed->places.size());
+    CHECK_FALSE(pack_triangles(random_triangles(64 * 64 + 1, 100), 64));
+}
+
+TEST_CASE("weights at corners are one and closest points stay inside") {
+    AtlasPlace place{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
+    const AtlasFrame frame(place);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 w = frame.at(place.uv[i][0], place.uv[i][1]);
+        for (std::size_t k = 0; k < 3; ++k) CHECK(w[k] == Approx(k == i ? 1 : 0).margin(1e-12));
+    }
+    CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right corner
+    CHECK(frame.closest(14.5, 30)[1] == Approx(0.5));  // below the first leg's middle
+    CHECK(frame.closest(14.5, 30)[2] == Approx(0).margin(1e-12));
+    const Vec3 h = frame.closest(14.5 + 1, 18.5 - 2);  // straight out from the hypotenuse's middle
+    CHECK(h[0] == Approx(0).margin(1e-12));
+    CHECK(h[1] == Approx(0.5));
+}

@@ -1,0 +1,240 @@
+#include "faqem/bake_levels.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/scenes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+Part waves(Index n, double height, double x) {
+    return sheet(n, [=](double u, double v) {
+        return Vec3{x + u / n, v / n, height * std::sin(6 * u / n) * std::sin(5 * v / n)};
+    });
+}
+
+Options plain() {
+    Options options;
+    options.bake.kind = Bake::none;
+    return options;
+}
+
+/// A ball whose texture is seen from above and from below: the colour tells x and y.
+Asset painted_ball() {
+    Asset asset = textured_square(ramp(64));
+    const TriangleMesh ball = icosphere(3);
+    Part& part = asset.parts[0];
+    part.positions = ball.positions;
+    part.triangles = ball.triangles;
+    part.face_material.assign(part.triangles.size(), 0);
+    part.uvs = {{}};
+    for (const Vec3& p : part.positions)
+        part.uvs[0].push_back({static_cast<float>(0.5 + p[0] / 2), static_cast<float>(0.5 + p[1] / 2)});
+    return asset;
+}
+
+/// How far red and green of a level are from those of the original at the same x and y, on average.
+double colour_error(const LightAsset& light, const Asset& original) {
+    const Asset& asset = light.asset;
+    const Pixels before = decode(original.images[0]);
+    const Part& part = asset.parts[0];
+    double sum = 0, count = 0;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        const Material& material = asset.materials.at(part.face_material[f]);
+        const Pixels image = decode(asset.images.at(material.base_color_texture.image));
+        for (const Vec3& w : spread(3)) {
+            const auto p = blend(part.positions, part.triangles[f], w);
+            const auto is = look(part, image, f, w), was = read(before, 0.5 + p[0] / 2, 0.5 + p[1] / 2);
+            for (const std::size_t k : {0, 1}) sum += std::abs(is[k] - was[k]), ++count;
+        }
+    }
+    return sum / count;
+}
+
+const std::vector<Level> wanted = {ratio(0.5), ratio(0.2), faces(60)};
+
+}  // namespace
+
+TEST_CASE("the levels of an asset share one run, and the first is what simplify gives") {
+    Asset asset;
+    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
+    for (const Budget budget : {Budget::scene, Budget::mesh}) {
+        Options options = plain();
+        options.budget = budget;
+        const auto levels = simplify_parts_levels(asset, wanted, options);
+        REQUIRE(levels.size() == 3);
+        const std::uint64_t most[] = {656, 262, 60};
+        std::uint64_t last[] = {800, 512, 0};
+        double error = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SmallParts& small = levels[i].result;
+            CHECK(small.report.faces_out <= most[i]);
+            CHECK(small.report.faces_out + 4 > most[i]);
+            CHECK(levels[i].error >= error);
+            error = levels[i].error;
+            for (std::size_t p = 0; p < 3; ++p) {
+                const TriangleMesh& mesh = small.parts[p].mesh;
+                CHECK(mesh.triangles.size() <= last[p]);
+                last[p] = mesh.triangles.size();
+                if (p == 2) continue;
+                const MeshView part{asset.parts[p].positions, asset.parts[p].triangles};
+                CHECK(hausdorff(part, mesh.view()).value <= error);
+            }
+        }
+        options.target = ratio(0.5);
+        const SmallParts alone = simplify_parts(asset, options);
+        for (std::size_t p = 0; p < 3; ++p)
+            CHECK(alone.parts[p].mesh.positions == levels[0].result.parts[p].mesh.positions);
+    }
+}
+
+TEST_CASE("an asset's level may be a distance in the units of the scene") {
+    Asset asset;
+    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2)};
+    const auto levels = simplify_parts_levels(asset, {ratio(0.5), model_units(0.02), faces(20)}, plain());
+    REQUIRE(levels.size() == 3);
+    REQUIRE(levels[1].result.report.max_error);
+    CHECK(levels[1].result.report.max_error->within());
+    CHECK(levels[1].error <= 0.02);
+    CHECK(levels[2].error > 0.02);
+}
+
+TEST_CASE("every level of a textured asset has a texture of its own") {
+    Asset asset = textured_square(ramp(64));
+    asset.parts[0] = waves(12, 0.1, 0);
+    asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
+    asset.parts[0].uvs.resize(1);
+    for (const Vec3& p : asset.parts[0].positions)
+        asset.parts[0].uvs[0].push_back({static_cast<float>(p[0]), static_cast<float>(1 - p[1])});
+    Options options;
+    options.bake.texture_size = 64;
+    const auto levels = simplify_levels(asset, {ratio(0.5), ratio(0.1)}, options);
+    REQUIRE(levels.size() == 2);
+    for (const LightLevel& level : levels) {
+        CHECK_FALSE(level.result.asset.images.empty());
+        CHECK(level.result.report.pages.size() == 1);
+    }
+    CHECK(levels[0].result.report.faces_out > levels[1].result.report.faces_out);
+}
+
+TEST_CASE("levels share a texture that is baked once and looks right on each") {
+    const Asset ball = painted_ball();
+    Options options;
+    options.bake.texture_size = 128;
+    const std::vector<Level> goals = {ratio(0.5), ratio(0.25), of_diagonal(0.02), faces(80)};
+    const auto levels = simplify_levels(ball, goals, options, LevelTextures::shared);
+    REQUIRE(levels.size() == 4);
+    CHECK(levels[0].result.report.pages.at(0).charts > 1);
+    const std::size_t most[] = {640, 320, 320, 80};
+    double error = 0;
+    const MeshView original{ball.parts[0].positions, ball.parts[0].triangles};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CAPTURE(i);
+        const LightAsset& light = levels[i].result;
+        const Part& part = light.asset.parts.at(0);
+        CHECK(part.triangles.size() <= most[i]);
+        CHECK(part.triangles.size() == light.report.faces_out);
+        CHECK(light.report.faces_in == 1280);
+        CHECK(light.report.vertices_in == levels[0].result.report.vertices_in);
+        CHECK(light.report.pages.size() == (i == 0 ? 1 : 0));
+        REQUIRE(light.asset.images.size() == 1);
+        CHECK(light.asset.images[0].encoded == levels[0].result.asset.images[0].encoded);
+        CHECK(colour_error(light, ball) < 4);
+        CHECK(levels[i].error >= error);
+        error = levels[i].error;
+        const MeshView small{part.positions, part.triangles};
+        CHECK(hausdorff(original, small).value <= error);
+    }
+    REQUIRE(levels[2].result.report.max_error);
+    CHECK(levels[2].result.report.max_error->within());
+    CHECK(levels[3].result.report.collapses > levels[0].result.report.collapses);
+}
+
+TEST_CASE("a level that the finest one exceeds is that one, and says how far it is") {
+    const auto levels = simplify_levels(painted_ball(), {ratio(0.05), of_diagonal(0.0001), ratio(0.05)}, {},
+                                        LevelTextures::shared);
+    REQUIRE(levels.size() == 3);
+    CHECK(levels[0].error > 0);
+    for (std::size_t i = 1; i < 3; ++i) {
+        CHECK(levels[i].result.asset.parts[0].triangles.size() == levels[0].result.report.faces_out);
+        CHECK(levels[i].error >= levels[0].error);
+        CHECK(levels[i].error < 1.02 * levels[0].error);
+    }
+    CHECK_FALSE(levels[1].result.report.max_error->within());
+}
+
+TEST_CASE("what cannot go with a shared texture is refused") {
+    const Asset ball = painted_ball();
+    const auto refused = [&](const Options& options) {
+        CHECK_THROWS_AS(simplify_levels(ball, wanted, options, LevelTextures::shared), OptionError);
+    };
+    for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none})
+        refused({.bake = {.kind = kind}});
+    refused({.topology = {.group_borders = GroupBorders::kept}});
+    refused({.topology = {.weld = Weld::none}});
+    refused({.history = Recording::on});
+    CHECK(simplify_levels(ball, {}, {}, LevelTextures::shared).empty());
+}
+
+TEST_CASE("cancelling the levels of an asset says so") {
+    Asset asset;
+    asset.parts = {waves(40, 0.2, 0), waves(40, 0.05, 2)};
+    Options options = plain();
+    options.threads = 1;  // who waits for other threads asks every few milliseconds, as often as that takes
+    for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
+        if (textures == LevelTextures::shared) options.bake.kind = Bake::atlas;
+        std::size_t calls = 0;
+        options.progress = [&](Phase, double) { return ++calls, Continue::yes; };
+        simplify_levels(asset, wanted, options, textures);
+        for (const std::size_t stop : {std::size_t{0}, calls / 4, calls / 2, 3 * calls / 4, calls - 1}) {
+            std::size_t left = stop;
+            options.progress = [&](Phase, double) { return left-- > 0 ? Continue::yes : Continue::cancel; };
+            const auto levels = simplify_levels(asset, wanted, options, textures);
+            REQUIRE_FALSE(levels.empty());
+            CHECK(levels.back().result.report.stop == StopReason::cancelled);
+        }
+    }
+}
+
+TEST_CASE("progress of the levels of an asset goes from phase to phase and never back") {
+    Asset asset;
+    asset.parts = {waves(30, 0.2, 0), waves(30, 0.05, 2)};
+    const std::vector<std::vector<Level>> chains = {
+        {ratio(0.3)}, wanted, {ratio(0.5), of_diagonal(0.1), faces(20)}};
+    for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
+        for (const std::vector<Level>& chain : chains) {
+            Options options;
+            options.bake.texture_size = 64;
+            Phase phase = Phase::simplify;
+            double last = 0;
+            bool is_told = false;
+            options.progress = [&](Phase now, double done) {
+                is_told = true;
+                CHECK(static_cast<int>(now) >= static_cast<int>(phase));
+                if (now != phase) last = 0;
+                phase = now;
+                CHECK(done >= last);
+                CHECK(done <= 1);
+                last = done;
+                return Continue::yes;
+            };
+            CHECK(simplify_levels(asset, chain, options, textures).size() == chain.size());
+            CHECK(is_told);
+            CHECK(phase == Phase::bake);
+            CHECK(last == Approx(1));
+        }
+    }
+}
+
+TEST_CASE("levels of an asset are checked like those of a mesh") {
+    Asset asset;
+    asset.parts = {waves(4, 0.2, 0)};
+    CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1), ratio(0.5)}, plain()), OptionError);
+    asset.parts[0].triangles[0][0] = 1000;
+    CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1)}, plain()), InputError);
+}

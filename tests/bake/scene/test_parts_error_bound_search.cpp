@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "faqem/compare.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// A wavy sheet of 2 n^2 faces with waves of a height, beside others.
+Part waves(Index n, double height, double beside) {
+    return sheet(n, [&](double i, double j) {
+        const double x = i / n, y = j / n;
+        return Vec3{x + beside, y, height * std::sin(9 * x) * std::cos(7 * y)};
+    });
+}
+
+MeshView view(const Part& part) { return {part.positions, part.triangles, {}, nullptr, {}}; }
+
+Options within(MaxError error) {
+    Options options;
+    options.max_error = error;
+    options.bake.kind = Bake::none;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("every part of an asset is within the error, and its distance is in the report") {
+    Asset asset;
+    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
+    const double allowed = 0.01;
+    const SmallParts small = simplify_parts(asset, within(model_units(allowed)));
+    REQUIRE(small.parts.size() == 3);
+    CHECK(small.report.stop == StopReason::reached_max_error);
+    REQUIRE(small.report.max_error);
+    const MeasuredError& error = *small.report.max_error;
+    CHECK(error.within());
+    CHECK(small.report.faces_out < small.report.faces_in / 2);
+    CHECK(small.report.target_faces == small.report.faces_out);
+    double value = 0, bound = 0;
+    for (std::size_t p = 0; p < 2; ++p) {
+        const DistanceBound own = hausdorff(view(asset.parts[p]), small.parts[p].mesh.view());
+        value = std::max(value, own.value);
+        bound = std::max(bound, own.bound);
+        CHECK(small.parts[p].history.kept_faces.size() == small.parts[p].mesh.triangles.size());
+    }
+    // The report's figures are of other searches for the same distance, both to 1%.
+    CHECK(value <= allowed);
+    CHECK(error.value <= bound);
+    CHECK(error.bound >= value);
+    CHECK(error.value >= allowed / 3);
+}
+
+TEST_CASE("for an asset a share of the diagonal is that of the whole scene") {
+    Asset asset;
+    asset.parts = {waves(16, 0.2, 0), waves(12, 0.05, 2)};
+    Part all = asset.parts[0];
+    for (Triangle t : asset.parts[1].triangles) {
+        for (Index& v : t) v += static_cast<Index>(asset.parts[0].positions.size());
+        all.triangles.push_back(t);
+    }
+    all.positions.insert(all.positions.end(), asset.parts[1].positions.begin(),
+                         asset.parts[1].positions.end());
+    const double diagonal = info(view(all)).diagonal;
+    const SmallParts share = simplify_parts(asset, within(of_diagonal(0.005)));
+    const SmallParts units = simplify_parts(asset, within(model_units(0.005 * diagonal)));
+    CHECK(share.report.max_error->allowed == Approx(0.005 * diagonal));
+    for (std::size_t p = 0; p < 2; ++p) {
+        CHECK(share.parts[p].mesh.positions == units.parts[p].mesh.positions);
+    }
+}
+
+TEST_CASE("the target of an asset is checked against the error") {
+    Asset asset;
+    asset.parts = {waves(16, 0.2, 0)};
+    for (const double allowed : {1e-4, 1.0}) {
+        Options options = within(model_units(allowed));
+        options.target = faces(50);
+        const LightAsset light = simplify(asset, options);
+        CHECK(light.report.faces_out <= 50);
+        CHECK(light.report.stop == StopReason::reached_target);
+        REQUIRE(light.report.max_error);
+        CHECK(light.report.max_error->runs == 1);
+        CHECK(light.report.max_error->within() == (allowed == 1.0));
+    }
+}
+
+TEST_CASE("an asset that may lose nothing comes out whole") {
+    Asset asset;
+    asset.parts = {waves(8, 0.2, 0), square()};
+    asset.parts[1].face_material.clear();
+    const SmallParts small = simplify_parts(asset, within(model_units(1e-12)));
+    CHECK(small.parts[0].mesh.positions == asset.parts[0].positions);
+    CHECK(small.parts[1].mesh.triangles.size() == 2);
+    CHECK(small.report.max_error->within());
+}
+
+TEST_CASE("cancelling the search for an asset leaves no parts, and progress rises") {
+    Asset asset;
+    asset.parts = {waves(32, 0.2, 0), waves(32, 0.1, 2)};
+    Options options = within(of_diagonal(0.005));
+    double last = 0;
+    std::size_t calls = 0;
+    options.progress = [&](Phase phase, double done) {
+        if (phase != Phase::simplify) return Continue::yes;
+        CHECK(done >= last);
+        last = done;
+        ++calls;
+        return Continue::yes;
+    };
+    CHECK(!simplify(asset, options).asset.parts.empty());
+    CHECK(last == 1);
+    REQUIRE(calls > 3);
+    const std::size_t stop = calls / 2;
+    calls = 0;
+    options.progress = [&](Phase, double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
+    const LightAsset light = simplify(asset, options);
+    CHECK(light.report.stop == StopReason::cancelled);
+    CHECK(light.asset.parts.empty());
+    CHECK(calls == stop);
+}

@@ -1,0 +1,388 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// 2 n^2 faces.
+Part bumpy(Index n) {
+    return sheet(n, [](double x, double y) { return Vec3{x, y, std::sin(x * 0.9) * std::cos(y * 0.7)}; });
+}
+
+// With a triangle of side 1 at (x, 0, 0), without materials.
+Part with_speck(Part part, double x) {
+    const auto first = static_cast<Index>(part.positions.size());
+    for (const Vec3& p : {Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}) part.positions.push_back(p);
+    part.triangles.push_back({first, first + 1, first + 2});
+    part.face_material.clear();
+    return part;
+}
+
+}  // namespace
+
+TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(20), Part{}};
+    for (Vec3& p : asset.parts[1].positions) p[2] = 0;
+    Options options;
+    options.target = GENERATE(ratio(0.25), faces(400));
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.target_faces == 400);
+    CHECK(small.report.faces_out <= 400);
+    CHECK(small.report.stop == StopReason::reached_target);
+    CHECK(small.parts[0].mesh.triangles.size() > 385);
+    CHECK(small.parts[1].mesh.triangles.size() <= 12);
+    CHECK(small.parts[2].mesh.triangles.empty());
+}
+
+TEST_CASE("one sheet cut in two gets about what it got whole") {
+    // Cut across the rows: two thirds of the faces are in the first part.
+    Asset whole, cut;
+    whole.parts = {bumpy(30)};
+    cut.parts = {bumpy(30), bumpy(30)};
+    cut.parts[0].triangles.resize(1200);
+    cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
+    Options options;
+    options.target = ratio(0.3);
+    options.topology.border = Border::locked;
+    const SimplifyResult one = simplify_parts(whole, options).parts[0];
+    const SmallParts two = simplify_parts(cut, options);
+    const auto low =
+        std::count_if(one.face_origin.begin(), one.face_origin.end(), [](Index f) { return f < 1200; });
+    CHECK(two.report.faces_out <= 540);
+    CHECK(std::abs(double(two.parts[0].mesh.triangles.size()) - double(low)) < 0.1 * 540);
+}
+
+TEST_CASE("a face count is shared out by size, and tiny parts keep their faces") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(10), square(), Part{}};
+    asset.parts[2].face_material.clear();
+    Options options;
+    options.target = faces(500);
+    options.budget = Budget::mesh;
+    const SmallParts small = simplify_parts(asset, options);
+    REQUIRE(small.parts.size() == 4);
+    // The square keeps its 2 faces; 498 for 800 and 200 faces are 398.4 and 99.6.
+    CHECK(small.parts[0].report.target_faces == 398);
+    CHECK(small.parts[1].report.target_faces == 100);
+    CHECK(small.parts[2].mesh.triangles.size() == 2);
+    CHECK(small.parts[3].mesh.triangles.empty());
+    CHECK(small.report.faces_in == 1002);
+    CHECK(small.report.target_faces == 500);
+    CHECK(small.report.faces_out <= 500);
+    CHECK(small.report.stop == StopReason::reached_target);
+    CHECK(small.report.collapses == small.parts[0].report.collapses + small.parts[1].report.collapses);
+    for (std::size_t p = 0; p < 3; ++p) {
+        CHECK(small.parts[p].history.kept_faces.size() == small.parts[p].mesh.triangles.size());
+    }
+}
+
+TEST_CASE("a ratio holds for every part where the budget is per mesh") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(10)};
+    Options options;
+    options.target = ratio(0.25);
+    options.budget = Budget::mesh;
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[0].mesh.triangles.size() <= 200);
+    CHECK(small.parts[1].mesh.triangles.size() <= 50);
+    CHECK(small.report.target_faces == 250);
+}
+
+TEST_CASE("a part of many small components keeps them all") {
+    // Twelve labels in one part, beside a sheet of 800 faces that can pay for them.
+    Asset asset;
+    asset.parts = {bumpy(20), Part{}};
+    Part& labels = asset.parts[1];
+    for (Index i = 0; i < 12; ++i) {
+        for (Vec3 p : square().positions) labels.positions.push_back({p[0], p[1] + 2 * i, p[2]});
+        labels.triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
+        labels.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
+    }
+    Options options;
+    options.budget = Budget::mesh;
+    options.target = GENERATE(ratio(0.1), faces(82));
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[1].mesh.triangles.size() == 24);
+    CHECK(small.report.components_deleted == 0);
+    CHECK(small.report.target_faces == 82);
+    CHECK(small.report.faces_out <= 82);
+
+    // No room for them: every part goes down in proportion, but keeps 4 faces.
+    options.target = faces(20);
+    const SmallParts smaller = simplify_parts(asset, options);
+    CHECK(smaller.parts[0].report.target_faces == 16);
+    CHECK(smaller.parts[1].report.target_faces == 4);
+}
+
+TEST_CASE("seams between vertices at one place do not make components") {
+    // The grid as a soup of single triangles: its share is its part of the whole, not all its faces.
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(10)};
+    Part soup;
+    for (const Triangle& t : asset.parts[1].triangles) {
+        const Index n = static_cast<Index>(soup.positions.size());
+        for (Index v : t) soup.positions.push_back(asset.parts[1].positions[v]);
+        soup.triangles.push_back({n, n + 1, n + 2});
+    }
+    asset.parts[1] = soup;
+    Options options;
+    options.budget = Budget::mesh;
+    options.target = ratio(0.25);
+    CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
+}
+
+TEST_CASE("the counts of the report are sums over the parts") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(10)};
+    Options options;
+    options.preset = Preset::best;
+    const SmallParts small = simplify_parts(asset, options);
+    const Report &sum = small.report, &a = small.parts[0].report, &b = small.parts[1].report;
+    CHECK(sum.faces_in == a.faces_in + b.faces_in);
+    CHECK(sum.vertices_out == a.vertices_out + b.vertices_out);
+    CHECK(sum.collapses == a.collapses + b.collapses);
+    CHECK(sum.vertices_relaxed == a.vertices_relaxed + b.vertices_relaxed);
+    CHECK(sum.vertices_relaxed > 0);
+    CHECK(sum.edges_swapped == a.edges_swapped + b.edges_swapped);
+}
+
+TEST_CASE("components are pruned from every part, which keeps its largest") {
+    // Two sheets of side 20 with a speck of side 1 each; the second one is ten times as large.
+    const Part dusty = with_speck(bumpy(20), 30);
+    Part speck;
+    speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    speck.triangles = {{0, 1, 2}};
+    Asset asset;
+    asset.parts = {dusty, dusty, speck};
+    for (Vec3& p : asset.parts[1].positions) p = {10 * p[0], 10 * p[1], 10 * p[2]};
+    Options options;
+    options.bake.kind = Bake::none;
+    options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.components_pruned == 1);
+    CHECK(small.report.faces_pruned == 1);
+    CHECK(small.parts[0].report.components_pruned == 1);
+    CHECK(small.parts[1].report.components_pruned == 0);
+    CHECK(small.parts[2].mesh.triangles.size() == 1);
+    CHECK(small.report.faces_out <= small.report.target_faces);
+}
+
+TEST_CASE("an error does not count what is pruned from a scene") {
+    const Part dusty = with_speck(bumpy(20), 60);
+    Asset asset;
+    asset.parts = {dusty};
+    Options options;
+    options.bake.kind = Bake::none;
+    options.max_error = model_units(0.2);
+    options.topology.prune = model_units(2);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.report.components_pruned == 1);
+    REQUIRE(small.report.max_error);
+    CHECK(small.report.max_error->within());
+    CHECK(small.report.faces_out < 600);
+}
+
+TEST_CASE("kept borders between materials stay, also where they are baked into one page") {
+    // A flat sheet in two materials: its border costs no error, only the wish keeps it.
+    Asset asset;
+    asset.parts = {sheet(20, [](double x, double y) { return Vec3{x, y, 0}; })};
+    asset.materials.resize(2);
+    asset.parts[0].face_material.clear();
+    for (Index f = 0; f < 800; ++f) asset.parts[0].face_material.push_back(f / 2 % 20 / 10);
+    Options options;
+    options.target = ratio(0.05);
+    options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
+    options.topology.group_borders = GroupBorders::kept;
+    const SmallParts small = simplify_parts(asset, options);
+    const SimplifyResult& part = small.parts[0];
+    CHECK(part.report.faces_out <= 40);
+    double area[2] = {0, 0};
+    for (std::size_t f = 0; f < part.mesh.triangles.size(); ++f) {
+        bool left = false, right = false;
+        for (const Index v : part.mesh.triangles[f]) {
+            left |= part.mesh.positions[v][0] < 10 - 1e-6;
+            right |= part.mesh.positions[v][0] > 10 + 1e-6;
+        }
+        CHECK(left != right);
+        const Index material = asset.parts[0].face_material[part.face_origin[f]];
+        CHECK(right == (material == 1));
+        const Vec3 n = normal(part.mesh, part.mesh.triangles[f]);
+        area[material] += 0.5 * std::hypot(n[0], n[1], n[2]);
+    }
+    CHECK(area[0] == Approx(200));
+    CHECK(area[1] == Approx(200));
+    // What is baked into one page is one group for the second stage.
+    const bool merged = options.bake.kind != Bake::keep && options.bake.kind != Bake::none;
+    CHECK(part.mesh.face_groups.empty() == merged);
+    CHECK(part.history.face_groups.empty() == merged);
+}
+
+TEST_CASE("cancelling the first stage leaves the second nothing to do") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(20)};
+    Options options;
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    options.progress = [](Phase, double) { return Continue::cancel; };
+    const LightAsset light = simplify(asset, options);
+    CHECK(light.report.stop == StopReason::cancelled);
+    CHECK(light.asset.parts.empty());
+}
+
+TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
+    Asset asset;
+    asset.parts = {bumpy(60), bumpy(40)};
+    Options options;
+    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    std::vector<double> seen = {0};
+    options.progress = [&](Phase, double fraction) {
+        seen.push_back(fraction);
+        return Continue::yes;
+    };
+    simplify_parts(asset, options);
+    CHECK(seen.size() > 3);
+    CHECK(std::is_sorted(seen.begin(), seen.end()));
+    CHECK(seen.back() <= 1);
+    CHECK(seen.back() > 0.75);
+}
+
+TEST_CASE("the result of the whole way shows the source's colours") {
+    // A bumpy sheet whose texture is a ramp over its plan: colour tells place.
+    Asset asset = textured_square(ramp(128));
+    asset.parts = {bumpy(24)};
+    Part& part = asset.parts[0];
+    part.uvs.resize(1);
+    for (const Vec3& p : part.positions) {
+        part.uvs[0].push_back({static_cast<float>(p[0] / 24), static_cast<float>(p[1] / 24)});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    Options options;
+    options.target = ratio(0.2);
+    options.bake.texture_size = 512;
+    options.bake.mapping = GENERATE(Mapping::projection, Mapping::lineage);
+    options.history = Recording::on;
+    const LightAsset light = simplify(asset, options);
+    REQUIRE(light.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
+    CHECK(light.histories.size() == 1);
+    const Pixels atlas = decode(light.asset.images[0]), painted = ramp(128);
+    const Part& out = light.asset.parts[0];
+    double error = 0, count = 0;
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        for (const Vec3& w : spread(8)) {
+            const auto p = blend(out.positions, out.triangles[f], w);
+            const auto expected = read(painted, p[0] / 24, p[1] / 24), got = look(out, atlas, f, w);
+            for (std::size_t k = 0; k < 2; ++k) error += std::abs(expected[k] - got[k]);
+            count += 2;
+        }
+    }
+    // The ramp spans 180 levels over 24 cells, 7.5 a cell. Lineage ends at vertices, about a cell away;
+    // projection hardly errs at all.
+    CHECK(error / count < (options.bake.mapping == Mapping::projection ? 2.5 : 7.5));
+    CHECK(light.report.seconds.bake > 0);
+}
+
+TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
+    const Asset good = test::textured_square(test::ramp(4));
+    REQUIRE_NOTHROW(simplify(good, {}));
+    const auto refused = [&](const std::function<void(Asset&, Part&)>& spoil, const std::string& why) {
+        Asset asset = good;
+        spoil(asset, asset.parts[0]);
+        for (const Bake kind :
+             {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
+            Options options;
+            options.bake.kind = kind;
+            CHECK_THROWS_WITH(simplify(asset, options), why);
+        }
+    };
+    const std::string part = "part 'square': ";
+    const float nan = std::nanf("");
+    refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range");
+    refused([](Asset&, Part& p) { p.uvs[0].pop_back(); }, part + "uvs 0: 3 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.normals.resize(5); }, part + "normals: 5 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.joints.resize(1); }, part + "joints: 1 entries, there are 4 vertices");
+    refused(
+        [](Asset&, Part& p) {
+            p.morph_targets.push_back({{{0, 0, 0}}, {}});
+        },
+        part + "positions of a morph target: 1 entries, there are 4 vertices");
+    refused([&](Asset&, Part& p) { p.uvs[0][2][1] = nan; }, part + "uvs 0, vertex 2: is not finite");
+    refused([&](Asset&, Part& p) { p.positions[3][0] = nan; }, part + "positions, vertex 3: is not finite");
+    refused([](Asset&, Part& p) { p.face_material.pop_back(); },
+            part + "face_material: needs one entry per face or none");
+    refused([](Asset&, Part& p) { p.face_material[1] = 7; }, part + "face 1: material index out of range");
+    refused([](Asset& a, Part&) { a.images.clear(); }, "material 'paint': image index out of range");
+    refused([&](Asset& a, Part&) { a.materials[0].base_color_texture.rotation = nan; },
+            "material 'paint': the transform of a texture is not finite");
+    refused([&](Asset& a, Part&) { a.materials[0].roughness = nan; },
+            "material 'paint': a factor is not finite");
+}
+
+// A face of one material, the same of another, the same of the first again, and one back to back.
+TEST_CASE("faces at one place with different materials both stay, though they share a page") {
+    Asset asset;
+    asset.materials.resize(3);
+    asset.materials[2].double_sided = true;  // a page of its own
+    Part part;
+    part.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    part.triangles = {{0, 1, 2}, {4, 5, 3}, {3, 4, 5}, {0, 2, 1}, {3, 4, 2}};
+    part.face_material = {0, 1, 0, 0, 2};
+    asset.parts = {part};
+    Options options;
+    options.target = ratio(1);
+    const SmallParts small = simplify_parts(asset, options);
+    CHECK(small.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
+    CHECK(small.report.faces_dropped == 1);
+    // The second stage may go from one to the other.
+    CHECK(small.parts[0].history.face_groups == std::vector<Index>{0, 0, 0, 0, 1});
+    CHECK(small.parts[0].mesh.face_groups == std::vector<Index>{0, 0, 0, 1});
+}
+
+// One material, vertices of their own, red outside and blue inside.
+TEST_CASE("of two layers at one place that look opposite ways both stay, however they are wound") {
+    Asset asset = textured_square(paint(64, 64, [](std::uint32_t x, std::uint32_t) {
+        return x < 32 ? Rgba{255, 0, 0, 255} : Rgba{0, 0, 255, 255};
+    }));
+    const bool wound_alike = GENERATE(false, true);
+    CAPTURE(wound_alike);
+    const TriangleMesh sphere = icosphere(3);
+    const auto count = static_cast<Index>(sphere.positions.size());
+    Part part;
+    part.triangles = sphere.triangles;
+    for (const auto& [a, b, c] : sphere.triangles) {
+        part.triangles.push_back(wound_alike ? Triangle{a + count, b + count, c + count}
+                                             : Triangle{a + count, c + count, b + count});
+    }
+    part.uvs.resize(1);
+    for (const float side : {1.0f, -1.0f}) {
+        for (const Vec3& p : sphere.positions) {
+            part.positions.push_back(p);
+            part.uvs[0].push_back({side > 0 ? 0.2f : 0.8f, 0.5f});
+            part.normals.push_back({side * float(p[0]), side * float(p[1]), side * float(p[2])});
+        }
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    asset.parts = {part};
+    Options options;
+    options.target = ratio(0.25);
+    const LightAsset light = simplify(asset, options);
+    CHECK(light.report.faces_dropped == 0);
+    const Part& out = light.asset.parts[0];
+    CHECK(out.triangles.size() <= part.triangles.size() / 4);
+    const Pixels atlas = decode(light.asset.images[0]);
+    std::size_t outside = 0;
+    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
+        const Vec3& p = out.positions[out.triangles[f][0]];
+        const Vec3f& n = out.normals[out.triangles[f][0]];
+        const bool is_outside = p[0] * n[0] + p[1] * n[1] + p[2] * n[2] > 0;
+        outside += is_outside;
+        const auto color = look(out, atlas, f, {0.3, 0.3, 0.4});
+        CHECK(color[0] == Approx(is_outside ? 255 : 0).margin(2));
+        CHECK(color[2] == Approx(is_outside ? 0 : 255).margin(2));
+    }
+    CHECK(outside == out.triangles.size() / 2);
+}

@@ -1,0 +1,157 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "support/lit.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+Options with(NormalMap choice, double share = 1) {
+    Options options;
+    options.target = ratio(share);
+    options.bake.normal_map = choice;
+    options.bake.texture_size = 512;
+    return options;
+}
+
+const Pixels normal_image(const LightAsset& light) {
+    return decode(light.asset.images[light.asset.materials[0].normal_texture.image]);
+}
+
+// A square whose normal map leans everywhere by the same amount: (0.6, 0.48, 0.64) in tangent space.
+Asset leaning_square() {
+    Asset asset = textured_square(ramp(16));
+    asset.parts[0].normals.assign(4, {0, 0, 1});
+    asset.materials[0].normal_texture.image =
+        add_texture(asset, paint(8, 8, [](std::uint32_t, std::uint32_t) {
+                        return Rgba{204, 189, 209, 255};
+                    }));
+    return asset;
+}
+
+void check_lit(const LightAsset& light, const Direction& expected) {
+    REQUIRE(light.asset.materials[0].normal_texture);
+    CHECK(light.asset.materials[0].normal_scale == 1);
+    const Pixels map = normal_image(light);
+    const Part& part = light.asset.parts[0];
+    REQUIRE(part.tangents.size() == part.positions.size());
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (const Vec3& w : spread(6)) {
+            CHECK(degrees_between(lit_normal(part, map, f, w), unit(expected)) < 1);
+        }
+    }
+}
+
+// Waves that a twentieth of the faces cannot follow.
+Part waves(bool normals) {
+    Part part = sheet(64, [](double x, double y) { return Vec3{x, y, 0.4 * std::sin(x) * std::cos(y)}; });
+    for (const Vec3& p : part.positions) {
+        const Direction n =
+            unit({-0.4 * std::cos(p[0]) * std::cos(p[1]), 0.4 * std::sin(p[0]) * std::sin(p[1]), 1});
+        if (normals) part.normals.push_back({float(n[0]), float(n[1]), float(n[2])});
+    }
+    return part;
+}
+
+}  // namespace
+
+TEST_CASE("a normal map of the source lights the result as it lit the source") {
+    const Asset asset = leaning_square();
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.6, 0.48, 0.64});
+}
+
+TEST_CASE("mirrored UVs lean the other way") {
+    Asset asset = leaning_square();
+    for (Vec2f& uv : asset.parts[0].uvs[0]) uv[0] = 1 - uv[0];
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {-0.6, 0.48, 0.64});
+    for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {1 - uv[0], 1 - uv[1]};
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.6, -0.48, 0.64});
+}
+
+TEST_CASE("the scale of a normal map and a turned texture count") {
+    Asset asset = leaning_square();
+    asset.materials[0].normal_scale = 0.5f;
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.3, 0.24, 0.64});
+    // A quarter turn: u' = -v or so, whose direction on the square is up or down.
+    asset.materials[0].normal_scale = 1;
+    asset.materials[0].normal_texture.rotation = float(std::numbers::pi / 2);
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.48, -0.6, 0.64});
+}
+
+TEST_CASE("tangents of the file come before those of the UVs") {
+    Asset asset = leaning_square();
+    asset.parts[0].tangents.assign(4, {0, 1, 0, -1});
+    // The bitangent is cross(z, y) * -1 = x.
+    check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.48, 0.6, 0.64});
+}
+
+TEST_CASE("a normal map from geometry shows what the faces lost") {
+    Asset asset;
+    asset.parts = {waves(true)};
+    const LightAsset light = simplify(asset, with(NormalMap::on, 0.02));
+    const Pixels map = normal_image(light);
+    const Part& part = light.asset.parts[0];
+    double plain = 0, mapped = 0;
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (const Vec3& w : {Vec3{0.6, 0.2, 0.2}, Vec3{0.2, 0.6, 0.2}, Vec3{0.2, 0.2, 0.6}}) {
+            const auto p = blend(part.positions, part.triangles[f], w);
+            const Direction truth =
+                unit({-0.4 * std::cos(p[0]) * std::cos(p[1]), 0.4 * std::sin(p[0]) * std::sin(p[1]), 1});
+            plain += degrees_between(unit(blend(part.normals, part.triangles[f], w)), truth);
+            mapped += degrees_between(lit_normal(part, map, f, w), truth);
+            ++count;
+        }
+    }
+    CHECK(plain / double(count) > 5);
+    CHECK(mapped < 0.35 * plain);
+}
+
+TEST_CASE("auto makes a normal map where normals differ and none where they agree") {
+    Asset asset;
+    asset.parts = {waves(false)};
+    CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
+    for (Vec3& p : asset.parts[0].positions) p[2] = 0;
+    const LightAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));
+    CHECK_FALSE(flat.asset.materials[0].normal_texture);
+    CHECK(flat.asset.parts[0].tangents.empty());
+}
+
+TEST_CASE("off leaves normal maps out and says so, unlit materials have none") {
+    Asset asset = leaning_square();
+    const LightAsset off = bake(asset, unchanged(asset), with(NormalMap::off));
+    CHECK_FALSE(off.asset.materials[0].normal_texture);
+    CHECK(off.asset.parts[0].tangents.empty());
+    REQUIRE(off.report.warnings.size() == 1);
+    CHECK(off.report.warnings[0].find("'paint': the normal map") != std::string::npos);
+    asset.materials[0].unlit = true;
+    CHECK_FALSE(bake(asset, unchanged(asset), with(NormalMap::on)).asset.materials[0].normal_texture);
+}
+
+TEST_CASE("faces wound the wrong way are lit from the side that is seen") {
+    Asset asset = leaning_square();
+    asset.parts[0].normals.clear();
+    SmallParts small = unchanged(asset);
+    for (Triangle& t : asset.parts[0].triangles) std::swap(t[0], t[1]);
+    // The history is that of the square, whose normals look up; the source's faces look down now.
+    const LightAsset light = bake(asset, small, with(NormalMap::on));
+    const Pixels map = normal_image(light);
+    for (std::size_t f = 0; f < 2; ++f) {
+        CHECK(lit_normal(light.asset.parts[0], map, f, {0.3, 0.3, 0.4})[2] > 0.5);
+    }
+}
+
+TEST_CASE("kept UVs get tangents where there is a normal map") {
+    Asset asset = leaning_square();
+    Options options = with(NormalMap::automatic);
+    options.bake.kind = Bake::keep;
+    const LightAsset light = simplify(asset, options);
+    const Part& part = light.asset.parts[0];
+    REQUIRE(part.tangents.size() == part.positions.size());
+    for (const Vec4f& t : part.tangents) CHECK(t == Vec4f{1, 0, 0, 1});
+    asset.materials[0].normal_texture = {};
+    CHECK(simplify(asset, options).asset.parts[0].tangents.empty());
+}

@@ -1,0 +1,207 @@
+#include <catch2/catch.hpp>
+
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// A ball under a smooth ramp, lit from one side as it were: u and v are x and y.
+Asset painted_ball() {
+    Asset asset = textured_square(ramp(64));
+    const TriangleMesh ball = icosphere(3);
+    Part part;
+    part.positions = ball.positions;
+    part.triangles = ball.triangles;
+    part.uvs.resize(1);
+    for (const Vec3& p : ball.positions) {
+        part.uvs[0].push_back({static_cast<float>(0.5 + 0.45 * p[0]), static_cast<float>(0.5 + 0.45 * p[1])});
+    }
+    part.face_material.assign(ball.triangles.size(), 0);
+    asset.parts = {part};
+    return asset;
+}
+
+Options of_kind(Bake kind, std::uint32_t size) {
+    Options options;
+    options.bake.kind = kind;
+    options.bake.texture_size = size;
+    return options;
+}
+
+// The next mip level.
+Pixels half(const Pixels& pixels) {
+    return paint(pixels.width / 2, pixels.height / 2, [&](std::uint32_t x, std::uint32_t y) {
+        Rgba result;
+        for (std::size_t k = 0; k < 4; ++k) {
+            unsigned sum = 2;
+            for (std::uint32_t i = 0; i < 4; ++i)
+                sum += pixels.rgba[4 * (std::size_t{2 * y + i / 2} * pixels.width + 2 * x + i % 2) + k];
+            result[k] = static_cast<std::uint8_t>(sum / 4);
+        }
+        return result;
+    });
+}
+
+// The largest difference of a channel, corners and edges included.
+double worst_colour(const Asset& source, const Pixels& before, const Asset& light, const Pixels& after) {
+    double worst = 0;
+    const Part &a = source.parts[0], &b = light.parts[0];
+    for (std::size_t f = 0; f < a.triangles.size(); ++f) {
+        for (const Vec3& w : spread(4)) {
+            const auto x = look(a, before, f, w), y = look(b, after, f, w);
+            for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(x[k] - y[k]));
+        }
+    }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("charts show the source's colours, at their seams and on coarser mip levels too") {
+    const Asset source = painted_ball();
+    const LightAsset light = bake(source, unchanged(source), of_kind(Bake::atlas, 256));
+    REQUIRE(light.asset.images.size() == 1);
+    Pixels after = decode(light.asset.images[0]);
+    const Pixels before = decode(source.images[0]);
+    CHECK(worst_colour(source, before, light.asset, after) < 4);
+    for (int level = 1; level < 3; ++level) {
+        after = half(after);
+        CHECK(worst_colour(source, before, light.asset, after) < 4 + 4 * level);
+    }
+}
+
+TEST_CASE("however the charts are cut, no texel of another place is read at their seams") {
+    const Asset source = painted_ball();
+    const Pixels before = decode(source.images[0]);
+    const double density = GENERATE(0.82, 1.0, 1.11, 1.416, 1.46, 2.01, 2.13, 3.96);
+    Options options = of_kind(Bake::atlas, 512);
+    options.bake.texel_density = density;
+    const LightAsset light = bake(source, unchanged(source), options);
+    // The ramp rises by 180 over 64 source texels: 2.9 per texel.
+    const double texels = worst_colour(source, before, light.asset, decode(light.asset.images[0])) /
+                          (180.0 / 63) * light.report.pages[0].density;
+    CHECK(texels < 1.6);
+}
+
+TEST_CASE("charts split few vertices, and the report says what the page is like") {
+    const Asset source = painted_ball();
+    const SmallParts small = unchanged(source);
+    const LightAsset charts = bake(source, small, of_kind(Bake::atlas, 256));
+    const LightAsset triangles = bake(source, small, of_kind(Bake::per_triangle, 256));
+    CHECK(charts.asset.parts[0].positions.size() < 1.5 * double(source.parts[0].positions.size()));
+    CHECK(triangles.asset.parts[0].positions.size() > 2 * source.parts[0].positions.size());
+    REQUIRE(charts.report.pages.size() == 1);
+    const BakedPage& page = charts.report.pages[0];
+    CHECK(page.material == "paint");
+    CHECK(page.kind == Bake::atlas);
+    CHECK(page.faces == source.parts[0].triangles.size());
+    CHECK((page.charts > 1 && page.charts < 20));
+    CHECK(page.faces_alone == 0);
+    CHECK((page.fill > 0.3 && page.fill < 1));
+    CHECK((page.stretch >= 1 && page.stretch < 1.06));
+    CHECK(triangles.report.pages.at(0).kind == Bake::per_triangle);
+    CHECK(charts.report.warnings.empty());
+}
+
+// A slab 1.5 texels thick, on every side of it another colour.
+TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
+    const std::array<Rgba, 6> colors = {{{220, 0, 0, 255},
+                                         {0, 0, 220, 255},
+                                         {120, 120, 120, 255},
+                                         {0, 200, 0, 255},
+                                         {200, 200, 0, 255},
+                                         {0, 200, 200, 255}}};
+    Asset source =
+        textured_square(paint(384, 64, [&](std::uint32_t x, std::uint32_t) { return colors[x / 64]; }));
+    Part& part = source.parts[0];
+    part = {};
+    part.uvs.resize(1);
+    const double thick = 1.5 / 48;
+    const std::array<std::array<int, 4>, 6> sides = {
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (std::size_t s = 0; s < 6; ++s) {
+        const auto first = static_cast<Index>(part.positions.size());
+        for (const int i : sides[s]) {
+            part.positions.push_back({double(i & 1), double(i >> 1 & 1), thick * (i >> 2)});
+            // As dense everywhere: 48 texels from end to end, clear of the other colours.
+            const double along = s < 2 ? double(i >> 1 & 1) : thick * (i >> 2);
+            const double across = s < 4 ? double(i & 1) : double(i >> 1 & 1);
+            part.uvs[0].push_back({static_cast<float>((64 * double(s) + 8 + 48 * along) / 384),
+                                   static_cast<float>(0.125 + 0.75 * across)});
+        }
+        part.triangles.push_back({first, first + 1, first + 2});
+        part.triangles.push_back({first, first + 2, first + 3});
+    }
+    part.face_material.assign(12, 0);
+    const auto kind = GENERATE(Bake::atlas, Bake::per_triangle);
+    const LightAsset light = bake(source, unchanged_welded(source), of_kind(kind, 128));
+    CHECK(worst_colour(source, decode(source.images[0]), light.asset, decode(light.asset.images.at(0))) < 4);
+}
+
+TEST_CASE("auto takes charts, and triangles where charts are hardly more than that") {
+    Asset source = painted_ball();
+    CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
+          Bake::atlas);
+    Part& part = source.parts[0];
+    Part apart = part;
+    apart.positions.clear();
+    apart.uvs[0].clear();
+    for (Triangle& t : apart.triangles) {
+        for (Index& v : t) {
+            apart.positions.push_back(part.positions[v]);
+            apart.uvs[0].push_back(part.uvs[0][v]);
+            v = static_cast<Index>(apart.positions.size() - 1);
+        }
+    }
+    part = apart;
+    CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
+          Bake::per_triangle);
+}
+
+TEST_CASE("a page of charts has the same bytes with any number of threads") {
+    const Asset source = painted_ball();
+    Options options = of_kind(Bake::atlas, 128);
+    options.target = ratio(0.5);
+    options.threads = 1;
+    const LightAsset one = simplify(source, options);
+    options.threads = 3;
+    const LightAsset three = simplify(source, options);
+    CHECK(one.asset.images.at(0).encoded == three.asset.images.at(0).encoded);
+    CHECK(one.asset.parts[0].uvs == three.asset.parts[0].uvs);
+}
+
+TEST_CASE("no texel that a triangle covers is left unmapped, and each comes from near by") {
+    const Asset source = painted_ball();
+    Options options = of_kind(GENERATE(Bake::atlas, Bake::per_triangle), GENERATE(64u, 256u));
+    options.target = ratio(GENERATE(1.0, 0.1, 0.02));
+    options.bake.correspondence = Recording::on;
+    const LightAsset light = simplify(source, options);
+    REQUIRE(light.correspondence.size() == 1);
+    const PageOrigins& page = light.correspondence[0];
+    const Part &from = source.parts[0], &part = light.asset.parts[0];
+    std::size_t covered = 0, unmapped = 0;
+    double farthest = 0;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (const Vec3& w : spread(24)) {
+            const auto uv = blend(part.uvs[0], part.triangles[f], w);
+            const auto x = static_cast<std::size_t>(uv[0] * page.width);
+            const auto y = static_cast<std::size_t>(uv[1] * page.height);
+            const TexelOrigin& texel = page.texels.at(y * page.width + x);
+            ++covered;
+            if (texel.part != 0 || !(texel.point.face < from.triangles.size())) {
+                ++unmapped;
+                continue;
+            }
+            const Vec3 here = blend(part.positions, part.triangles[f], w);
+            const Vec3 there =
+                blend(from.positions, from.triangles[texel.point.face], texel.point.barycentric);
+            farthest =
+                std::max(farthest, std::hypot(here[0] - there[0], here[1] - there[1], here[2] - there[2]));
+        }
+    }
+    CHECK(covered > 0);
+    CHECK(unmapped == 0);
+    CHECK(farthest < 0.4);  // of the diameter of 2: some texels and most small faces are this large
+}

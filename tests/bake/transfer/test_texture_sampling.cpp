@@ -1,0 +1,162 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "bake/texture/push_pull.hpp"
+#include "bake/transfer/texture_sampling.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using faqem::test::paint;
+using faqem::test::Rgba;
+
+namespace {
+
+// 4 x 1 texels of data: 0, 51, 102, 255.
+MipImage four() {
+    return MipImage(paint(4, 1,
+                          [](std::uint32_t x, std::uint32_t) {
+                              const std::uint8_t c = std::array<std::uint8_t, 4>{0, 51, 102, 255}[x];
+                              return Rgba{c, c, c, 255};
+                          }),
+                    Encoding::data);
+}
+
+TextureRef wrapped(Wrap wrap, Filter filter = Filter::linear) {
+    TextureRef use;
+    use.wrap_u = use.wrap_v = wrap;
+    use.filter = filter;
+    return use;
+}
+
+}  // namespace
+
+TEST_CASE("bilinear reading meets texel centres and the middles between") {
+    const MipImage image = four();
+    const TextureRef use = wrapped(Wrap::clamp);
+    CHECK(image.sample(use, 0.375, 0.5, 0)[0] == Approx(0.2));
+    CHECK(image.sample(use, 0.5, 0.5, 0)[0] == Approx(0.3));
+    CHECK(image.sample(use, 0.5, 0.5, -3)[0] == Approx(0.3));
+}
+
+TEST_CASE("wrap modes say what lies outside") {
+    const MipImage image = four();
+    const auto at = [&](Wrap wrap, double u) { return image.sample(wrapped(wrap), u, 0.5, 0)[0]; };
+    CHECK(at(Wrap::clamp, -5.3) == Approx(0));
+    CHECK(at(Wrap::clamp, 7) == Approx(1));
+    CHECK(at(Wrap::repeat, 2.375) == Approx(0.2));
+    CHECK(at(Wrap::repeat, -0.625) == Approx(0.2));
+    CHECK(at(Wrap::repeat, 1.0) == Approx(0.5));  // between the last and the first
+    CHECK(at(Wrap::mirror, -0.375) == Approx(0.2));
+    CHECK(at(Wrap::mirror, 1.625) == Approx(0.2));
+    CHECK(at(Wrap::mirror, 2.375) == Approx(0.2));
+    CHECK(at(Wrap::repeat, std::nan("")) == at(Wrap::repeat, 0));
+    CHECK(at(Wrap::repeat, 1e300) == at(Wrap::repeat, 0));
+}
+
+TEST_CASE("nearest stays nearest") {
+    CHECK(four().sample(wrapped(Wrap::clamp, Filter::nearest), 0.49, 0.5, 0)[0] == Approx(0.2));
+    CHECK(four().sample(wrapped(Wrap::clamp, Filter::nearest), 0.51, 0.5, 0)[0] == Approx(0.4));
+}
+
+TEST_CASE("coarse levels are means in linear light") {
+    const MipImage image(paint(2, 2,
+                               [](std::uint32_t x, std::uint32_t) {
+                                   return x ? Rgba{255, 255, 255, 255} : Rgba{0, 0, 0, 255};
+                               }),
+                         Encoding::opaque_colour);
+    const float mean = image.sample(wrapped(Wrap::repeat), 0.3, 0.3, 9)[0];
+    CHECK(mean == Approx(0.5).margin(1e-4));
+    CHECK(srgb_byte(mean) == 188);
+}
+
+TEST_CASE("odd sizes are halved without losing a column") {
+    for (std::uint32_t width : {3u, 5u, 7u}) {
+        const MipImage image(paint(width, 1,
+                                   [&](std::uint32_t x, std::uint32_t) {
+                                       const std::uint8_t c = x == width - 1 ? 255 : 0;
+                                       return Rgba{c, c, c, 255};
+                                   }),
+                             Encoding::data);
+        CHECK(image.sample(wrapped(Wrap::clamp), 0.5, 0.5, 20)[0] == Approx(1.0 / width).margin(1e-3));
+    }
+}
+
+TEST_CASE("coarse levels do not depend on the number of threads") {
+    const Pixels pixels = paint(75, 130, [](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 3), 9, 255};
+    });
+    const MipImage one(pixels, Encoding::colour, 1), four(pixels, Encoding::colour, 4);
+    const TextureRef use = wrapped(Wrap::clamp, Filter::nearest);
+    for (const double lod : {1.0, 2.0, 3.0}) {
+        for (double v = 0.01; v < 1; v += 0.02)
+            CHECK(one.sample(use, 0.7 * v, v, lod) == four.sample(use, 0.7 * v, v, lod));
+    }
+}
+
+TEST_CASE("clear texels do not tint others") {
+    const MipImage image(paint(2, 2,
+                               [](std::uint32_t x, std::uint32_t) {
+                                   return x ? Rgba{255, 0, 0, 255} : Rgba{0, 255, 0, 0};
+                               }),
+                         Encoding::colour);
+    const Linear c = image.sample(wrapped(Wrap::clamp), 0.5, 0.5, 1);
+    CHECK(c[3] == Approx(0.5).margin(1e-4));
+    CHECK(c[0] / c[3] == Approx(1).margin(1e-3));
+    CHECK(c[1] == Approx(0).margin(1e-4));
+}
+
+TEST_CASE("a texture transform scales, then turns, then moves") {
+    TextureRef use;
+    use.offset = {0.25f, 0.5f};
+    use.scale = {2, 3};
+    use.rotation = static_cast<float>(std::acos(-1.0) / 2);
+    // (1, 0) scaled is (2, 0); a quarter turn counter-clockwise on an image with v down makes it (0, -2).
+    const auto uv = uv_transform(use).apply(1, 0);
+    CHECK(uv[0] == Approx(0.25).margin(1e-6));
+    CHECK(uv[1] == Approx(-1.5).margin(1e-6));
+}
+
+TEST_CASE("bytes round and hold") {
+    CHECK(srgb_byte(0) == 0);
+    CHECK(srgb_byte(1) == 255);
+    CHECK(srgb_byte(7) == 255);
+    CHECK(srgb_byte(std::nan("")) == 0);
+    CHECK(linear_byte(0.5) == 128);
+    CHECK(linear_byte(-1) == 0);
+}
+
+TEST_CASE("push-pull leaves baked texels alone and paints all others") {
+    Pixels pixels = paint(13, 9, [](std::uint32_t, std::uint32_t) { return Rgba{0, 0, 0, 7}; });
+    std::vector<std::uint8_t> known(13 * 9, 0);
+    const auto bake = [&](std::size_t at, const Rgba& c) {
+        known[at] = 1;
+        std::copy(c.begin(), c.end(), pixels.rgba.begin() + static_cast<std::ptrdiff_t>(4 * at));
+    };
+    SECTION("one texel paints the page") {
+        bake(40, {10, 200, 30, 7});
+        push_pull(pixels, known, {0, 3});
+        for (std::size_t t = 0; t < known.size(); ++t) {
+            CHECK(pixels.rgba[4 * t] == 10);
+            CHECK(pixels.rgba[4 * t + 1] == 200);
+            CHECK(pixels.rgba[4 * t + 3] == 7);
+        }
+    }
+    SECTION("two give a mixture between them") {
+        bake(0, {100, 0, 0, 7});
+        bake(13 * 9 - 1, {200, 0, 0, 7});
+        push_pull(pixels, known, {0, 3});
+        for (std::size_t t = 0; t < known.size(); ++t) {
+            CHECK(pixels.rgba[4 * t] >= 100);
+            CHECK(pixels.rgba[4 * t] <= 200);
+        }
+        CHECK(pixels.rgba[0] == 100);
+        CHECK(pixels.rgba[4 * (13 * 9 - 1)] == 200);
+        CHECK(pixels.rgba[4 * 1] < pixels.rgba[4 * (13 * 9 - 2)]);
+    }
+    SECTION("nothing known changes nothing") {
+        const auto before = pixels.rgba;
+        push_pull(pixels, known, {});
+        CHECK(pixels.rgba == before);
+    }
+}

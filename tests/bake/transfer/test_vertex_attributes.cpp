@@ -1,0 +1,257 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "faqem/error.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+Options of_kind(Bake kind) {
+    Options options;
+    options.bake.kind = kind;
+    return options;
+}
+
+// The cube [0, 1]^3 with 8 vertices and no normals.
+Asset cube_asset() {
+    Asset asset;
+    asset.parts.resize(1);
+    Part& part = asset.parts[0];
+    for (int i = 0; i < 8; ++i) part.positions.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
+    part.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return asset;
+}
+
+double dot(const Vec3f& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double length(const Vec3f& a) {
+    return std::sqrt(double(a[0]) * a[0] + double(a[1]) * a[1] + double(a[2]) * a[2]);
+}
+
+// A strip of n squares bent round a cylinder of radius 1, with exact normals.
+Asset pipe(int n) {
+    Asset asset;
+    asset.parts.resize(1);
+    Part& part = asset.parts[0];
+    for (int i = 0; i <= n; ++i) {
+        const double a = i * 1.5 / n;
+        for (double y : {0.0, 1.0}) {
+            part.positions.push_back({std::cos(a), y, -std::sin(a)});
+            part.normals.push_back({static_cast<float>(std::cos(a)), 0, static_cast<float>(-std::sin(a))});
+        }
+    }
+    for (Index i = 0; i < Index(2 * n); i += 2) {
+        part.triangles.push_back({i, i + 2, i + 3});
+        part.triangles.push_back({i, i + 3, i + 1});
+    }
+    return asset;
+}
+
+}  // namespace
+
+TEST_CASE("a cube's normals are split at its edges and nowhere else") {
+    const Asset asset = cube_asset();
+    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const Part& part = light.asset.parts[0];
+    CHECK(part.positions.size() == 24);
+    REQUIRE(part.normals.size() == 24);
+    for (const Triangle& t : part.triangles) {
+        for (Index v : t) {
+            CHECK(length(part.normals[v]) == Approx(1));
+            CHECK(std::max({std::abs(part.normals[v][0]), std::abs(part.normals[v][1]),
+                            std::abs(part.normals[v][2])}) == Approx(1));
+        }
+    }
+    Options smooth = of_kind(Bake::none);
+    smooth.bake.crease_angle = 120;
+    const Part rounded = bake(asset, unchanged(asset), smooth).asset.parts[0];
+    CHECK(rounded.positions.size() == 8);
+    for (std::size_t v = 0; v < 8; ++v) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double outward = rounded.positions[v][k] > 0.5 ? 1 : -1;
+            CHECK(rounded.normals[v][k] * outward == Approx(1 / std::sqrt(3.0)).margin(1e-6));
+        }
+    }
+}
+
+TEST_CASE("the original's smooth normals are found again") {
+    const Asset asset = pipe(40);
+    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const Part& part = light.asset.parts[0];
+    CHECK(part.positions.size() == asset.parts[0].positions.size());
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+        const Vec3 radial = {part.positions[v][0], 0, part.positions[v][2]};
+        CHECK(dot(part.normals[v], radial) > 0.9999);
+    }
+}
+
+TEST_CASE("where some faces are wound against their normals, the normals are right") {
+    Asset asset = pipe(40);
+    Part& part = asset.parts[0];
+    for (std::size_t f = 0; f < part.triangles.size(); f += 3) {
+        std::swap(part.triangles[f][0], part.triangles[f][1]);
+    }
+    const Part light = bake(asset, unchanged(asset), of_kind(Bake::none)).asset.parts[0];
+    for (std::size_t v = 0; v < light.positions.size(); ++v) {
+        const Vec3 radial = {light.positions[v][0], 0, light.positions[v][2]};
+        CHECK(dot(light.normals[v], radial) > 0.9999);
+    }
+    CHECK(light.positions.size() == part.positions.size());
+}
+
+TEST_CASE("normals never point against their face and are never NaN") {
+    Asset asset = pipe(4);
+    for (Vec3f& n : asset.parts[0].normals) n = {-n[0], -n[1], -n[2]};
+    asset.parts[0].normals[0] = {0, 0, 0};
+    asset.parts[0].triangles.push_back({0, 0, 2});  // no area
+    for (Bake kind : {Bake::none, Bake::vertex}) {
+        const Part part = bake(asset, unchanged(asset), of_kind(kind)).asset.parts[0];
+        for (std::size_t f = 0; f < 8; ++f) {
+            for (Index v : part.triangles[f]) {
+                CHECK(length(part.normals[v]) == Approx(1));
+                CHECK(dot(part.normals[v], {part.positions[v][0], 0, part.positions[v][2]}) > 0);
+            }
+        }
+        for (const Vec3f& n : part.normals) CHECK(length(n) == Approx(1));
+    }
+}
+
+TEST_CASE("vertex colours come back as they were") {
+    Asset asset = pipe(10);
+    Part& part = asset.parts[0];
+    for (std::size_t v = 0; v < part.positions.size(); ++v)
+        part.colors.push_back({v / 22.0f, 0.5f, 1 - v / 22.0f, 1});
+    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::vertex));
+    const Part& out = light.asset.parts[0];
+    REQUIRE(out.colors.size() == out.positions.size());
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec4f &got = out.colors[out.triangles[f][c]], &expected = part.colors[part.triangles[f][c]];
+            for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
+        }
+    }
+    CHECK(light.asset.images.empty());
+}
+
+TEST_CASE("vertex colours take texture and factor, split where materials meet, and keep alpha") {
+    Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
+        return Rgba{255, 188, 0, 255};
+    }));
+    asset.materials.resize(2);
+    asset.materials[0].alpha_mode = asset.materials[1].alpha_mode = AlphaMode::blend;
+    asset.materials[0].base_color = {0.5f, 1, 1, 0.25f};
+    asset.materials[1].base_color = {0, 0, 1, 1};
+    asset.materials[1].double_sided = true;
+    asset.parts[0].face_material = {0, 1};
+    const LightAsset light = simplify(asset, [] {
+        Options options = of_kind(Bake::vertex);
+        options.target = ratio(1);
+        return options;
+    }());
+    const Part& part = light.asset.parts[0];
+    REQUIRE(part.triangles.size() == 2);
+    CHECK(part.positions.size() == 6);
+    const auto close = [](const Vec4f& a, const Vec4f& b) {
+        for (std::size_t k = 0; k < 4; ++k) CHECK(a[k] == Approx(b[k]).margin(1e-2));
+    };
+    for (Index v : part.triangles[0]) close(part.colors[v], {0.5f, 0.5f, 0, 0.25f});
+    for (Index v : part.triangles[1]) close(part.colors[v], {0, 0, 1, 1});
+    for (const Material& m : light.asset.materials) CHECK(m.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(light.asset.materials[part.face_material[1]].double_sided);
+}
+
+TEST_CASE("keep carries UVs, colours, images and materials") {
+    Asset asset = textured_square(ramp(8));
+    asset.parts[0].uvs.push_back({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+    asset.parts[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 0.5f}};
+    Options options = of_kind(Bake::keep);
+    options.target = ratio(1);
+    const LightAsset light = simplify(asset, options);
+    const Part &in = asset.parts[0], &out = light.asset.parts[0];
+    REQUIRE(out.triangles.size() == 2);
+    REQUIRE(out.uvs.size() == 2);
+    for (std::size_t v = 0; v < out.positions.size(); ++v) {
+        std::size_t from = 0;
+        while (in.positions[from] != out.positions[v]) ++from;
+        CHECK(out.uvs[0][v] == in.uvs[0][from]);
+        CHECK(out.uvs[1][v] == in.uvs[1][from]);
+        CHECK(out.colors[v] == in.colors[from]);
+    }
+    CHECK(light.asset.images[0].encoded == asset.images[0].encoded);
+    CHECK(light.asset.materials[0].base_color_texture.image == 0);
+    CHECK_FALSE(light.asset.materials[0].rebaked);
+    CHECK_THROWS_AS(bake(asset, unchanged(asset), options), InputError);
+}
+
+TEST_CASE("none takes textures away and says so") {
+    Asset asset = textured_square(ramp(8));
+    asset.materials[0].base_color = {0.1f, 0.2f, 0.3f, 1};
+    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    CHECK(light.asset.parts[0].uvs.empty());
+    CHECK(light.asset.images.empty());
+    CHECK(light.asset.materials[0].base_color == asset.materials[0].base_color);
+    REQUIRE(light.report.warnings.size() == 1);
+    CHECK(light.report.warnings[0].find("'paint': textures left out: base colour") != std::string::npos);
+}
+
+TEST_CASE("skins and morph targets come along, without cracks") {
+    Asset asset = cube_asset();
+    Part& part = asset.parts[0];
+    part.morph_targets.resize(1);
+    for (std::size_t v = 0; v < 8; ++v) {
+        part.joints.push_back({static_cast<std::uint16_t>(v), 9, 0, 0});
+        part.weights.push_back({0.75f, 0.25f, 0, 0});
+        part.morph_targets[0].positions.push_back({float(v), 0, 1});
+    }
+    for (Bake kind : {Bake::per_triangle, Bake::vertex, Bake::none}) {
+        const Part out = bake(asset, unchanged(asset), of_kind(kind)).asset.parts[0];
+        REQUIRE(out.joints.size() == out.positions.size());
+        REQUIRE(out.weights.size() == out.positions.size());
+        REQUIRE(out.morph_targets.size() == 1);
+        for (std::size_t v = 0; v < out.positions.size(); ++v) {
+            std::size_t from = 0;
+            while (part.positions[from] != out.positions[v]) ++from;
+            CHECK(out.joints[v][0] == from);
+            CHECK(out.joints[v][1] == 9);
+            CHECK(out.weights[v][0] == Approx(0.75));
+            CHECK(out.weights[v][1] == Approx(0.25));
+            CHECK(out.morph_targets[0].positions[v] == part.morph_targets[0].positions[from]);
+        }
+    }
+}
+
+TEST_CASE("blended skin weights keep the four largest and sum to one") {
+    // One triangle collapsed from four: its middle vertex's weights mix at the new corner.
+    Asset asset;
+    asset.parts.resize(1);
+    Part& part = asset.parts[0];
+    part.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+    part.triangles = {{0, 1, 2}, {1, 3, 2}};
+    part.joints = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}, {0, 0, 0, 0}};
+    part.weights.assign(4, {0.4f, 0.3f, 0.2f, 0.1f});
+    HandHistory hand(part.positions, part.triangles);
+    hand.collapse(1, 3, {0.8, 0.7, 0});
+    SmallParts small;
+    small.parts.resize(1);
+    small.parts[0].history = hand.finish();
+    small.parts[0].mesh = small_mesh(small.parts[0].history);
+    const Part out = bake(asset, small, of_kind(Bake::none)).asset.parts[0];
+    bool blended = false;
+    for (std::size_t v = 0; v < out.positions.size(); ++v) {
+        double sum = 0;
+        for (float w : out.weights[v]) sum += w;
+        CHECK(sum == Approx(1));
+        CHECK(out.weights[v][0] >= out.weights[v][3]);
+        if (out.positions[v][0] != 0.8) continue;
+        blended = true;
+        // Weights of corners 0, 1, 2 there: 0.25, 0.4, 0.35; so 4 has 0.16, 8 0.14, 5 0.12, 9 0.105.
+        CHECK(out.joints[v] == std::array<std::uint16_t, 4>{4, 8, 5, 9});
+        CHECK(out.weights[v][0] == Approx(0.16 / 0.525));
+    }
+    CHECK(blended);
+}

@@ -1,0 +1,281 @@
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// The lines of a run by the models' names.
+std::map<std::string, Json> lines_of(const Outcome& outcome) {
+    std::map<std::string, Json> lines;
+    std::istringstream in(outcome.out);
+    for (std::string line; std::getline(in, line);) {
+        const Json json = Json::parse(line);
+        lines[json["path"]] = json;
+    }
+    return lines;
+}
+
+std::string status(const Outcome& outcome, const std::string& name) {
+    const auto lines = lines_of(outcome);
+    return lines.contains(name) ? lines.at(name)["status"].get<std::string>() : "none";
+}
+
+/// in/a.glb, in/sub/b.obj with its library and image, in/sub/c.ply
+void make_models(const Folder& folder) {
+    fs::create_directories(folder / "in/sub");
+    faqem::save(sheet(8), folder / "in/a.glb");
+    faqem::save(sheet(10), folder / "in/sub/b.obj");
+    faqem::save(sheet(6), folder / "in/sub/c.ply");
+}
+
+/// Moves the time of the last change; the content stays.
+void touch(const fs::path& file) {
+    fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(3));
+}
+
+const std::string batch = "batch in out --texture-size 64 --ratio 0.5 ";
+
+}  // namespace
+
+TEST_CASE("a batch makes of every model what simplify makes of it, in the same tree") {
+    const Folder folder;
+    make_models(folder);
+    write(folder / "in/notes.txt", "no model");
+    const Outcome outcome = run(folder, batch + "--jobs 2");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    const auto lines = lines_of(outcome);
+    REQUIRE(lines.size() == 3);
+    for (const auto& [in, out] : std::map<std::string, std::string>{
+             {"a.glb", "a.glb"}, {"sub/b.obj", "sub/b.glb"}, {"sub/c.ply", "sub/c.glb"}}) {
+        CAPTURE(in);
+        const Json& line = lines.at(in);
+        CHECK(line["result"] == out);
+        CHECK(line["status"] == "done");
+        CHECK(line["code"] == 0);
+        CHECK(line["message"].get<std::string>().empty());
+        CHECK(line["seconds"] >= 0.0);
+        CHECK(line["faces_out"] > 0);
+        CHECK(line["faces_out"].get<int>() * 2 <= line["faces_in"].get<int>());
+        REQUIRE(run(folder, "simplify in/" + in + " one.glb --force --texture-size 64 --ratio 0.5").code ==
+                0);
+        CHECK(read(folder / "one.glb") == read(folder / ("out/" + out)));
+    }
+    CHECK(lines.at("a.glb")["faces_in"] == 128);
+}
+
+TEST_CASE("a batch writes the format asked for") {
+    const Folder folder;
+    make_models(folder);
+    CHECK(run(folder, batch + "--format ply").code == 0);
+    CHECK(fs::exists(folder / "out/sub/b.ply"));
+    CHECK(run(folder, "batch in other --format off").code == 2);
+    CHECK(!fs::exists(folder / "other"));
+}
+
+TEST_CASE("a failure does not stop a batch, and its line says what simplify would") {
+    const Folder folder;
+    make_models(folder);
+    write(folder / "in/broken.ply", "ply\nno header");
+    write(folder / "in/empty.obj", "v 0 0 0\n");
+    const Outcome outcome = run(folder, batch + "--jobs 2");
+    CHECK(outcome.code == 9);
+    const auto lines = lines_of(outcome);
+    REQUIRE(lines.size() == 5);
+    for (const char* name : {"broken.ply", "empty.obj"}) {
+        CAPTURE(name);
+        CHECK(lines.at(name)["status"] == "failed");
+        CHECK(lines.at(name)["code"] == 3);
+        CHECK(lines.at(name)["message"].get<std::string>().find(name) != std::string::npos);
+    }
+    CHECK(status(outcome, "a.glb") == "done");
+    CHECK(!fs::exists(folder / "out/broken.glb"));
+}
+
+TEST_CASE("a batch refuses models as simplify does") {
+    const Folder folder;
+    make_models(folder);
+    const Outcome outcome = run(folder, batch + "--max-error 1e-9");
+    CHECK(outcome.code == 9);
+    CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
+    CHECK(!fs::exists(folder / "out/a.glb"));
+    // A face twice is a repair, and with --strict an error; what was made without it is made again.
+    write(folder / "in/twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 4 1 3\n");
+    CHECK(status(run(folder, batch), "twice.obj") == "done");
+    const Outcome strict = run(folder, batch + "--strict --resume");
+    CHECK(strict.code == 9);
+    CHECK(lines_of(strict).at("twice.obj")["code"] == 3);
+    CHECK(status(strict, "a.glb") == "done");
+}
+
+TEST_CASE("two models with one result are named before anything is done") {
+    const Folder folder;
+    make_models(folder);
+    faqem::save(sheet(4), folder / "in/a.stl");
+    const Outcome outcome = run(folder, batch);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find("a.glb") != std::string::npos);
+    CHECK(outcome.err.find("a.stl") != std::string::npos);
+    CHECK(!fs::exists(folder / "out"));
+}
+
+TEST_CASE("a batch never takes its results for models, nor its models for results") {
+    const Folder folder;
+    make_models(folder);
+    CHECK(run(folder, "batch in in").code == 2);
+    CHECK(run(folder, "batch in in/sub/..").code == 2);
+    CHECK(run(folder, "batch in in/out --texture-size 64").code == 0);
+    CHECK(lines_of(run(folder, "batch in in/out --texture-size 64 --force")).size() == 3);
+    // The result of in/a.glb would be in/a.glb, by a link.
+    fs::create_directory(folder / "linked");
+    fs::create_hard_link(folder / "in/a.glb", folder / "linked/a.glb");
+    const std::string before = read(folder / "in/a.glb");
+    CHECK(run(folder, "batch in linked --force").code == 2);
+    CHECK(read(folder / "in/a.glb") == before);
+}
+
+TEST_CASE("a batch without models, or without the folder, is bad input") {
+    const Folder folder;
+    CHECK(run(folder, "batch nowhere out").code == 3);
+    fs::create_directory(folder / "in");
+    CHECK(run(folder, "batch in out").code == 3);
+    CHECK(!fs::exists(folder / "out"));
+}
+
+TEST_CASE("a batch keeps files that exist unless --force says otherwise") {
+    const Folder folder;
+    make_models(folder);
+    fs::create_directory(folder / "out");
+    write(folder / "out/a.glb", "precious");
+    for (const char* resume : {"", "--resume"}) {
+        const Outcome outcome = run(folder, batch + resume);
+        CHECK(outcome.code == 9);
+        CHECK(lines_of(outcome).at("a.glb")["code"] == 7);
+        CHECK(read(folder / "out/a.glb") == "precious");
+    }
+    CHECK(run(folder, batch + "--force").code == 0);
+    CHECK(read(folder / "out/a.glb") != "precious");
+}
+
+TEST_CASE("a resumed batch does only what is new, changed or missing") {
+    const Folder folder;
+    make_models(folder);
+    const auto again = [&](const std::string& name) { return status(run(folder, batch + "--resume"), name); };
+    REQUIRE(run(folder, batch + "--resume").code == 0);
+    const Outcome second = run(folder, batch + "--resume");
+    CHECK(second.code == 0);
+    for (const auto& [name, line] : lines_of(second)) {
+        CAPTURE(name);
+        CHECK(line["status"] == "skipped");
+        CHECK(line["faces_in"] > 0);
+    }
+    SECTION("a model that changed") {
+        touch(folder / "in/a.glb");
+        const Outcome outcome = run(folder, batch + "--resume");
+        CHECK(status(outcome, "a.glb") == "done");
+        CHECK(status(outcome, "sub/c.ply") == "skipped");
+    }
+    SECTION("a library or an image that a model refers to") {
+        touch(folder / "in/sub/b.mtl");
+        CHECK(again("sub/b.obj") == "done");
+        touch(folder / "in/sub/b_0.png");
+        const Outcome outcome = run(folder, batch + "--resume");
+        CHECK(status(outcome, "sub/b.obj") == "done");
+        CHECK(status(outcome, "a.glb") == "skipped");
+    }
+    SECTION("other options") {
+        CHECK(status(run(folder, batch + "--resume --preset fast"), "a.glb") == "done");
+        CHECK(status(run(folder, batch + "--resume --preset fast --threads 2"), "a.glb") == "skipped");
+        CHECK(status(run(folder, batch + "--resume"), "a.glb") == "done");
+    }
+    SECTION("a result that is gone") {
+        fs::remove(folder / "out/a.glb");
+        CHECK(again("a.glb") == "done");
+    }
+    SECTION("a new model") {
+        faqem::save(sheet(5), folder / "in/new.stl");
+        CHECK(again("new.stl") == "done");
+    }
+    SECTION("not a result that somebody changed") {
+        write(folder / "out/a.glb", "precious");
+        touch(folder / "in/a.glb");
+        CHECK(again("a.glb") == "failed");
+        CHECK(read(folder / "out/a.glb") == "precious");
+        CHECK(status(run(folder, batch + "--resume --force"), "a.glb") == "done");
+    }
+}
+
+TEST_CASE("a batch that was cut off goes on") {
+    const Folder folder;
+    make_models(folder);
+    REQUIRE(run(folder, batch + "--jobs 1").code == 0);
+    std::string record = read(folder / "out/.faqem-batch.jsonl");
+    // The end of the last line is lost: its result was begun, and may be replaced.
+    write(folder / "out/.faqem-batch.jsonl", record.substr(0, record.size() - 20));
+    const Outcome outcome = run(folder, batch + "--resume");
+    CHECK(outcome.code == 0);
+    int done = 0;
+    for (const auto& [name, line] : lines_of(outcome)) done += line["status"] == "done";
+    CHECK(done == 1);
+    for (const auto& [name, line] : lines_of(run(folder, batch + "--resume")))
+        CHECK(line["status"] == "skipped");
+}
+
+TEST_CASE("a signal ends a batch with 8, and it can be resumed") {
+    const Folder folder;
+    fs::create_directory(folder / "in");
+    for (const char* name : {"in/a.glb", "in/b.glb", "in/c.glb"}) faqem::save(sheet(150), folder / name);
+    const pid_t process = fork();
+    REQUIRE(process >= 0);
+    if (process == 0) {
+        const bool ready = chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout) != nullptr;
+        if (!ready) _exit(99);
+        execl(FAQEM_TOOL, "faqem", "batch", "in", "out", "--bake", "none", nullptr);
+        _exit(99);
+    }
+    const int status = signal_and_wait(process, SIGTERM);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 8);
+    // Every model has its line, whatever became of it.
+    CHECK(lines_of({0, read(folder / "lines"), ""}).size() == 3);
+    const Outcome outcome = run(folder, "batch in out --bake none --resume");
+    CHECK(outcome.code == 0);
+    CHECK(lines_of(outcome).size() == 3);
+}
+
+TEST_CASE("two batches do not work in one folder") {
+    const Folder folder;
+    make_models(folder);
+    fs::create_directory(folder / "out");
+    const int record = open((folder / "out/.faqem-batch.jsonl").c_str(), O_RDWR | O_CREAT, 0666);
+    REQUIRE(flock(record, LOCK_EX) == 0);
+    const Outcome outcome = run(folder, batch);
+    CHECK(outcome.code == 7);
+    CHECK(outcome.err.find("another batch") != std::string::npos);
+    close(record);
+    CHECK(run(folder, batch).code == 0);
+}
+
+TEST_CASE("a batch does as well with little memory") {
+    const Folder folder;
+    make_models(folder);
+    CHECK(run(folder, batch + "--jobs 3 --max-memory 1MB").code == 0);
+    for (const char* wrong : {"--max-memory 0", "--max-memory much", "--max-memory -1GB", "--jobs -1"}) {
+        CAPTURE(wrong);
+        CHECK(run(folder, batch + "--force " + wrong).code == 2);
+    }
+}

@@ -1,0 +1,222 @@
+#include <catch2/catch.hpp>
+
+#include "faqem/version.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+
+TEST_CASE("help and version go to stdout and are no errors") {
+    const Folder folder;
+    for (const char* arguments : {"--help", "--version", "simplify --help", "batch --help", "info --help",
+                                  "compare --help", "render --help", "man", "completion bash"}) {
+        const Outcome outcome = run(folder, arguments);
+        CHECK(outcome.code == 0);
+        CHECK(!outcome.out.empty());
+        CHECK(outcome.err.empty());
+    }
+}
+
+TEST_CASE("the version is the library's") {
+    const Folder folder;
+    CHECK(run(folder, "--version").out == "faqem " + std::string(faqem::version()) + "\n");
+}
+
+TEST_CASE("a wrong command line ends with 2 and says so on stderr") {
+    const Folder folder;
+    faqem::save(sheet(4), folder / "in.glb");
+    for (const char* arguments : {"",
+                                  "dance",
+                                  "simplify",
+                                  "simplify in.glb",
+                                  "simplify in.glb out.glb --frobnicate",
+                                  "simplify in.glb out.glb --ratio 0",
+                                  "simplify in.glb out.glb --ratio 1.5",
+                                  "simplify in.glb out.glb --ratio nan",
+                                  "simplify in.glb out.glb --ratio 0,5",
+                                  "simplify in.glb out.glb --faces 0",
+                                  "simplify in.glb out.glb --faces -3",
+                                  "simplify in.glb out.glb --faces 10 --ratio 0.5",
+                                  "simplify in.glb out.glb --preset bestest",
+                                  "simplify in.glb out.glb --bake nowhere",
+                                  "simplify in.glb out.glb --mapping guess",
+                                  "simplify in.glb out.glb --normal-map maybe",
+                                  "simplify in.glb out.glb --normals round",
+                                  "simplify in.glb out.glb --normals smooth:steep",
+                                  "simplify in.glb out.glb --normals smooth:181",
+                                  "simplify in.glb out.glb --normals flat:10",
+                                  "simplify in.glb out.glb --image-format tiff",
+                                  "simplify in.glb out.glb --image-format jpeg:0",
+                                  "simplify in.glb out.glb --image-format jpeg:nan",
+                                  "simplify in.glb out.glb --correspondence map.bin --bake vertex",
+                                  "simplify in.glb out.glb --correspondence out.glb",
+                                  "simplify in.glb out.glb --texture-size 1000",
+                                  "simplify in.glb out.glb --w-area -1",
+                                  "simplify in.glb out.glb --weld nan",
+                                  "simplify in.glb out.glb --virtual-edges=wide",
+                                  "simplify in.glb out.glb --virtual-edges=2",
+                                  "simplify in.glb out.glb --visibility some",
+                                  "simplify in.glb out.glb --visibility weighs --max-error 1%",
+                                  "simplify in.glb out.glb --threads -1",
+                                  "simplify in.glb out.glb extra",
+                                  "info",
+                                  "compare in.glb",
+                                  "compare in.glb in.glb --samples 0",
+                                  "render out.png",
+                                  "render in.glb out.jpg",
+                                  "render in.glb out.png --size 0"}) {
+        CAPTURE(arguments);
+        const Outcome outcome = run(folder, arguments);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(!outcome.err.empty());
+        CHECK(!fs::exists(folder / "out.glb"));
+    }
+}
+
+TEST_CASE("what is out of range is called by the option's name") {
+    const Folder folder;
+    faqem::save(sheet(2), folder / "a.glb");
+    const std::pair<const char*, const char*> wrong[] = {{"--ratio", "2"},
+                                                         {"--faces", "0"},
+                                                         {"--max-error", "0"},
+                                                         {"--w-area", "nan"},
+                                                         {"--w-boundary", "-1"},
+                                                         {"--w-normal", "inf"},
+                                                         {"--w-uv", "-1"},
+                                                         {"--w-plane-area", "-1"},
+                                                         {"--weld", "-1"},
+                                                         {"--virtual-edges", "2"},
+                                                         {"--prune", "0"},
+                                                         {"--texture-size", "100"},
+                                                         {"--image-format", "jpeg:0"},
+                                                         {"--normals", "smooth:400"},
+                                                         {"--normals", "none"}};
+    for (const auto& [option, value] : wrong) {
+        CAPTURE(option, value);
+        const Outcome outcome = run(folder, std::string("simplify a.glb b.glb ") + option + "=" + value);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(option) != std::string::npos);
+        CHECK(outcome.err.find('_') == std::string::npos);
+        CHECK(outcome.err.find("::") == std::string::npos);
+        CHECK(outcome.err.size() < 200);
+    }
+}
+
+TEST_CASE("a flag with an optional value does not swallow a file name") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    CHECK(run(folder, "simplify --virtual-edges in.glb a.glb --bake none --quiet").code == 0);
+    CHECK(run(folder, "simplify --virtual-edges=0.02 in.glb b.glb --bake none --quiet").code == 0);
+    CHECK(fs::exists(folder / "a.glb"));
+    CHECK(fs::exists(folder / "b.glb"));
+}
+
+TEST_CASE("bad input ends with 3, input of an unknown kind with 4") {
+    const Folder folder;
+    write(folder / "garbage.glb", std::string("glTF\2\0\0\0\xff\xff\0\0", 12));
+    write(folder / "model.xyz", "1 2 3");
+    write(folder / "empty.obj", "v 0 0 0\n");
+    for (const std::string before : {"simplify ", "info ", "compare ", "render "}) {
+        const std::string after = before == "simplify " ? " out.glb"
+                                  : before == "render " ? " out.png"
+                                  : before == "info "   ? ""
+                                                        : " empty.obj";
+        CAPTURE(before);
+        const Outcome missing = run(folder, before + "missing.glb" + after);
+        CHECK(missing.code == 3);
+        CHECK(missing.err.find("missing.glb") != std::string::npos);
+        CHECK(run(folder, before + "garbage.glb" + after).code == 3);
+        CHECK(run(folder, before + "model.xyz" + after).code == 4);
+    }
+    write(folder / "nothing.gltf", R"({"asset":{"version":"2.0"}})");
+    for (const auto& [arguments, message] :
+         {std::pair("simplify empty.obj out.glb", "empty.obj: no faces"),
+          {"compare empty.obj empty.obj", "empty.obj: no faces"},
+          {"render empty.obj out.png", "empty.obj: no faces"},
+          {"simplify nothing.gltf out.glb", "nothing.gltf: has no triangles"},
+          {"compare nothing.gltf nothing.gltf", "nothing.gltf: has no face with area"},
+          {"render nothing.gltf out.png", "nothing.gltf: has no triangles"}}) {
+        CAPTURE(arguments);
+        const Outcome empty = run(folder, arguments);
+        CHECK(empty.code == 3);
+        CHECK(empty.err.find(message) != std::string::npos);
+    }
+    CHECK(!fs::exists(folder / "out.glb"));
+    CHECK(!fs::exists(folder / "out.png"));
+}
+
+TEST_CASE("the output may not be the input, whatever it is called") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    const std::string before = read(folder / "in.glb");
+    fs::create_symlink("in.glb", folder / "link.glb");
+    fs::create_hard_link(folder / "in.glb", folder / "hard.glb");
+    for (const char* out : {"in.glb", "./in.glb", "link.glb", "hard.glb"}) {
+        CAPTURE(out);
+        CHECK(run(folder, std::string("simplify in.glb ") + out).code == 2);
+        CHECK(run(folder, std::string("simplify --force in.glb ") + out).code == 2);
+        CHECK(run(folder, std::string("simplify --force in.glb new.glb --report ") + out).code == 2);
+        CHECK(run(folder, std::string("simplify --force in.glb new.glb --history ") + out).code == 2);
+    }
+    CHECK(run(folder, "simplify in.glb new.glb --report new.glb").code == 2);
+    CHECK(run(folder, "simplify in.glb new.glb --report r --history ./r").code == 2);
+    CHECK(read(folder / "in.glb") == before);
+    CHECK(fs::is_symlink(folder / "link.glb"));
+    CHECK(!fs::exists(folder / "new.glb"));
+}
+
+TEST_CASE("files that exist are kept unless --force says otherwise") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    write(folder / "out.glb", "precious");
+    write(folder / "report.json", "precious");
+    write(folder / "out.png", "precious");
+    CHECK(run(folder, "simplify in.glb out.glb").code == 7);
+    CHECK(run(folder, "simplify in.glb new.glb --report report.json").code == 7);
+    CHECK(run(folder, "render in.glb out.png --size 16").code == 7);
+    for (const char* file : {"out.glb", "report.json", "out.png"}) CHECK(read(folder / file) == "precious");
+    CHECK(!fs::exists(folder / "new.glb"));
+
+    CHECK(run(folder, "simplify in.glb out.glb --bake none --report report.json --force").code == 0);
+    CHECK(run(folder, "render in.glb out.png --size 16 --force").code == 0);
+    for (const char* file : {"out.glb", "report.json", "out.png"}) CHECK(read(folder / file) != "precious");
+}
+
+TEST_CASE("what cannot be written is found out before the work") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    fs::create_directory(folder / "folder.glb");
+    CHECK(run(folder, "simplify in.glb out.xyz").code == 2);
+    CHECK(run(folder, "simplify in.glb out").code == 2);
+    CHECK(run(folder, "simplify in.glb out.off").code == 2);
+    CHECK(run(folder, "simplify in.glb nowhere/out.glb").code == 7);
+    CHECK(run(folder, "simplify in.glb folder.glb --force").code == 7);
+    CHECK(run(folder, "simplify in.glb out.glb --report nowhere/r.json").code == 7);
+    CHECK(!fs::exists(folder / "out.glb"));
+    // The output is looked at first: the input is not even opened.
+    CHECK(run(folder, "simplify missing.glb nowhere/out.glb").code == 7);
+}
+
+TEST_CASE("no colours are written, not even on a terminal") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
+        const std::string command = "cd '" + folder.path().string() + "' && " + environment +
+                                    " script -qec \"'" FAQEM_TOOL
+                                    "' simplify in.glb out.glb --force --bake "
+                                    "none\" seen >/dev/null </dev/null";
+        REQUIRE(std::system(command.c_str()) == 0);
+        const std::string seen = read(folder / "seen");
+        CHECK(seen.find("load [") != std::string::npos);  // the progress bar
+        for (std::size_t at = seen.find("\x1b["); at != std::string::npos; at = seen.find("\x1b[", at + 1))
+            CHECK(seen.compare(at, 3, "\x1b[K") == 0);  // wipes a line
+    }
+}
+
+TEST_CASE("a full standard output is an error") {
+    const Folder folder;
+    faqem::save(sheet(4), folder / "in.glb");
+    const std::string command =
+        "'" FAQEM_TOOL "' info '" + (folder / "in.glb").string() + "' >/dev/full 2>/dev/null";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 7);
+}

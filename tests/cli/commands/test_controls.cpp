@@ -1,0 +1,146 @@
+// What the user may ask to keep or to leave out: --keep-groups, --prune.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+// A bumpy sheet with a speck beside it whose box has the diagonal 0.01 sqrt(2).
+faqem::Asset dusty_sheet() {
+    faqem::Asset asset = sheet(20, 0.2);
+    faqem::Part& part = asset.parts[0];
+    const auto first = static_cast<faqem::Index>(part.positions.size());
+    for (const faqem::Vec3& p : {faqem::Vec3{1.5, 0, 0}, {1.51, 0, 0}, {1.5, 0.01, 0}}) {
+        part.positions.push_back(p);
+        part.uvs[0].push_back({0, 0});
+    }
+    part.triangles.push_back({first, first + 1, first + 2});
+    part.face_material.push_back(0);
+    return asset;
+}
+
+Json report_of(const Folder& folder, const std::string& arguments) {
+    const Outcome outcome = run(folder, "simplify " + arguments + " --bake none --force --report r.json");
+    REQUIRE(outcome.code == 0);
+    return Json::parse(read(folder / "r.json"));
+}
+
+}  // namespace
+
+TEST_CASE("small components are pruned by model units and by the scene's diagonal") {
+    const Folder folder;
+    faqem::save(dusty_sheet(), folder / "in.gltf");
+    for (const char* size : {"0.015", "1%"}) {
+        CAPTURE(size);
+        const Json report = report_of(folder, std::string("in.gltf out.glb --prune ") + size);
+        CHECK(report["components_pruned"] == 1);
+        CHECK(report["faces_pruned"] == 1);
+        CHECK(report["faces_in"] == 801);
+        CHECK(report["warnings"][0].get<std::string>().find("pruned") != std::string::npos);
+    }
+    for (const char* size : {"0.014", "0.1%"}) {
+        CAPTURE(size);
+        CHECK(report_of(folder, std::string("in.gltf out.glb --prune ") + size)["components_pruned"] == 0);
+    }
+    CHECK(report_of(folder, "in.gltf out.glb")["components_pruned"] == 0);
+}
+
+TEST_CASE("a size to prune is one in the scene, at the largest scale a mesh has there") {
+    const Folder folder;
+    faqem::save(dusty_sheet(), folder / "small.gltf");
+    Json scene = Json::parse(read(folder / "small.gltf"));
+    const std::size_t node = scene["scenes"][0]["nodes"][0];
+    scene["nodes"][node]["scale"] = {8, 8, 8};
+    write(folder / "large.gltf", scene.dump());
+    CHECK(report_of(folder, "large.gltf out.glb --prune 0.015")["components_pruned"] == 0);
+    CHECK(report_of(folder, "large.gltf out.glb --prune 0.12")["components_pruned"] == 1);
+    CHECK(report_of(folder, "large.gltf out.glb --prune 1%")["components_pruned"] == 1);
+    // At home as well it is small, but it is as large as before where it was.
+    scene["nodes"].push_back({{"mesh", scene["nodes"][node]["mesh"]}});
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+    write(folder / "both.gltf", scene.dump());
+    CHECK(report_of(folder, "both.gltf out.glb --prune 0.015")["components_pruned"] == 0);
+    CHECK(report_of(folder, "both.gltf out.glb --prune 0.12")["components_pruned"] == 1);
+}
+
+TEST_CASE("a size to prune is a positive number") {
+    const Folder folder;
+    faqem::save(dusty_sheet(), folder / "in.glb");
+    for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "0%", "''"}) {
+        CAPTURE(bad);
+        CHECK(run(folder, std::string("simplify in.glb out.glb --prune=") + bad).code == 2);
+        CHECK(!fs::exists(folder / "out.glb"));
+    }
+}
+
+TEST_CASE("borders between materials are kept on demand") {
+    const Folder folder;
+    faqem::Asset asset = sheet(30, 0);
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[1].base_color = {0, 1, 0, 1};
+    // Stripes along y.
+    for (std::size_t f = 0; f < asset.parts[0].triangles.size(); ++f)
+        asset.parts[0].face_material[f] = f / 2 % 30 / 10 == 1;
+    for (const char* file : {"in.glb", "in.obj"}) {
+        CAPTURE(file);
+        faqem::save(asset, folder / file);
+        const Json kept = report_of(folder, std::string(file) + " kept.obj --ratio 0.02 --keep-groups");
+        CHECK(kept["refusals"]["group"] > 0);
+        CHECK(kept["stop_reason"] == "reached_target");
+        const faqem::Asset light = faqem::load(folder / "kept.obj");
+        std::size_t on_border = 0;
+        for (std::size_t f = 0; f < light.parts[0].triangles.size(); ++f) {
+            bool inside = false, outside = false;
+            for (const faqem::Index v : light.parts[0].triangles[f]) {
+                const double x = std::abs(light.parts[0].positions[v][0]);
+                inside |= x < 1.0 / 3 - 1e-5;
+                outside |= x > 1.0 / 3 + 1e-5;
+                on_border += std::abs(x - 1.0 / 3) <= 1e-5;
+            }
+            CHECK(!(inside && outside));
+        }
+        CHECK(on_border > 0);
+        CHECK(report_of(folder, std::string(file) + " free.obj --ratio 0.02")["refusals"]["group"] == 0);
+    }
+}
+
+TEST_CASE("kept borders that do not allow the target end with 5 where that was asked for") {
+    const Folder folder;
+    faqem::Asset asset = sheet(6, 0.2);
+    asset.materials.resize(72, asset.materials[0]);
+    for (faqem::Index f = 0; f < 72; ++f) asset.parts[0].face_material[f] = f;
+    faqem::save(asset, folder / "in.glb");
+    const Outcome outcome = run(folder, "simplify in.glb out.glb --bake none --keep-groups --strict-target");
+    CHECK(outcome.code == 5);
+    CHECK(!fs::exists(folder / "out.glb"));
+    CHECK(run(folder, "simplify in.glb out.glb --bake none --strict-target").code == 0);
+}
+
+TEST_CASE("with --strict a repair is an error that says what was wrong") {
+    const Folder folder;
+    const auto refused = [&](const std::string& text, const std::string& why) {
+        write(folder / "in.obj", text);
+        const Outcome lenient = run(folder, "simplify in.obj out.ply --quiet --force");
+        CHECK(lenient.code == 0);
+        fs::remove(folder / "out.ply");
+        const Outcome strict = run(folder, "simplify in.obj out.ply --quiet --strict");
+        INFO(strict.err);
+        CHECK(strict.code == 3);
+        CHECK(strict.err.find("faqem: in.obj: ") == 0);
+        CHECK(strict.err.find(why) != std::string::npos);
+        CHECK(!fs::exists(folder / "out.ply"));
+    };
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n";
+    refused(square + "v nan 0 0\nf 1 2 3\nf 1 3 4\nf 1 2 6\n", "not finite");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 1 2 5\n", "part 'in': face 2: has no area");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 4 1 3\n", "face 2: is face 1 again");
+    refused("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "none.mtl");
+    // Faces back to back and vertices no face uses are no repairs.
+    write(folder / "in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 7 7 7\nf 1 2 3\nf 1 3 2\n");
+    CHECK(run(folder, "simplify in.obj out.ply --quiet --strict").code == 0);
+}

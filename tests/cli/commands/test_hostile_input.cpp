@@ -1,0 +1,162 @@
+// Files made to do harm end with 3 (or 4), the file and the element named, and nothing written.
+
+#include <catch2/catch.hpp>
+
+#include "support/gltf_builder.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using faqem::testing::contains;
+using faqem::testing::GltfBuilder;
+using faqem::testing::Json;
+using faqem::testing::square_gltf;
+
+namespace {
+
+/// Refused by simplify and info alike, with these words on stderr.
+void check_refused(const Folder& folder, const std::string& file, const std::vector<std::string>& words,
+                   int code = 3) {
+    for (const std::string& command : {"simplify " + file + " out.glb", "info " + file}) {
+        const Outcome outcome = run(folder, command);
+        INFO(command << ": " << outcome.err);
+        CHECK(outcome.code == code);
+        CHECK(contains(outcome.err, "faqem: " + file + ": "));
+        for (const std::string& word : words) CHECK(contains(outcome.err, word));
+        CHECK(outcome.out.empty());
+    }
+    CHECK(!fs::exists(folder / "out.glb"));
+}
+
+void check_refused(const GltfBuilder& builder, const std::vector<std::string>& words, int code = 3) {
+    const Folder folder;
+    write(folder / "a.glb", builder.glb());
+    check_refused(folder, "a.glb", words, code);
+}
+
+}  // namespace
+
+TEST_CASE("hostile: 20,000 brackets, in arrays and in objects, closed or not") {
+    const Folder folder;
+    const std::string start = R"({"asset":{"version":"2.0"},"extras":)", open(20000, '[');
+    write(folder / "open.gltf", start + open);
+    write(folder / "closed.gltf", start + open + std::string(20000, ']') + "}");
+    std::string objects = start;
+    for (int i = 0; i < 20000; ++i) objects += "{\"a\":";
+    write(folder / "objects.gltf", objects);
+    for (const std::string file : {"open.gltf", "closed.gltf", "objects.gltf"})
+        check_refused(folder, file, {"nested deeper than 64"});
+}
+
+TEST_CASE("hostile: counts and offsets near 2^62 and 2^64") {
+    for (const std::uint64_t huge : {std::uint64_t{1} << 62, UINT64_MAX}) {
+        GltfBuilder builder = square_gltf();
+        builder.json["accessors"][0]["count"] = huge;
+        check_refused(builder, {"/accessors/0"});
+        builder = square_gltf();
+        builder.json["accessors"][0]["byteOffset"] = huge;
+        check_refused(builder, {"/accessors/0"});
+        builder = square_gltf();
+        builder.json["bufferViews"][0]["byteLength"] = huge;
+        check_refused(builder, {"/bufferViews/0"});
+        builder = square_gltf();
+        builder.json["buffers"] = {{{"byteLength", huge}}};
+        check_refused(builder, {"/buffers/0"});
+    }
+    const Folder folder;
+    write(folder / "a.ply",
+          "ply\nformat binary_little_endian 1.0\nelement vertex 4611686018427387904\nproperty float x\n"
+          "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+          "end_header\n");
+    check_refused(folder, "a.ply", {"vertex"});
+    write(folder / "a.off", "OFF\n4611686018427387904 1 0\n0 0 0\n");
+    check_refused(folder, "a.off", {"4611686018427387904", "32-bit indices"});
+    write(folder / "a.stl", std::string(80, 'x') + "\xFF\xFF\xFF\xFF" + std::string(50, '\0'));
+    check_refused(folder, "a.stl", {"header", "the file has 134"});
+    write(folder / "a.obj", "v 0 0 0\nf 1 1 4611686018427387904\n");
+    check_refused(folder, "a.obj", {"line 2"});
+}
+
+TEST_CASE("hostile: node graphs that are no forest") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"] = Json::parse(R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[0]}])");
+    builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
+    check_refused(builder, {"/nodes/", "its own ancestor"});
+    builder.json["nodes"] = Json::parse(R"([{"mesh":0,"children":[2]},{"children":[2]},{}])");
+    check_refused(builder, {"/nodes/2", "two parents"});
+}
+
+TEST_CASE("hostile: nodes that place a mesh beyond all numbers") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"] =
+        Json::parse(R"([{"scale":[1e200,1,1],"children":[1]},{"scale":[1e200,1,1],"mesh":0}])");
+    builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
+    check_refused(builder, {"/meshes/0", "beyond the range of numbers"});
+}
+
+TEST_CASE("hostile: an image that claims more pixels than its bytes can hold") {
+    // IHDR of 16384 x 16384 RGBA with its checksum, an empty IDAT, IEND.
+    const unsigned char png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,
+                                 13,   'I', 'H', 'D', 'R',  0,    0,    0x40, 0,    0,    0,
+                                 0x40, 0,   8,   6,   0,    0,    0,    0x4d, 0x37, 0x0e, 0x2d};
+    GltfBuilder builder = square_gltf();
+    std::vector<unsigned char> bytes(std::begin(png), std::end(png));
+    bytes.resize(200);
+    const auto view = builder.view(bytes);
+    builder.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+    builder.json["textures"] = Json::parse(R"([{"source":0}])");
+    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    const auto uvs = builder.accessor(std::vector<faqem::Vec2f>(4), faqem::testing::f32, "VEC2");
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uvs;
+    const Folder folder;
+    write(folder / "a.glb", builder.glb());
+    const Outcome outcome = run(folder, "simplify a.glb out.glb");
+    INFO(outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, "faqem: a.glb: material 0: image: "));
+    CHECK(!fs::exists(folder / "out.glb"));
+    // Where no pixel is needed the image goes along as it is.
+    CHECK(run(folder, "simplify a.glb out.glb --bake keep --quiet").code == 0);
+}
+
+TEST_CASE("hostile: references that leave the folder, by name, by code, by link, from the current folder") {
+    const Folder folder;
+    fs::create_directory(folder / "in");
+    const std::string bytes(60, 'x');
+    write(folder / "secret.bin", bytes);
+    fs::create_symlink("../secret.bin", folder / "in/link.bin");
+    fs::create_directory_symlink("..", folder / "in/up");
+    const auto refused = [&](const std::string& uri, const std::string& why) {
+        GltfBuilder builder = square_gltf();
+        builder.bin.clear();
+        builder.json["buffers"] = {{{"byteLength", 60}, {"uri", uri}}};
+        write(folder / "in/a.gltf", builder.text());
+        check_refused(folder, "in/a.gltf", {"/buffers/0/uri", why});
+    };
+    for (const char* uri : {"../secret.bin", "%2e%2e/secret.bin", "%2E%2E%2Fsecret.bin",
+                            "./b/../../secret.bin", "link.bin", "up/secret.bin"})
+        refused(uri, "leads out of the folder");
+    refused((folder / "secret.bin").string(), "absolute");
+    refused("file://" + (folder / "secret.bin").string(), "not a path relative");
+    refused("http://localhost/secret.bin", "not a path relative");
+    // The tool runs in the outer folder: a file of that name is there, but not beside the asset.
+    refused("secret.bin", "No such file");
+}
+
+TEST_CASE("hostile: required extensions and other versions are unsupported") {
+    for (const char* name : {"KHR_texture_basisu", "ACME_teapots"}) {
+        GltfBuilder builder = square_gltf();
+        builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
+        check_refused(builder, {name}, 4);
+    }
+    GltfBuilder builder = square_gltf();
+    builder.json["asset"]["version"] = "1.0";
+    check_refused(builder, {"/asset/version"}, 4);
+}
+
+TEST_CASE("hostile: pipes, devices and folders are not read") {
+    const Folder folder;
+    fs::create_directory(folder / "a.glb");
+    check_refused(folder, "a.glb", {"not a regular file"});
+    check_refused(folder, "/dev/zero", {"not a regular file"});
+}

@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+#include "cli/commands/lod_level.hpp"
+#include "cli/commands/lod_manifest.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+Json manifest(const Folder& folder, const std::string& name) { return Json::parse(read(folder / name)); }
+
+std::size_t faces(const fs::path& file) { return faqem::load(file).parts.at(0).triangles.size(); }
+
+/// The last collapse may take one face more than asked for.
+bool close_to(std::size_t faces, std::size_t target) { return faces <= target && faces + 2 > target; }
+
+}  // namespace
+
+TEST_CASE("lod writes the original, a model for each level and a manifest") {
+    const Folder folder;
+    faqem::save(sheet(30, 0.2), folder / "hill.glb");
+    const Outcome outcome = run(folder, "lod hill.glb out --levels 0.5,0.1,50 --bake none");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("hill_LOD3.glb: ") != std::string::npos);
+    const Json json = manifest(folder, "out/hill_LOD.json");
+    REQUIRE(json["levels"].size() == 4);
+    CHECK(json["source"] == "hill.glb");
+    const faqem::Asset original = faqem::load(folder / "hill.glb");
+    const faqem::MeshView before{original.parts[0].positions, original.parts[0].triangles};
+    double last = 0, far = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Json& level = json["levels"][i];
+        const std::string file = "hill_LOD" + std::to_string(i) + ".glb";
+        CHECK(level["file"] == file);
+        CHECK(level["faces"] == faces(folder / ("out/" + file)));
+        CHECK(level["error"] >= last);
+        CHECK(level["switch_distance"] >= far);
+        last = level["error"], far = level["switch_distance"];
+        const faqem::Asset light = faqem::load(folder / ("out/" + file));
+        const faqem::MeshView after{light.parts[0].positions, light.parts[0].triangles};
+        CHECK(faqem::hausdorff(before, after).value <= last + 1e-6);
+        CHECK(level.contains("report") == (i > 0));
+    }
+    CHECK(json["levels"][0]["faces"] == 1800);
+    CHECK(json["levels"][0]["error"] == 0);
+    CHECK(json["levels"][0]["screen_coverage"].is_null());
+    const std::size_t most[] = {1800, 900, 180, 50};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], most[i]));
+}
+
+TEST_CASE("lod without the original begins with the first level") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(
+        run(folder, "lod a.glb . --levels 0.5,error:2% --without-original --format ply --bake none --quiet")
+            .code == 0);
+    CHECK(close_to(faces(folder / "a_LOD0.ply"), 400));
+    CHECK(faces(folder / "a_LOD1.ply") < 400);
+    CHECK_FALSE(fs::exists(folder / "a_LOD2.ply"));
+    const Json json = manifest(folder, "a_LOD.json");
+    CHECK(json["levels"][1]["error"] <= json["levels"][1]["report"]["max_error"]["allowed"]);
+}
+
+TEST_CASE("the switch distance shows an error under as many pixels as allowed") {
+    using namespace faqem::tool;
+    // At 90 degrees a screen of 1000 pixels shows 2 units at distance 1: an error of 0.01 is 5 pixels there.
+    CHECK(switch_distance(0.01, {1, 90, 1000}) == Approx(5));
+    CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
+    CHECK(switch_distance(0, {1, 60, 1080}) == 0);
+    const faqem::tool::Json json =
+        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 0.009, 0.01, nullptr}});
+    // 3 units are 1.5 times the height at distance 1, and 0.3 of it at distance 5.
+    CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
+}
+
+TEST_CASE("lod refuses what makes no chain, and touches nothing") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "5%"}) {
+        const Outcome outcome = run(folder, std::string("lod a.glb out --bake none --levels=") + levels);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("level") != std::string::npos);
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD.json"));
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
+    }
+    CHECK(run(folder, "lod a.glb out --ratio 0.5").code == 2);
+    CHECK(run(folder, "lod none.glb out").code == 3);
+    CHECK(run(folder, "lod a.glb out --fov 180").code == 2);
+    CHECK(run(folder, "lod a.glb out --format xyz").code == 2);
+}
+
+TEST_CASE("ten million units from the origin, all levels keep their shape and their place") {
+    const Folder folder;
+    faqem::Asset hill = sheet(20, 0.2);
+    for (faqem::Vec3& p : hill.parts[0].positions) p[0] += 1e7, p[1] -= 2e7;
+    faqem::save(hill, folder / "far.ply");
+    const std::string rest = " --levels 0.5,0.2 --bake none --quiet";
+    REQUIRE(run(folder, "lod far.ply out" + rest).code == 0);
+    REQUIRE(run(folder, "lod far.ply all --one-file" + rest).code == 0);
+    const faqem::MeshView before{hill.parts[0].positions, hill.parts[0].triangles};
+    const faqem::Asset all = faqem::load(folder / "all/far_LOD.glb");
+    for (std::size_t i = 0; i < 3; ++i) {
+        const faqem::Asset one = faqem::load(folder / ("out/far_LOD" + std::to_string(i) + ".glb"));
+        for (const faqem::Asset* asset : {&one, &all}) {
+            const std::size_t part = asset == &all ? i : 0;
+            const faqem::Instance where = faqem::instances(*asset).at(0);
+            std::vector<faqem::Vec3> positions = asset->parts.at(part).positions;
+            for (faqem::Vec3& p : positions) {
+                for (std::size_t k = 0; k < 3; ++k) p[k] += where.transform[12 + k];
+            }
+            CHECK(faqem::hausdorff(before, {positions, asset->parts[part].triangles}).value < 0.1);
+        }
+    }
+}
+
+TEST_CASE("lod replaces nothing without --force") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    write(folder / "a_LOD1.glb", "mine");
+    const std::string command = "lod a.glb . --levels 0.5 --bake none";
+    CHECK(run(folder, command).code == 7);
+    CHECK(read(folder / "a_LOD1.glb") == "mine");
+    CHECK_FALSE(fs::exists(folder / "a_LOD0.glb"));
+    CHECK(run(folder, command + " --force").code == 0);
+    CHECK(close_to(faces(folder / "a_LOD1.glb"), 64));
+}
+
+TEST_CASE("lod writes nothing where a level misses a target that is strict") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    const Outcome outcome =
+        run(folder, "lod a.glb out --levels 0.5,4 --lock-border --strict-target --bake none");
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err.find("target missed") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
+    CHECK(run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none").code == 6);
+}
+
+TEST_CASE("lod puts all levels into one file, which shows the finest") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const std::string options = " --levels 0.5,0.1 --texture-size 128";
+    REQUIRE(run(folder, "lod hill.glb one --one-file" + options).code == 0);
+    REQUIRE(run(folder, "lod hill.glb many" + options).code == 0);
+    CHECK_FALSE(fs::exists(folder / "one/hill_LOD0.glb"));
+    const faqem::Asset one = faqem::load(folder / "one/hill_LOD.glb");
+    REQUIRE(one.parts.size() == 3);
+    const auto shown = faqem::instances(one);
+    REQUIRE(shown.size() == 1);
+    CHECK(shown[0].part == 0);
+    const std::string bytes = read(folder / "one/hill_LOD.glb");
+    std::uint32_t length = 0;  // of the JSON, which is the first chunk
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const Json gltf = Json::parse(bytes.substr(20, length));
+    const Json& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
+    CHECK(gltf["extensionsUsed"].dump().find("MSFT_lod") != std::string::npos);
+    const Json& ids = node["extensions"]["MSFT_lod"]["ids"];
+    REQUIRE(ids.size() == 2);
+    const Json json = manifest(folder, "one/hill_LOD.json");
+    const Json& coverage = node["extras"]["MSFT_screencoverage"];
+    REQUIRE(coverage.size() == 3);
+    CHECK(coverage[2] == 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::string name = "many/hill_LOD" + std::to_string(i) + ".glb";
+        CHECK(one.parts[i].triangles == faqem::load(folder / name).parts.at(0).triangles);
+        CHECK(json["levels"][i]["file"] == "hill_LOD.glb");
+        CHECK(json["levels"][i]["faces"] == one.parts[i].triangles.size());
+        if (i == 0) continue;
+        CHECK(gltf["nodes"][ids[i - 1].get<std::size_t>()]["mesh"] == i);
+        const double full = std::min(1.0, json["levels"][i]["screen_coverage"].get<double>());
+        CHECK(coverage[i - 1].get<double>() == Approx(full));
+    }
+    CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
+}
+
+TEST_CASE("a level may be so many pixels off at a distance") {
+    using namespace faqem::tool;
+    const Viewing viewing{1, 90, 1000};  // 2 units are 1000 pixels at distance 1
+    const auto error = [&](const char* text) {
+        const faqem::Level level = lod_level(text, viewing);
+        REQUIRE(std::holds_alternative<faqem::MaxError>(level));
+        CHECK(std::get<faqem::MaxError>(level).unit == faqem::Length::Unit::model);
+        return std::get<faqem::MaxError>(level).value;
+    };
+    CHECK(error("pixels:1@1") == Approx(0.002));
+    CHECK(error("pixels:2@50") == Approx(0.2));
+    CHECK(switch_distance(error("pixels:1@50"), viewing) == Approx(50));
+    CHECK(std::holds_alternative<faqem::Target>(lod_level("0.5", viewing)));
+    for (const char* wrong : {"pixels:", "pixels:1", "pixels:1@", "pixels:@5", "pixels:0@5", "pixels:1@-5",
+                              "pixels:nan@5", "pixels:1@inf", "pixels:1@5x"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(lod_level(wrong, viewing), faqem::OptionError);
+    }
+}
+
+TEST_CASE("lod stays below as many pixels at a distance as asked for") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(run(folder, "lod a.glb out --levels pixels:1@2,pixels:1@20 --bake none --quiet").code == 0);
+    const Json json = manifest(folder, "out/a_LOD.json");
+    CHECK(json["levels"][1]["switch_distance"] <= 2);
+    CHECK(json["levels"][2]["switch_distance"] <= 20);
+    CHECK(json["levels"][2]["switch_distance"] > 2);
+}
+
+TEST_CASE("levels that keep the texture share it in one file") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    REQUIRE(run(folder, "lod a.glb out --levels 0.5,0.1 --bake keep --one-file --quiet").code == 0);
+    const std::string bytes = read(folder / "out/a_LOD.glb");
+    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    CHECK(document["images"].size() == 1);
+    CHECK(document["meshes"].size() == 3);
+}
+
+TEST_CASE("levels may share a new texture, which one file stores once") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const std::string options =
+        " --levels 0.5,0.1 --textures shared --texture-size 128 --normal-map off --quiet";
+    REQUIRE(run(folder, "lod a.glb one --without-original --one-file" + options).code == 0);
+    const std::string bytes = read(folder / "one/a_LOD.glb");
+    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    CHECK(document["images"].size() == 1);
+    CHECK(document["meshes"].size() == 2);
+
+    REQUIRE(run(folder, "lod a.glb many" + options).code == 0);
+    const auto image = [&](const char* name) { return faqem::load(folder / name).images.at(0).encoded; };
+    CHECK(image("many/a_LOD1.glb") == image("many/a_LOD2.glb"));
+    CHECK(image("many/a_LOD0.glb") != image("many/a_LOD1.glb"));
+    const Json json = manifest(folder, "many/a_LOD.json");
+    CHECK(json["levels"][2]["report"]["faces_in"] == 800);
+    CHECK(json["levels"][2]["error"] > json["levels"][1]["error"]);
+
+    for (const char* wrong : {"--textures both", "--history a.history", "--bake keep", "--keep-groups"}) {
+        CAPTURE(wrong);
+        const Outcome outcome = run(folder, "lod a.glb out" + options + " " + wrong);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("--textures") != std::string::npos);
+        CHECK(outcome.err.find("::") == std::string::npos);
+        CHECK_FALSE(fs::exists(folder / "out/a_LOD1.glb"));
+    }
+}

@@ -1,0 +1,102 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "faqem/compare.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+faqem::MeshView view(const faqem::Part& part) { return {part.positions, part.triangles, {}, nullptr, {}}; }
+
+}  // namespace
+
+TEST_CASE("an error finds the smallest model within that distance and reports it") {
+    const Folder folder;
+    faqem::save(sheet(30, 0.2), folder / "in.glb");
+    const Outcome outcome =
+        run(folder, "simplify in.glb out.glb --max-error 0.01 --bake none --report r.json");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("reached_max_error") != std::string::npos);
+    CHECK(outcome.out.find("allowed 0.01") != std::string::npos);
+    const Json report = Json::parse(read(folder / "r.json"));
+    CHECK(report["stop_reason"] == "reached_max_error");
+    const Json& error = report["max_error"];
+    CHECK(error["allowed"] == 0.01);
+    CHECK(error["within"] == true);
+    CHECK(error["value"] <= error["bound"]);
+    CHECK(error["bound"] <= 0.01);
+    CHECK(error["runs"] > 1);
+    const faqem::Asset in = faqem::load(folder / "in.glb"), out = faqem::load(folder / "out.glb");
+    CHECK(out.parts[0].triangles.size() == report["faces_out"]);
+    CHECK(out.parts[0].triangles.size() < 900);
+    // The file has floats.
+    CHECK(faqem::hausdorff(view(in.parts[0]), view(out.parts[0])).value <= 0.01 + 1e-6);
+}
+
+TEST_CASE("an error with a percent sign is a share of the scene's diagonal, and nodes scale") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "small.gltf");
+    Json scene = Json::parse(read(folder / "small.gltf"));
+    const std::size_t node = scene["scenes"][0]["nodes"][0];
+    scene["nodes"][node]["scale"] = {8, 8, 8};
+    write(folder / "large.gltf", scene.dump());
+    const auto report = [&](const std::string& in, const std::string& error) {
+        const Outcome outcome = run(
+            folder, "simplify " + in + " out.glb --bake none --force --report r.json --max-error " + error);
+        REQUIRE(outcome.code == 0);
+        return Json::parse(read(folder / "r.json"));
+    };
+    const Json small = report("small.gltf", "0.5%"), large = report("large.gltf", "0.5%");
+    CHECK(small["faces_out"] < 576);
+    CHECK(large["faces_out"] == small["faces_out"]);
+    CHECK(large["max_error"]["allowed"].get<double>() ==
+          Approx(8 * small["max_error"]["allowed"].get<double>()));
+    CHECK(large["max_error"]["bound"].get<double>() == Approx(8 * small["max_error"]["bound"].get<double>()));
+    CHECK(report("large.gltf", "0.08")["faces_out"] == report("small.gltf", "0.01")["faces_out"]);
+    // Another, smaller place of the same mesh changes nothing but the box.
+    scene["nodes"].push_back({{"mesh", scene["nodes"][node]["mesh"]}});
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+    write(folder / "both.gltf", scene.dump());
+    CHECK(report("both.gltf", "0.08")["faces_out"] == report("small.gltf", "0.01")["faces_out"]);
+}
+
+TEST_CASE("a count that cannot meet the error ends with 6 and writes no model") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "in.glb");
+    for (const char* target : {"--faces 30", "--ratio 0.04"}) {
+        CAPTURE(target);
+        const std::string common =
+            std::string("simplify in.glb out.glb --bake none --force --report r.json ") + target;
+        const Outcome refused = run(folder, common + " --max-error 0.001");
+        CHECK(refused.code == 6);
+        CHECK(refused.err.find("max error exceeded") != std::string::npos);
+        CHECK(!fs::exists(folder / "out.glb"));
+        const Json report = Json::parse(read(folder / "r.json"));
+        CHECK(report["max_error"]["within"] == false);
+        CHECK(report["max_error"]["bound"] > 0.001);
+        CHECK(report["stop_reason"] == "reached_target");
+        CHECK(run(folder, common + " --max-error 50%").code == 0);
+        CHECK(fs::exists(folder / "out.glb"));
+        fs::remove(folder / "out.glb");
+    }
+}
+
+TEST_CASE("an error is a positive number, and a missed target comes first") {
+    const Folder folder;
+    faqem::save(sheet(6, 0.2), folder / "in.glb");
+    for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "1e999", "0%", "1%%", "''"}) {
+        CAPTURE(bad);
+        CHECK(run(folder, std::string("simplify in.glb out.glb --max-error=") + bad).code == 2);
+        CHECK(!fs::exists(folder / "out.glb"));
+    }
+    CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-border --strict-target --max-error 1e-9")
+              .code == 5);
+    // Without a target none is missed.
+    CHECK(run(folder, "simplify in.glb out.glb --lock-border --strict-target --max-error 10 --bake none")
+              .code == 0);
+}

@@ -1,0 +1,162 @@
+// Whatever happens, an output file is the old one, the new one, or none.
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+
+namespace {
+
+std::set<std::string> names_in(const Folder& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path())) names.insert(entry.path().filename());
+    return names;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// As run(), from a shell that does `before` first.
+Outcome run_after(const Folder& folder, const std::string& before, const std::string& arguments) {
+    const Folder streams;
+    const std::string command = "cd '" + folder.path().string() + "' && " + before +
+                                " && exec '" FAQEM_TOOL "' " + arguments + " 2>'" +
+                                (streams / "err").string() + "' >/dev/null";
+    const int status = std::system(("sh -c \"" + command + "\"").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read(streams / "err")};
+}
+
+}  // namespace
+
+TEST_CASE("a full disk ends with 7, the old file stays, nothing is left behind") {
+    // A limit of the file size stands for the full disk: a part is written, then write() fails.
+    const Folder folder;
+    faqem::save(sheet(40), folder / "in.glb");
+    write(folder / "old.glb", "precious");
+    for (const char* out : {"new.glb", "old.glb --force", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
+        CAPTURE(out);
+        const Outcome outcome =
+            run_after(folder, "ulimit -f 4",
+                      std::string("simplify in.glb ") + out + " --ratio 0.9 --bake none --quiet");
+        CHECK(outcome.code == 7);
+        CHECK(contains(outcome.err, "cannot write: File too large"));
+        CHECK(contains(outcome.err, std::string(out).substr(0, 4)));
+        CHECK(names_in(folder) == std::set<std::string>{"in.glb", "old.glb"});
+        CHECK(read(folder / "old.glb") == "precious");
+    }
+}
+
+TEST_CASE("a full file system and a read-only one end with 7, the old file stays, nothing is left behind") {
+    // A file system of four pages, mounted where nobody else sees it.
+    if (std::system("unshare -rm mount -t tmpfs -o size=16k none /mnt 2>/dev/null") != 0) {
+        WARN("no file systems may be mounted here");
+        return;
+    }
+    const Folder folder;
+    faqem::save(sheet(40), folder / "in.glb");
+    for (const std::string out : {"new.glb", "old.glb", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
+        CAPTURE(out);
+        const std::string simplify = "'" FAQEM_TOOL "' simplify in.glb /mnt/" + out +
+                                     " --ratio 0.9 --bake none --quiet --force 2>> err";
+        write(folder / "script", "mount -t tmpfs -o size=16k none /mnt\nprintf precious > /mnt/old.glb\n" +
+                                     simplify + "\necho $? $(ls -A /mnt) $(cat /mnt/old.glb) >> out\n" +
+                                     "mount -o remount,ro none /mnt\n" + simplify +
+                                     "\necho $? $(ls -A /mnt) $(cat /mnt/old.glb) >> out\n");
+        fs::remove(folder / "out");
+        fs::remove(folder / "err");
+        REQUIRE(std::system(("cd '" + folder.path().string() + "' && unshare -rm sh script").c_str()) == 0);
+        CHECK(read(folder / "out") == "7 old.glb precious\n7 old.glb precious\n");
+        CHECK(contains(read(folder / "err"), "cannot write: No space left on device"));
+        CHECK(contains(read(folder / "err"), ": the folder cannot be written to"));
+        CHECK(contains(read(folder / "err"), "/mnt/" + out.substr(0, 4)));
+    }
+}
+
+TEST_CASE("devices and pipes are no outputs, and that is found out before the work") {
+    const Folder folder;
+    faqem::save(sheet(4), folder / "in.glb");
+    REQUIRE(::mkfifo((folder / "fifo.glb").c_str(), 0600) == 0);
+    fs::create_symlink("/dev/full", folder / "full.glb");
+    for (const char* out : {"full.glb", "fifo.glb"}) {
+        CAPTURE(out);
+        const Outcome outcome = run(folder, std::string("simplify missing.glb ") + out + " --force");
+        CHECK(outcome.code == 7);
+        CHECK(contains(outcome.err, std::string(out) + ": is not a regular file"));
+    }
+    CHECK(run(folder, "simplify in.glb new.glb --force --report /dev/full").code == 7);
+    CHECK(run(folder, "simplify in.glb new.glb --force --history /dev/full").code == 7);
+    CHECK(!fs::exists(folder / "new.glb"));
+}
+
+TEST_CASE("a folder that cannot be written to ends with 7") {
+    const Folder folder;
+    faqem::save(sheet(4), folder / "in.glb");
+    fs::create_directory(folder / "locked");
+    write(folder / "locked/old.glb", "precious");
+    REQUIRE(::chmod((folder / "locked").c_str(), 0555) == 0);
+    if (::geteuid() != 0) {  // root may write everywhere
+        for (const char* out : {"locked/new.glb", "locked/old.glb --force"}) {
+            const Outcome outcome = run(folder, std::string("simplify in.glb ") + out);
+            CHECK(outcome.code == 7);
+            CHECK(contains(outcome.err, "locked/"));
+        }
+        CHECK(read(folder / "locked/old.glb") == "precious");
+    }
+    ::chmod((folder / "locked").c_str(), 0755);
+    // Nobody, root included, makes a file here.
+    const Outcome outcome = run(folder, "simplify in.glb /proc/new.glb --bake none --quiet");
+    CHECK(outcome.code == 7);
+    CHECK(contains(outcome.err, "/proc/new.glb: cannot create a file beside it"));
+}
+
+TEST_CASE("the output may not be the input behind a linked folder") {
+    const Folder folder;
+    fs::create_directory(folder / "real");
+    fs::create_directory_symlink("real", folder / "alias");
+    faqem::save(sheet(4), folder / "real/in.glb");
+    const std::string before = read(folder / "real/in.glb");
+    const Outcome outcome = run(folder, "simplify real/in.glb alias/in.glb --force");
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "is the input"));
+    CHECK(read(folder / "real/in.glb") == before);
+}
+
+TEST_CASE("killed at any time, the old file or the new one is there, whole") {
+    const Folder folder;
+    faqem::save(sheet(60), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb new.glb --ratio 0.9 --bake none --quiet").code == 0);
+    const std::string whole = read(folder / "new.glb"), old(whole.size(), 'o');
+    std::size_t replaced = 0;
+    // The delays go from before the work to after it, whatever the machine: a killed run makes the next wait
+    // longer, a finished one ends the test.
+    for (useconds_t delay = 500; replaced == 0 && delay < 60'000'000; delay = delay * 5 / 4) {
+        write(folder / "out.glb", old);
+        const pid_t process = fork();
+        REQUIRE(process >= 0);
+        if (process == 0) {
+            if (chdir(folder.path().c_str()) != 0) _exit(99);
+            execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--force", "--ratio", "0.9", "--bake",
+                  "none", "--quiet", nullptr);
+            _exit(99);
+        }
+        ::usleep(delay);
+        kill(process, SIGKILL);
+        int status = 0;
+        waitpid(process, &status, 0);
+        const std::string now = read(folder / "out.glb");
+        const bool is_old = now == old, is_new = now == whole;
+        CHECK((is_old || is_new));
+        if (WIFEXITED(status)) CHECK(is_new);
+        replaced += WIFEXITED(status);
+    }
+    CHECK(replaced == 1);
+}

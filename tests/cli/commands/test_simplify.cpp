@@ -1,0 +1,259 @@
+#include <signal.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "faqem/history.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::size_t files_in(const Folder& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), {}));
+}
+
+std::size_t face_count(const faqem::Asset& asset) {
+    std::size_t faces = 0;
+    for (const faqem::Part& part : asset.parts) faces += part.triangles.size();
+    return faces;
+}
+
+}  // namespace
+
+TEST_CASE("simplify writes a lighter model, a report and a summary") {
+    const Folder folder;
+    faqem::save(sheet(20), folder / "in.glb");
+    const Outcome outcome =
+        run(folder, "simplify in.glb out.glb --faces 100 --texture-size 256 --report r.json");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("800 -> ") != std::string::npos);
+    CHECK(outcome.out.find("reached_target") != std::string::npos);
+    CHECK(outcome.out.find("warnings") != std::string::npos);
+
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    CHECK(face_count(light) <= 100);
+    CHECK(face_count(light) >= 90);
+    CHECK(!light.images.empty());
+    CHECK(files_in(folder) == 3);
+
+    const Json report = Json::parse(read(folder / "r.json"));
+    for (const char* key : {"preset", "faces_in", "faces_out", "vertices_in", "vertices_out", "target_faces",
+                            "stop_reason", "refusals", "warnings", "seconds", "peak_rss_bytes"}) {
+        CAPTURE(key);
+        CHECK(report.contains(key));
+    }
+    CHECK(report["faces_in"] == 800);
+    CHECK(report["faces_out"] == face_count(light));
+    CHECK(report["target_faces"] == 100);
+    CHECK(report["stop_reason"] == "reached_target");
+    CHECK(report["warnings"].is_array());
+    double sum = 0;
+    for (const char* phase : {"load", "simplify", "map", "bake", "save"}) {
+        CAPTURE(phase);
+        CHECK(report["seconds"][phase] > 0);
+        sum += report["seconds"][phase].get<double>();
+    }
+    CHECK(report["seconds"].contains("weld"));
+    CHECK(report["seconds"]["total"] >= 0.99 * sum);
+    CHECK(report["peak_rss_bytes"] > 1'000'000);
+}
+
+TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY takes colours to its vertices") {
+    const Folder folder;
+    faqem::Asset bare = sheet(12);
+    for (faqem::Part& part : bare.parts) {
+        part.face_material.clear();
+        part.uvs.clear();
+        part.normals.clear();
+    }
+    bare.materials.clear();
+    bare.images.clear();
+    faqem::save(bare, folder / "bare.ply");
+    faqem::save(sheet(12), folder / "painted.glb");
+    const auto pages = [&](const std::string& files) {
+        CAPTURE(files);
+        const Outcome outcome = run(folder, "simplify " + files + " --ratio 0.5 --report r.json --force");
+        CHECK(outcome.code == 0);
+        return Json::parse(read(folder / "r.json"))["pages"].size();
+    };
+    CHECK(pages("bare.ply bare.glb --normal-map on") == 1);
+    CHECK(pages("bare.ply out.ply --normal-map on") == 0);
+    CHECK(pages("bare.ply out.stl --normal-map on") == 0);
+    // No normals were made to be left out.
+    CHECK(read(folder / "r.json").find("cannot hold vertex normals") == std::string::npos);
+    CHECK(pages("bare.ply out.obj --normal-map on") == 0);
+    CHECK(pages("painted.glb out.obj") == 1);
+    CHECK(pages("painted.glb painted.ply") == 0);
+    CHECK_FALSE(faqem::load(folder / "painted.ply").parts[0].colors.empty());
+}
+
+TEST_CASE("every choice on the command line is taken") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    for (const char* arguments : {"--ratio 0.5",
+                                  "--preset qem",
+                                  "--preset paper",
+                                  "--preset stmw",
+                                  "--preset fast",
+                                  "--preset balanced",
+                                  "--preset best",
+                                  "--bake vertex",
+                                  "--bake keep",
+                                  "--bake none",
+                                  "--bake per-triangle --mapping lineage",
+                                  "--mapping projection",
+                                  "--link",
+                                  "--lock-border",
+                                  "--weld 0.001",
+                                  "--threads 1",
+                                  "--mapping closest",
+                                  "--normal-map auto",
+                                  "--normal-map on",
+                                  "--normal-map off",
+                                  "--normals transfer",
+                                  "--normals smooth",
+                                  "--normals smooth:30",
+                                  "--normals flat",
+                                  "--image-format png",
+                                  "--image-format jpeg",
+                                  "--image-format jpeg:50",
+                                  "--image-format source",
+                                  "--correspondence map.bin",
+                                  "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"}) {
+        CAPTURE(arguments);
+        const Outcome outcome = run(
+            folder, std::string("simplify in.glb out.glb --force --quiet --texture-size 64 ") + arguments);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.empty());
+    }
+    run(folder, "simplify in.glb none.glb --bake none --quiet");
+    CHECK(faqem::load(folder / "none.glb").images.empty());
+    run(folder, "simplify in.glb vertex.glb --bake vertex --quiet");
+    CHECK(!faqem::load(folder / "vertex.glb").parts.at(0).colors.empty());
+}
+
+TEST_CASE("the look of the result follows the command line, and the report tells of its pages") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    const Outcome outcome = run(folder,
+                                "simplify in.glb out.glb --texture-size 64 --normal-map on --image-format "
+                                "jpeg:60 --correspondence map.bin --report r.json");
+    CHECK(outcome.code == 0);
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    CHECK(light.materials.at(0).normal_texture);
+    CHECK(!light.parts.at(0).tangents.empty());
+    for (const faqem::Image& image : light.images) CHECK(image.mime_type == "image/jpeg");
+    const Json pages = Json::parse(read(folder / "r.json"))["pages"];
+    REQUIRE(pages.size() == 1);
+    for (const char* key :
+         {"material", "width", "height", "fill", "density", "samples", "uncertain_texels"}) {
+        CAPTURE(key);
+        CHECK(pages[0].contains(key));
+    }
+    CHECK(pages[0]["samples"]["history"] > 0);
+    const std::size_t texels = pages[0]["width"].get<std::size_t>() * pages[0]["height"].get<std::size_t>();
+    CHECK(fs::file_size(folder / "map.bin") == 24 + 20 * texels);
+}
+
+TEST_CASE("every output format is written") {
+    const Folder folder;
+    faqem::save(sheet(12), folder / "in.glb");
+    for (const char* ending : {"gltf", "obj", "ply", "stl", "GLB"}) {
+        const std::string out = std::string("as_") + ending + "." + ending;
+        CAPTURE(out);
+        CHECK(run(folder, "simplify in.glb " + out + " --ratio 0.5 --texture-size 64 --quiet").code == 0);
+        CHECK(face_count(faqem::load(folder / out)) > 0);
+    }
+}
+
+TEST_CASE("the same command gives the same bytes at any thread count") {
+    const Folder folder;
+    faqem::save(sheet(24), folder / "in.glb");
+    for (const char* threads : {"1", "2", "5"}) {
+        run(folder, std::string("simplify in.glb ") + threads + ".glb --texture-size 128 --quiet --threads " +
+                        threads);
+    }
+    CHECK(!read(folder / "1.glb").empty());
+    CHECK(read(folder / "1.glb") == read(folder / "2.glb"));
+    CHECK(read(folder / "1.glb") == read(folder / "5.glb"));
+}
+
+TEST_CASE("a missed target is an error only where that was asked for, and then no model is written") {
+    const Folder folder;
+    // A strip: all of its vertices are on the border, which must stay.
+    faqem::Asset strip = sheet(1, 0);
+    faqem::Part& part = strip.parts[0];
+    part.positions.clear();
+    part.triangles.clear();
+    part.uvs.clear();
+    for (faqem::Index i = 0; i < 42; ++i) {
+        part.positions.push_back({double(i / 2), double(i % 2), 0.1 * (i % 3)});
+        if (i < 2) continue;
+        part.triangles.push_back(i % 2 ? faqem::Triangle{i - 2, i, i - 1} : faqem::Triangle{i - 2, i - 1, i});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    strip.images.clear();
+    strip.materials[0].base_color_texture = {};
+    faqem::save(strip, folder / "in.glb");
+    const std::string common =
+        "simplify in.glb out.glb --faces 10 --lock-border --bake none --report r.json ";
+    CHECK(run(folder, common).code == 0);
+    CHECK(Json::parse(read(folder / "r.json"))["stop_reason"] == "no_legal_collapse");
+    CHECK(face_count(faqem::load(folder / "out.glb")) > 10);
+
+    fs::remove(folder / "out.glb");
+    const Outcome strict = run(folder, common + "--strict-target --force");
+    CHECK(strict.code == 5);
+    CHECK(!strict.err.empty());
+    CHECK(!fs::exists(folder / "out.glb"));
+    CHECK(Json::parse(read(folder / "r.json"))["faces_out"] > 10);
+    CHECK(run(folder, "simplify in.glb ok.glb --ratio 1 --lock-border --bake none --strict-target").code ==
+          0);
+}
+
+TEST_CASE("the histories of all parts are written one after the other") {
+    const Folder folder;
+    faqem::Asset two = sheet(12);
+    two.parts.push_back(sheet(8).parts[0]);
+    for (faqem::Vec3& p : two.parts[1].positions) p[2] += 3;
+    faqem::save(two, folder / "in.glb");
+    const faqem::Asset loaded = faqem::load(folder / "in.glb");
+    REQUIRE(loaded.parts.size() == 2);
+    CHECK(run(folder, "simplify in.glb out.glb --history h.bin --bake none --quiet").code == 0);
+    std::ifstream in(folder / "h.bin", std::ios::binary);
+    const faqem::Asset light = faqem::load(folder / "out.glb");
+    for (std::size_t p = 0; p < 2; ++p) {
+        const faqem::CollapseHistory history = faqem::read_history(in);
+        CHECK(history.triangles.size() == loaded.parts[p].triangles.size());
+        CHECK(faqem::replay(history).triangles.size() == light.parts[p].triangles.size());
+    }
+    CHECK(in.peek() == std::ifstream::traits_type::eof());
+}
+
+TEST_CASE("SIGTERM and SIGINT end the work with 8 and leave nothing behind") {
+    for (const int number : {SIGTERM, SIGINT}) {
+        const Folder folder;
+        faqem::save(sheet(200), folder / "in.glb");
+        const pid_t process = fork();
+        REQUIRE(process >= 0);
+        if (process == 0) {
+            if (chdir(folder.path().c_str()) != 0) _exit(99);
+            execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--quiet", nullptr);
+            _exit(99);
+        }
+        const int status = signal_and_wait(process, number);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 8);
+        CHECK(!fs::exists(folder / "out.glb"));
+        CHECK(files_in(folder) == 1);
+    }
+}

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string faces_of_level(const Folder& folder, const std::string& manifest, std::size_t level) {
+    const Json json = Json::parse(read(folder / manifest));
+    return std::to_string(json["levels"].at(level)["report"]["faces_out"].get<int>());
+}
+
+}  // namespace
+
+TEST_CASE("cut gives the same bytes as the level of the run that wrote the history") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const std::string look = " --texture-size 128";
+    REQUIRE(run(folder, "lod hill.glb out --levels 0.5,200,60 --preset best --history h.bin" + look).code ==
+            0);
+    for (std::size_t i = 1; i <= 3; ++i) {
+        const std::string faces = faces_of_level(folder, "out/hill_LOD.json", i);
+        const Outcome outcome =
+            run(folder, "cut h.bin cut.glb --force --source hill.glb --faces " + faces + look);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out.find(" " + faces + " faces") != std::string::npos);
+        CHECK(read(folder / "cut.glb") == read(folder / ("out/hill_LOD" + std::to_string(i) + ".glb")));
+    }
+}
+
+TEST_CASE("without the model a cut is the geometry") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    REQUIRE(run(folder,
+                "lod hill.glb out --levels 0.5,100 --bake none --normals none --format ply --history h.bin")
+                .code == 0);
+    REQUIRE(run(folder, "cut h.bin cut.ply --faces 100 --quiet").code == 0);
+    const bool is_same = read(folder / "cut.ply") == read(folder / "out/hill_LOD2.ply");
+    CHECK(is_same);
+}
+
+TEST_CASE("with qem and paper a cut has the same bytes as a run of its own") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    for (const std::string preset : {"qem", "paper"}) {
+        const std::string options = " --preset " + preset + " --bake none --force";
+        REQUIRE(run(folder, "lod hill.glb out --levels 0.5,40 --history h.bin" + options).code == 0);
+        for (const std::string faces : {"777", "300", "40"}) {
+            REQUIRE(run(folder, "simplify hill.glb own.glb --faces " + faces + options).code == 0);
+            REQUIRE(run(folder, "cut h.bin cut.glb --source hill.glb --bake none --force --faces " + faces)
+                        .code == 0);
+            CHECK(read(folder / "cut.glb") == read(folder / "own.glb"));
+        }
+    }
+}
+
+TEST_CASE("cut takes the history of one run, and refuses what does not fit") {
+    const Folder folder;
+    faqem::save(sheet(16, 0.2), folder / "a.glb");
+    faqem::save(sheet(12, 0.2), folder / "b.glb");
+    REQUIRE(run(folder, "simplify a.glb light.glb --faces 80 --bake none --history h.bin").code == 0);
+    REQUIRE(run(folder, "cut h.bin cut.glb --faces 80 --source a.glb --bake none").code == 0);
+    CHECK(read(folder / "cut.glb") == read(folder / "light.glb"));
+    const auto refused = [&](const std::string& arguments) {
+        const Outcome outcome = run(folder, "cut " + arguments);
+        CHECK_FALSE(outcome.err.empty());
+        return outcome.code;
+    };
+    CHECK(refused("h.bin cut.glb --faces 200") == 7);
+    CHECK(refused("h.bin new.glb --faces 40") == 5);
+    CHECK(refused("h.bin new.glb --faces 200 --source b.glb") == 3);
+    CHECK(refused("h.bin new.glb --faces 200 --source a.glb --bake keep") == 2);
+    CHECK(refused("h.bin new.glb") == 2);
+    CHECK(refused("h.bin new.xyz --faces 200") == 2);
+    CHECK(refused("a.glb new.glb --faces 200") == 3);
+    CHECK(refused("none.bin new.glb --faces 200") == 3);
+    CHECK_FALSE(fs::exists(folder / "new.glb"));
+}

@@ -1,0 +1,133 @@
+#include "cli/options/profile.hpp"
+
+#include <CLI/CLI.hpp>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/commands/command_line.hpp"
+#include "support/cli_support.hpp"
+
+using namespace faqem::tool;
+using namespace tool_test;
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+namespace {
+
+CommandTree tree() {
+    CLI::App app;
+    Action action;
+    build_command_line(app, action);
+    return command_tree(app);
+}
+
+/// What a profile adds to a command line.
+Words added(const std::string& profile, Words words = {"simplify", "a", "b"}) {
+    const Folder folder;
+    write(folder / "p.json", profile);
+    words.push_back("--config=" + (folder / "p.json").string());
+    const Words all = with_profile(tree(), words);
+    CHECK(Words(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(words.size())) == words);
+    return {all.begin() + static_cast<std::ptrdiff_t>(words.size()), all.end()};
+}
+
+std::string usage_error(const std::string& profile, const std::string& command = "simplify") {
+    const Folder folder;
+    write(folder / "p.json", profile);
+    write(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Outcome outcome = run(folder, command + " a.obj b --config p.json");
+    CHECK(outcome.code == 2);
+    return outcome.err;
+}
+
+}  // namespace
+
+TEST_CASE("a profile's numbers, words, flags and lists are options") {
+    CHECK(
+        added(
+            R"({"faqem-profile": 1, "ratio": 0.25, "preset": "fast", "link": true, "keep-groups": false})") ==
+        Words{"--ratio=0.25", "--preset=fast", "--link"});
+    CHECK(added(R"({"faqem-profile": 1, "faces": 5000, "max-error": "0.1%"})") ==
+          Words{"--faces=5000", "--max-error=0.1%"});
+    CHECK(added(R"({"faqem-profile": 1, "virtual-edges": true})") == Words{"--virtual-edges"});
+    CHECK(added(R"({"faqem-profile": 1, "virtual-edges": 0.02})") == Words{"--virtual-edges=0.02"});
+    CHECK(added(R"({"faqem-profile": 1, "levels": [0.5, 5000, "error:1%"]})", {"lod", "a", "b"}) ==
+          Words{"--levels=0.5,5000,error:1%"});
+    CHECK(added(R"({"$schema": "profile.schema.json", "faqem-profile": 1})").empty());
+}
+
+TEST_CASE("the command line beats the profile, also where options exclude each other") {
+    const std::string profile = R"({"faqem-profile": 1, "ratio": 0.25, "preset": "fast"})";
+    CHECK(added(profile, {"simplify", "a", "b", "--ratio", "0.5"}) == Words{"--preset=fast"});
+    CHECK(added(profile, {"simplify", "a", "b", "--ratio=0.5"}) == Words{"--preset=fast"});
+    CHECK(added(profile, {"simplify", "a", "b", "--faces", "7"}) == Words{"--preset=fast"});
+    CHECK(added(profile, {"batch", "a", "b", "--preset", "qem"}) == Words{"--ratio=0.25"});
+}
+
+TEST_CASE("without a profile the command line stays as it is") {
+    for (const Words& words : {Words{}, Words{"simplify", "a", "b"}, Words{"info", "--config=p"},
+                               Words{"simplify", "a", "--", "--config=p"}, Words{"simplify", "--config"}}) {
+        CHECK(with_profile(tree(), words) == words);
+    }
+}
+
+TEST_CASE("a profile does what its options do") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    write(folder / "p.json", R"({"faqem-profile": 1, "faces": 30, "bake": "none", "quiet": true})");
+    REQUIRE(run(folder, "simplify in.glb by-profile.glb --config p.json").out.empty());
+    REQUIRE(run(folder, "simplify in.glb by-words.glb --faces 30 --bake none --quiet").code == 0);
+    CHECK(read(folder / "by-profile.glb") == read(folder / "by-words.glb"));
+    REQUIRE(run(folder, "simplify in.glb beaten.glb --config p.json --faces 60").code == 0);
+    CHECK(faqem::load(folder / "beaten.glb").parts[0].triangles.size() > 30);
+}
+
+TEST_CASE("an unknown key is a usage error, with what may have been meant") {
+    const std::string wrong = usage_error(R"({"faqem-profile": 1, "ration": 0.5})");
+    CHECK(wrong == "faqem: p.json: 'ration' is no option of faqem simplify; did you mean 'ratio'?\n");
+    CHECK(usage_error(R"({"faqem-profile": 1, "levels": [0.5]})") ==
+          "faqem: p.json: 'levels' is no option of faqem simplify, but one of faqem lod\n");
+    CHECK(usage_error(R"({"faqem-profile": 1, "config": "other.json"})").find("'config' is no option") !=
+          std::string::npos);
+}
+
+TEST_CASE("a value of another kind, and another version, are usage errors") {
+    CHECK(usage_error(R"({"faqem-profile": 1, "link": 1})") ==
+          "faqem: p.json: link: must be true or false\n");
+    CHECK(usage_error(R"({"faqem-profile": 1, "ratio": true})") ==
+          "faqem: p.json: ratio: must be a number or a string\n");
+    CHECK(usage_error(R"({"faqem-profile": 1, "ratio": null})").find("must be a number") !=
+          std::string::npos);
+    CHECK(usage_error(R"({"faqem-profile": 1, "ratio": "much"})").find("--ratio") != std::string::npos);
+    CHECK(usage_error(R"({"ratio": 0.5})") ==
+          "faqem: p.json: is no profile: \"faqem-profile\": 1 is missing\n");
+    CHECK(usage_error(R"({"faqem-profile": 2})") ==
+          "faqem: p.json: faqem-profile 2 is not known; this faqem knows 1\n");
+}
+
+TEST_CASE("a profile that is missing or no JSON is bad input") {
+    const Folder folder;
+    write(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(run(folder, "simplify a.obj b.obj --config gone.json").code == 3);
+    for (const char* text : {"", "{", "[1]", "{\"faqem-profile\": 1, \"faces\": 5, \"faces\": 6}"}) {
+        CAPTURE(text);
+        write(folder / "p.json", text);
+        const Outcome outcome = run(folder, "simplify a.obj b.obj --config p.json");
+        CHECK(outcome.code == 3);
+        CHECK(outcome.err.find("faqem: p.json: ") == 0);
+    }
+}
+
+TEST_CASE("the schema knows the options of the commands that take a profile, and no other") {
+    const Json schema = Json::parse(read(FAQEM_SOURCE "/docs/profile.schema.json"));
+    std::set<std::string> known, described = {"$schema", "faqem-profile"};
+    for (const auto& [key, value] : schema["properties"].items()) known.insert(key);
+    for (const CommandInfo& command : tree().commands) {
+        if (command.name != "simplify" && command.name != "lod" && command.name != "batch") continue;
+        for (const OptionInfo& option : command.options) described.insert(option.names.back().substr(2));
+    }
+    described.erase("help");
+    described.erase("config");
+    CHECK(known == described);
+}

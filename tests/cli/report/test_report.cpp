@@ -1,0 +1,112 @@
+#include "cli/report/page.hpp"
+
+#include <catch2/catch.hpp>
+#include <string_view>
+
+#include "asset/gltf/gltf.hpp"
+#include "cli/report/heat_ramp.hpp"
+#include "cli/report/viewer_model.hpp"
+#include "support/cli_support.hpp"
+
+using namespace faqem::tool;
+using namespace tool_test;
+
+namespace {
+
+bool has(const std::string& text, std::string_view piece) { return text.find(piece) != std::string::npos; }
+
+/// The sheet, and one with fewer faces half a unit above it.
+void save_two(const Folder& folder) {
+    faqem::Asset a = sheet(8, 0), b = sheet(2, 0);
+    for (faqem::Vec3& p : b.parts[0].positions) p[2] += 0.5;
+    faqem::save(a, folder / "a.glb");
+    faqem::save(b, folder / "b.glb");
+}
+
+constexpr const char* small = " --size 16 --views 1 --samples 500";
+
+}  // namespace
+
+TEST_CASE("a report has the figures and the pictures, and fetches nothing") {
+    const Folder folder;
+    save_two(folder);
+    const Outcome outcome = run(folder, std::string("report a.glb b.glb -o page.html") + small);
+    REQUIRE(outcome.code == 0);
+    const std::string page = read(folder / "page.html");
+    for (const char* piece :
+         {"<th scope=\"row\">Faces</th><td>128</td><td>8</td><td>6.25%</td>",
+          "<th scope=\"row\">Mean</th><td>0.5 (17.7%)</td><td>0.5 (17.7%)</td>", "8 faces instead of 128",
+          "<th scope=\"row\">Root mean square</th>", "alt=\"The first model"}) {
+        CAPTURE(piece);
+        CHECK(has(page, piece));
+    }
+    std::size_t pictures = 0;
+    for (std::size_t at = 0; (at = page.find("src=\"data:image/png;base64,iVBOR", at)) != std::string::npos;
+         ++at)
+        ++pictures;
+    CHECK(pictures == 3);
+    CHECK(!has(page, "src=\"http"));
+    CHECK(!has(page, "<link"));
+    CHECK(!has(page, "@NAME_A@"));
+    CHECK(has(page, "id=\"canvas\"") == has_viewer());
+    CHECK(has(outcome.err, "No 3D view") != has_viewer());
+}
+
+TEST_CASE("a report without the view is small and has no script") {
+    const Folder folder;
+    save_two(folder);
+    REQUIRE(run(folder, std::string("report a.glb b.glb --out page.html --without-view") + small).code == 0);
+    const std::string page = read(folder / "page.html");
+    CHECK(!has(page, "<script"));
+    CHECK(!has(page, "id=\"canvas\""));
+    CHECK(page.size() < 30'000);
+}
+
+TEST_CASE("a file's name cannot change the page") {
+    const Folder folder;
+    faqem::save(sheet(2), folder / "<script>&.glb");
+    REQUIRE(
+        run(folder, std::string("report '<script>&.glb' '<script>&.glb' --without-view -o p.html") + small)
+            .code == 0);
+    CHECK(!has(read(folder / "p.html"), "<script>"));
+    CHECK(has(read(folder / "p.html"), "&lt;script&gt;&amp;.glb"));
+}
+
+TEST_CASE("a report is not written over a file, nor under another ending") {
+    const Folder folder;
+    save_two(folder);
+    write(folder / "page.html", "mine");
+    CHECK(run(folder, std::string("report a.glb b.glb -o page.html") + small).code == 7);
+    CHECK(read(folder / "page.html") == "mine");
+    CHECK(run(folder, std::string("report a.glb b.glb -o page.html --force") + small).code == 0);
+    CHECK(run(folder, "report a.glb b.glb -o page.pdf").code == 2);
+    CHECK(run(folder, "report a.glb b.glb").code == 2);
+    CHECK(run(folder, "report a.glb gone.glb -o other.html").code == 3);
+}
+
+TEST_CASE("the model of the view is near the origin, of about unit size, with its errors") {
+    PlacedModel model{"a.glb", sheet(1, 0), {}};
+    for (faqem::Vec3& p : model.asset.parts[0].positions) p[0] += 1e6;
+    model.flat = model.asset.parts[0];
+    ErrorSurface error{model.flat.positions, model.flat.triangles, {0, 1, 2, 4}};
+    const std::vector<std::uint8_t> bytes = view_model(model, error, {{1e6, 0, 0}, 2});
+    const faqem::Asset read = faqem::detail::read_gltf(bytes, "view.glb");
+    REQUIRE(read.parts.size() == 2);
+    CHECK(read.parts[0].name == "look");
+    CHECK(read.parts[0].positions[0] == faqem::Vec3{-0.5, -0.5, 0});
+    CHECK(read.materials.size() == 1);
+    CHECK(read.images.size() == 1);
+    CHECK(read.parts[1].name == "error");
+    CHECK(read.parts[1].uvs[0][3] == faqem::Vec2f{2, 0});
+}
+
+TEST_CASE("the ramp goes from dark to light and ends there") {
+    const auto light = [](double share) {
+        const faqem::Vec4f c = heat_colour(share);
+        return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    };
+    for (int i = 0; i < 16; ++i) CHECK(light(i / 16.0) < light((i + 1) / 16.0));
+    CHECK(heat_colour(2) == heat_colour(1));
+    CHECK(heat_colour(-1) == heat_colour(0));
+    CHECK(heat_colour(std::nan("")) == heat_colour(0));
+}

@@ -1,0 +1,103 @@
+#include "cli/shell/command_tree.hpp"
+
+#include <CLI/CLI.hpp>
+#include <catch2/catch.hpp>
+
+#include "faqem/error.hpp"
+#include "cli/commands/command_line.hpp"
+#include "cli/options/simplify_options.hpp"
+#include "support/cli_support.hpp"
+
+using namespace faqem::tool;
+
+namespace {
+
+/// Parses a command line without running it. \return whether it is one
+bool parses(const std::string& line) {
+    CLI::App app;
+    Action action;
+    build_command_line(app, action);
+    try {
+        app.parse(line, true);
+    } catch (const CLI::ParseError&) {
+        return false;
+    }
+    return action != nullptr;
+}
+
+CommandTree whole_tree() {
+    CLI::App app;
+    Action action;
+    build_command_line(app, action);
+    return command_tree(app);
+}
+
+}  // namespace
+
+TEST_CASE("every command and option is described, and every value has a name") {
+    const CommandTree tree = whole_tree();
+    CHECK(tree.commands.size() == 10);
+    CHECK(tree.exit_codes.find("11 not enough memory") != std::string::npos);
+    for (const CommandInfo& command : tree.commands) {
+        CAPTURE(command.name);
+        CHECK(!command.description.empty());
+        for (const OptionInfo& option : command.options) {
+            CAPTURE(option.names);
+            CHECK(!option.description.empty());
+            for (const char* type : {"TEXT", "FLOAT", "UINT", "INT"}) CHECK(option.value != type);
+        }
+    }
+}
+
+TEST_CASE("every command has an example, and each of them can be parsed") {
+    const CommandTree tree = whole_tree();
+    for (const CommandInfo& command : tree.commands) {
+        CAPTURE(command.name);
+        CHECK(!command.examples.empty());
+        for (const std::string& example : command.examples) {
+            const std::size_t begin = example.find("faqem " + command.name);
+            CAPTURE(example);
+            REQUIRE(begin != std::string::npos);
+            const std::string line = example.substr(begin, example.find_first_of(")|>", begin) - begin);
+            CHECK(parses(line));
+            CHECK(!parses(line + " --frobnicate"));
+        }
+    }
+}
+
+TEST_CASE("every choice that is offered is taken, and nothing else is") {
+    const auto takes = [](const std::string& line) {
+        CLI::App app;
+        SimplifyArguments arguments;
+        add_simplify_options(app, arguments);
+        app.parse(line);
+        try {
+            make_options(arguments);
+        } catch (const faqem::OptionError&) {
+            return false;
+        }
+        return true;
+    };
+    const CommandTree tree = whole_tree();
+    std::size_t choices = 0;
+    for (const OptionInfo& option : tree.commands.front().options) {  // of simplify
+        if (option.choices.empty()) continue;
+        CAPTURE(option.names);
+        for (const std::string& choice : option.choices) {
+            CAPTURE(choice);
+            const bool without_baking = choice == "none" && option.names.back() == "--normals";
+            CHECK(takes((without_baking ? "--bake none " : "") + option.names.back() + " " + choice));
+        }
+        CHECK(!takes(option.names.back() + " nothing"));
+        choices += option.choices.size();
+    }
+    CHECK(choices == 29);
+}
+
+TEST_CASE("help shows examples and what values can be") {
+    const tool_test::Folder folder;
+    const std::string help = tool_test::run(folder, "simplify --help").out;
+    CHECK(help.find("Examples:\n  faqem simplify model.glb") != std::string::npos);
+    CHECK(help.find("--preset qem|paper|stmw|fast|balanced|best") != std::string::npos);
+    CHECK(tool_test::run(folder, "--help").out.find("Exit codes: 0 done") != std::string::npos);
+}

@@ -1,0 +1,81 @@
+#include "cli/shell/completion.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <sstream>
+
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+
+namespace {
+
+/// Lines that a script prints. \param shell  with the options that keep the user's own settings out
+std::set<std::string> lines_of(const std::string& shell, const Folder& folder, const std::string& script) {
+    write(folder / "script", script);
+    const std::string command = "cd '" + folder.path().string() + "' && " + shell + " script >lines 2>errors";
+    CHECK(std::system(command.c_str()) == 0);
+    CHECK(read(folder / "errors").empty());
+    std::set<std::string> lines;
+    std::istringstream in(read(folder / "lines"));
+    for (std::string line; std::getline(in, line);) lines.insert(line);
+    return lines;
+}
+
+/// What bash offers behind `faqem WORDS`, of which the last is being typed.
+std::set<std::string> in_bash(const std::string& words, int last) {
+    const Folder folder;
+    write(folder / "faqem.bash", run(folder, "completion bash").out);
+    auto lines =
+        lines_of("bash --norc", folder,
+                 "source ./faqem.bash\nCOMP_WORDS=(faqem " + words + ")\nCOMP_CWORD=" + std::to_string(last) +
+                     "\n_faqem\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
+    lines.erase("");
+    return lines;
+}
+
+using Words = std::set<std::string>;
+
+}  // namespace
+
+TEST_CASE("bash completes commands, options and values") {
+    CHECK(in_bash("''", 1) == Words{"simplify", "lod", "cut", "batch", "info", "compare", "render", "report",
+                                    "completion", "man"});
+    CHECK(in_bash("co", 1) == Words{"compare", "completion"});
+    CHECK(in_bash("--v", 1) == Words{"--version"});
+    CHECK(in_bash("simplify a.glb --textu", 3) == Words{"--texture-size"});
+    CHECK(in_bash("info --", 2) == Words{"--help", "--json"});
+    CHECK(in_bash("simplify --preset ''", 3) == Words{"qem", "paper", "stmw", "fast", "balanced", "best"});
+    CHECK(in_bash("batch models light --format g", 5) == Words{"glb", "gltf"});
+    CHECK(in_bash("completion ''", 2) == Words{"bash", "zsh"});
+}
+
+TEST_CASE("where bash is to offer files, faqem offers nothing") {
+    CHECK(in_bash("simplify ''", 2).empty());
+    CHECK(in_bash("simplify mod", 2).empty());
+    CHECK(in_bash("simplify a.glb b.glb --report ''", 5).empty());
+}
+
+TEST_CASE("zsh completes commands, options and values") {
+    if (std::system("command -v zsh >/dev/null") != 0) {
+        WARN("there is no zsh");
+        return;
+    }
+    const Folder folder;
+    write(folder / "_faqem", run(folder, "completion zsh").out);
+    const std::string beginning =
+        "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
+        "source ./_faqem\n";
+    const Words commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
+    CHECK(commands.size() == 10);
+    CHECK(commands.count("info:Count and measure what is in a file"));
+    const Words options =
+        lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
+    CHECK(options.count(
+        "--budget[How the meshes of a scene share the faces\\: scene (by error, default), mesh (in "
+        "proportion to their faces)]:value:(scene mesh)"));
+    CHECK(options.count("--force[Replace files that exist]"));
+    CHECK(options.count("*:argument:_files"));
+}
+
+TEST_CASE("another shell is refused") { CHECK(run(Folder(), "completion fish").code == 2); }

@@ -1,0 +1,28 @@
+#include "cli/shell/man_page.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "faqem/version.hpp"
+#include "support/cli_support.hpp"
+
+TEST_CASE("what troff would take for its own is escaped") {
+    faqem::tool::CommandTree tree;
+    tree.description = ".first\n'second\na\\b-c";
+    const std::string page = faqem::tool::man_page(tree, "1.2.3");
+    CHECK(page.find("\n\\&.first\n\\&'second\na\\eb\\-c\n") != std::string::npos);
+    CHECK(page.find(".TH FAQEM 1 \"\" \"faqem 1.2.3\"") == 0);
+}
+
+TEST_CASE("the manual has every command with its options, the exit codes and examples") {
+    const tool_test::Folder folder;
+    const tool_test::Outcome outcome = tool_test::run(folder, "man");
+    CHECK(outcome.code == 0);
+    for (const char* text :
+         {".SS \\fBfaqem simplify\\fR \\fIIN\\fR \\fIOUT\\fR\n", "\\fB\\-\\-max\\-error\\fR \\fILENGTH\\fR\n",
+          "\\fB\\-\\-normal\\-map\\fR auto|on|off\n", "\\fB\\-h\\fR, \\fB\\-\\-help\\fR\n",
+          ".SH EXIT STATUS\n", "8 cancelled", "faqem cut statue.history"}) {
+        CAPTURE(text);
+        CHECK(outcome.out.find(text) != std::string::npos);
+    }
+    CHECK(outcome.out.find("faqem " + std::string(faqem::version())) != std::string::npos);
+}

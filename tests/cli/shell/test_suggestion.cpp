@@ -1,0 +1,64 @@
+#include "cli/shell/suggestion.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support/cli_support.hpp"
+
+using namespace faqem::tool;
+using tool_test::Folder;
+
+TEST_CASE("edit distances are those of the textbook") {
+    CHECK(edit_distance("", "") == 0);
+    CHECK(edit_distance("", "abc") == 3);
+    CHECK(edit_distance("kitten", "sitting") == 3);
+    CHECK(edit_distance("sunday", "saturday") == 3);
+    CHECK(edit_distance("ab", "ba") == 1);   // neighbours swapped
+    CHECK(edit_distance("ca", "abc") == 3);  // no place twice
+    CHECK(edit_distance("abc", "abc") == 0);
+}
+
+TEST_CASE("the closest word is the first of those, or none that is far off") {
+    const std::vector<std::string> known = {"--faces", "--force", "--texture-size", "--fov"};
+    CHECK(closest_word("--face", known) == "--faces");
+    CHECK(closest_word("--froce", known) == "--force");
+    CHECK(closest_word("--texture", known) == "--texture-size");  // its beginning
+    CHECK(closest_word("--fo", known) == "--force");              // two begin so: the first
+    CHECK(closest_word("--zzzzz", known).empty());
+    CHECK(closest_word("", known).empty());
+    CHECK(closest_word(std::string(100000, '-'), known).empty());
+}
+
+TEST_CASE("a suggestion is about the first wrong word") {
+    CommandTree tree;
+    tree.options = {{{"--version"}, "", {}, "", {}, ""}};
+    tree.commands = {{"simplify",
+                      "",
+                      {},
+                      {},
+                      {{{"-h", "--help"}, "", {}, "", {}, ""}, {{"--ratio"}, "R", {}, "", {}, ""}}},
+                     {"info", "", {}, {}, {{{"--json"}, "", {}, "", {}, ""}}}};
+    CHECK(suggestion(tree, {}).empty());
+    CHECK(suggestion(tree, {"smplify"}) == "simplify");
+    CHECK(suggestion(tree, {"--versoin"}) == "--version");
+    CHECK(suggestion(tree, {"dance"}).empty());
+    CHECK(suggestion(tree, {"simplify", "a", "--raito", "0.5"}) == "--ratio");
+    CHECK(suggestion(tree, {"simplify", "a", "--raito=0.5", "--hlep"}) == "--ratio");
+    CHECK(suggestion(tree, {"info", "--ratio", "0.5"}).empty());  // it has no such option
+    CHECK(suggestion(tree, {"simplify", "--", "--raito"}).empty());
+    CHECK(suggestion(tree, {"simplify", "--ratio", "-0.5"}).empty());
+}
+
+TEST_CASE("a wrong option or command suggests the right one") {
+    const Folder folder;
+    for (const auto& [arguments, meant] :
+         {std::pair("simplify a.glb b.glb --txture-size 512", "--texture-size"),
+          std::pair("smplify", "simplify"), std::pair("render a.glb b.png --wire", "--wireframe"),
+          std::pair("--verison", "--version")}) {
+        const tool_test::Outcome outcome = tool_test::run(folder, arguments);
+        CAPTURE(arguments, outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find(std::string("Did you mean ") + meant + "?") != std::string::npos);
+    }
+    CHECK(tool_test::run(folder, "simplify a.glb b.glb --qqqqqq").err.find("Did you mean") ==
+          std::string::npos);
+}

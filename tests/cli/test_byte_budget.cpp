@@ -1,0 +1,107 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/byte_budget.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using Json = nlohmann::json;
+
+namespace {
+
+// A sheet whose image does not compress.
+faqem::Asset noisy_sheet(faqem::Index n) {
+    faqem::Asset asset = sheet(n, 0.2);
+    faqem::Pixels pixels{256, 256, {}, false};
+    std::uint32_t state = 1;
+    for (int i = 0; i < 256 * 256 * 4; ++i) {
+        state = state * 1664525u + 1013904223u;
+        pixels.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(state >> 24));
+    }
+    asset.images[0] = faqem::encode_png(pixels, "noise");
+    return asset;
+}
+
+std::uintmax_t bytes_in(const fs::path& folder) {
+    std::uintmax_t sum = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) sum += entry.file_size();
+    }
+    return sum;
+}
+
+std::string warnings(const Folder& folder) { return Json::parse(read(folder / "r.json"))["warnings"].dump(); }
+
+}  // namespace
+
+TEST_CASE("what fits a byte budget is left as it was asked for") {
+    const Folder folder;
+    faqem::save(sheet(20), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb a.glb --ratio 0.5").code == 0);
+    REQUIRE(run(folder, "simplify in.glb b.glb --ratio 0.5 --max-bytes 10MB --report r.json").code == 0);
+    CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
+    CHECK(warnings(folder).find("--max-bytes") == std::string::npos);
+}
+
+TEST_CASE("a byte budget is shared between faces and images, and the report says what was given up") {
+    const Folder folder;
+    faqem::save(noisy_sheet(60), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb full.glb --ratio 0.9").code == 0);
+    REQUIRE(fs::file_size(folder / "full.glb") > 300000);
+    const Outcome outcome =
+        run(folder, "simplify in.glb out.glb --ratio 0.9 --max-bytes 60000 --report r.json");
+    REQUIRE(outcome.code == 0);
+    CHECK(fs::file_size(folder / "out.glb") <= 60000);
+    CHECK(fs::file_size(folder / "out.glb") > 15000);
+    CHECK(warnings(folder).find("made smaller for --max-bytes") != std::string::npos);
+    const faqem::Asset out = faqem::load(folder / "out.glb");
+    REQUIRE(out.images.size() == 1);
+    CHECK(out.images[0].mime_type == "image/jpeg");
+    const std::size_t faces = out.parts[0].triangles.size();
+    CHECK(faces < 6480);
+    CHECK(faces > 300);
+    const auto size = faqem::tool::model_bytes(out, "x.glb");
+    CHECK(size.geometry <= 30000);
+    CHECK(size.images == out.images[0].encoded.size());
+}
+
+TEST_CASE("an encoding that was asked for stays under a byte budget") {
+    const Folder folder;
+    faqem::save(noisy_sheet(20), folder / "in.glb");
+    const std::string command = "simplify in.glb out.glb --ratio 0.5 --max-bytes 80000 --image-format png";
+    REQUIRE(run(folder, command).code == 0);
+    CHECK(fs::file_size(folder / "out.glb") <= 80000);
+    CHECK(faqem::load(folder / "out.glb").images[0].mime_type == "image/png");
+}
+
+TEST_CASE("without images a byte budget takes faces alone") {
+    const Folder folder;
+    faqem::save(sheet(60, 0.2), folder / "in.ply");
+    REQUIRE(run(folder, "simplify in.ply out.ply --bake none --ratio 1 --max-bytes 20KB").code == 0);
+    const std::uintmax_t bytes = fs::file_size(folder / "out.ply");
+    CHECK(bytes <= 20000);
+    CHECK(bytes > 15000);
+}
+
+TEST_CASE("a byte budget counts all files of a model") {
+    const Folder folder;
+    faqem::save(noisy_sheet(30), folder / "in.glb");
+    for (const std::string name : {"out.gltf", "out.obj"}) {
+        fs::create_directory(folder / "to");
+        REQUIRE(run(folder, "simplify in.glb to/" + name + " --ratio 1 --max-bytes 50000").code == 0);
+        CHECK(bytes_in(folder / "to") <= 50000);
+        fs::remove_all(folder / "to");
+    }
+}
+
+TEST_CASE("a byte budget that nothing fits is an error of its own, and no model is written") {
+    const Folder folder;
+    faqem::save(sheet(20), folder / "in.glb");
+    const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 200");
+    CHECK(outcome.code == 10);
+    CHECK(outcome.err.find("200 allowed") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out.glb"));
+    CHECK(run(folder, "simplify in.glb out.glb --max-bytes 0").code == 2);
+    CHECK(run(folder, "simplify in.glb out.glb --max-bytes 1MB --max-error 1%").code == 2);
+}

@@ -1,0 +1,323 @@
+#include "faqem/engine/constraints/feature_curves.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "support/meshes.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+// A mesh with groups, and the curves between them.
+struct Map {
+    Map(TriangleMesh m, std::vector<Index> g, const std::vector<std::pair<Index, Index>>& extra = {})
+        : mesh(std::move(m)),
+          groups(std::move(g)),
+          complex(test::complex_of(mesh)),
+          pairs(complex, extra),
+          curves(complex, groups) {}
+    Map(const Map&) = delete;
+
+    Freedom freedom(Index u, Index v) { return curves.freedom(complex, pairs, u, v); }
+
+    TriangleMesh mesh;
+    std::vector<Index> groups;
+    Complex complex;
+    PairTable pairs;
+    GroupCurves curves;
+};
+
+// grid(n) with the group of each square; vertex x + (n + 1) y, square x + n y is faces 2 (x + n y) and the
+// next.
+std::vector<Index> squares(Index n, const std::function<Index(Index x, Index y)>& group) {
+    std::vector<Index> groups;
+    for (Index y = 0; y < n; ++y) {
+        for (Index x = 0; x < n; ++x) groups.insert(groups.end(), 2, group(x, y));
+    }
+    return groups;
+}
+
+// Face `f` of `faces` against all others.
+std::vector<Index> one_of(std::size_t faces, std::size_t f) {
+    std::vector<Index> groups(faces, 0);
+    groups[f] = 1;
+    return groups;
+}
+
+// Ends of the edges where groups meet, by their places.
+using Curves = std::set<std::pair<Vec3, Vec3>>;
+
+Curves curves_of(const TriangleMesh& mesh) {
+    std::map<std::pair<Vec3, Vec3>, std::set<Index>> groups;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = mesh.positions[mesh.triangles[f][k]],
+                       &b = mesh.positions[mesh.triangles[f][(k + 1) % 3]];
+            groups[std::minmax(a, b)].insert(mesh.face_groups[f]);
+        }
+    }
+    Curves curves;
+    for (const auto& [edge, found] : groups) {
+        if (found.size() > 1) curves.insert(edge);
+    }
+    return curves;
+}
+
+// How many curves end at each place that is no inner one of a curve.
+std::map<std::size_t, int> nodes_by_degree(const TriangleMesh& mesh) {
+    std::map<Vec3, std::size_t> degree;
+    for (const auto& [a, b] : curves_of(mesh)) ++degree[a], ++degree[b];
+    std::map<std::size_t, int> nodes;
+    for (const auto& [place, count] : degree) nodes[count] += count != 2;
+    nodes.erase(2);
+    return nodes;
+}
+
+double area_of(const TriangleMesh& mesh, Index group) {
+    double sum = 0;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        if (mesh.face_groups[f] != group) continue;
+        const Vec3 n = test::normal(mesh, mesh.triangles[f]);
+        sum += 0.5 * std::hypot(n[0], n[1], n[2]);
+    }
+    return sum;
+}
+
+Options keeping(double keep, Preset preset = Preset::balanced) {
+    Options options;
+    options.target = ratio(keep);
+    options.preset = preset;
+    options.topology.group_borders = GroupBorders::kept;
+    return options;
+}
+
+// A sphere in eight sorts, by octants.
+TriangleMesh octants(int level) {
+    TriangleMesh mesh = test::icosphere(level);
+    for (const Triangle& t : mesh.triangles) {
+        Vec3 c = {};
+        for (const Index v : t) {
+            for (std::size_t i = 0; i < 3; ++i) c[i] += mesh.positions[v][i];
+        }
+        mesh.face_groups.push_back((c[0] > 0) + 2 * (c[1] > 0) + 4 * (c[2] > 0));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("without groups, or with one, there are no curves and no rule") {
+    GroupCurves none;
+    CHECK(none.empty());
+    CHECK(!none.has(0));
+    CHECK(!none.differ(0, 1));
+    Map one(test::grid(2), std::vector<Index>(8, 7));
+    CHECK(one.curves.empty());
+    CHECK(one.freedom(0, 1) == Freedom::anywhere);
+    // Groups on parts that do not touch have no curve either.
+    Map apart(test::both(test::quad(), test::moved(test::quad(), {2, 0, 0})), {0, 0, 1, 1});
+    CHECK(apart.curves.empty());
+}
+
+TEST_CASE("next to a curve, the curve stays and the inside comes to it") {
+    // Columns of a 4 x 4 grid, the two on the left against the two on the right: the curve is x = 2.
+    Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
+    for (Index v = 0; v < 25; ++v) CHECK(map.curves.has(v) == (v % 5 == 2));
+    CHECK(map.freedom(11, 12) == Freedom::at_second);
+    CHECK(map.freedom(12, 13) == Freedom::at_first);
+    CHECK(map.freedom(10, 11) == Freedom::anywhere);
+    CHECK(map.freedom(7, 12) == Freedom::anywhere);
+}
+
+TEST_CASE("where a curve ends at an open border, it stays") {
+    Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
+    CHECK(map.freedom(2, 7) == Freedom::at_first);
+    CHECK(map.freedom(7, 2) == Freedom::at_second);
+    CHECK(map.freedom(1, 2) == Freedom::at_second);
+}
+
+TEST_CASE("where three groups or four curves meet, the place stays") {
+    // T: left against upper and lower right. X: a checkerboard of 2 x 2.
+    for (const bool cross : {false, true}) {
+        CAPTURE(cross);
+        Map map(test::grid(4), squares(4, [&](Index x, Index y) {
+                    const Index right = x / 2, upper = y / 2;
+                    return cross ? (right + upper) % 2 : right + right * upper;
+                }));
+        CHECK(map.freedom(12, 17) == Freedom::at_first);
+        CHECK(map.freedom(7, 12) == Freedom::at_second);
+        CHECK(map.freedom(12, 13) == Freedom::at_first);
+    }
+}
+
+TEST_CASE("two curves are not joined, nor is one shortcut") {
+    // Three stripes, the middle one a square wide.
+    Map stripes(test::grid(3), squares(3, [](Index x, Index) { return x; }));
+    CHECK(stripes.freedom(5, 6) == Freedom::nowhere);
+    CHECK(stripes.freedom(6, 5) == Freedom::nowhere);
+    CHECK(stripes.freedom(5, 9) == Freedom::anywhere);
+}
+
+TEST_CASE("the last triangle of a group stays") {
+    // The lower right triangle of the middle square of 3 x 3.
+    Map map(test::grid(3), one_of(18, 8));
+    for (const auto& [u, v] : {std::pair<Index, Index>{5, 6}, {6, 10}, {5, 10}}) {
+        CHECK(map.freedom(u, v) == Freedom::nowhere);
+        CHECK(map.freedom(v, u) == Freedom::nowhere);
+    }
+    CHECK(map.freedom(1, 5) == Freedom::at_second);
+}
+
+TEST_CASE("a triangle in the angle between a curve and an open border stays") {
+    // The triangle 0 1 5 of grid(3) against all others: collapsing its inner edge would end the curve
+    // elsewhere.
+    Map map(test::grid(3), one_of(18, 0));
+    CHECK(map.freedom(0, 1) == Freedom::nowhere);
+    CHECK(map.freedom(1, 5) == Freedom::nowhere);
+    CHECK(map.freedom(0, 5) == Freedom::nowhere);
+}
+
+TEST_CASE("sheets of two groups back to back have no curve between them") {
+    // Both sides of a 4 x 4 grid, in two groups; the left half of the back in a third.
+    const TriangleMesh sheet = test::grid(4);
+    TriangleMesh mesh = sheet;
+    for (const auto& [a, b, c] : sheet.triangles) mesh.triangles.push_back({a, c, b});
+    std::vector<Index> groups(32, 0);
+    Map two(mesh, [&] {
+        std::vector<Index> all = groups;
+        all.insert(all.end(), 32, 1);
+        return all;
+    }());
+    CHECK(two.freedom(6, 7) == Freedom::anywhere);
+    CHECK(two.freedom(12, 18) == Freedom::anywhere);
+    const std::vector<Index> back = squares(4, [](Index x, Index) { return 1 + x / 2; });
+    groups.insert(groups.end(), back.begin(), back.end());
+    Map three(mesh, groups);
+    CHECK(three.freedom(6, 7) == Freedom::at_second);
+    CHECK(three.freedom(7, 12) == Freedom::anywhere);
+    CHECK(three.freedom(8, 13) == Freedom::anywhere);
+    std::size_t seen = 0;
+    three.curves.for_each_edge(three.complex, 12, [&](Index, Index n) {
+        CHECK((n == 7 || n == 17));
+        ++seen;
+    });
+    CHECK(seen == 8);
+}
+
+TEST_CASE("virtual pairs do not join groups, nor touch a curve") {
+    const TriangleMesh mesh = test::both(test::grid(2), test::moved(test::quad(), {3, 0, 0}));
+    std::vector<Index> groups = squares(2, [](Index x, Index) { return x; });
+    groups.insert(groups.end(), 2, Index{1});
+    Map map(mesh, groups, {{5, 9}, {3, 9}, {4, 9}});
+    CHECK(map.freedom(5, 9) == Freedom::anywhere);
+    CHECK(map.freedom(3, 9) == Freedom::nowhere);
+    CHECK(map.freedom(4, 9) == Freedom::nowhere);
+}
+
+TEST_CASE("what is joined with a curve is on it") {
+    Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
+    map.curves.collapsing(0, 1);
+    CHECK(map.curves.has(0));
+    map.curves.collapsing(2, 5);
+    CHECK(!map.curves.has(2));
+}
+
+TEST_CASE("each face on an edge of a curve is shown") {
+    const Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
+    std::multiset<std::pair<Index, Index>> seen;
+    map.curves.for_each_edge(map.complex, 4, [&](Index f, Index n) { seen.insert({f, n}); });
+    // Up and down from the middle; a face of either side each.
+    CHECK(seen == std::multiset<std::pair<Index, Index>>{{0, 1}, {3, 1}, {4, 7}, {7, 7}});
+}
+
+TEST_CASE("the nodes of kept curves stay to the last bit and no group loses its ground") {
+    const TriangleMesh mesh = octants(4);
+    const std::map<std::size_t, int> nodes = nodes_by_degree(mesh);
+    const Curves before = curves_of(mesh);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), keeping(0.05, preset));
+        CHECK(result.report.faces_out <= result.report.target_faces);
+        CHECK(nodes_by_degree(result.mesh) == nodes);
+        const Curves after = curves_of(result.mesh);
+        CHECK(after.size() < before.size() / 2);
+        for (const auto& [a, b] : before) {
+            // A node of the original is one of the result.
+            for (const Vec3& p : {a, b}) {
+                const auto at = [&](const Curves& curves) {
+                    return std::count_if(curves.begin(), curves.end(),
+                                         [&](const auto& e) { return e.first == p || e.second == p; });
+                };
+                if (at(before) != 2) CHECK(at(after) == at(before));
+            }
+        }
+        for (Index group = 0; group < 8; ++group) {
+            CHECK(area_of(result.mesh, group) == Approx(area_of(mesh, group)).epsilon(0.1));
+        }
+    }
+}
+
+TEST_CASE("a kept curve on a plane stays on its line") {
+    // A flat sheet costs nothing anywhere: without the rule the border of the groups runs wild.
+    TriangleMesh mesh = test::grid(16);
+    mesh.face_groups = squares(16, [](Index x, Index) { return x / 8; });
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), keeping(0.05, preset));
+        CHECK(result.report.faces_out <= result.report.target_faces);
+        for (const auto& [a, b] : curves_of(result.mesh)) {
+            CHECK(a[0] == Approx(8).margin(1e-6));
+            CHECK(b[0] == Approx(8).margin(1e-6));
+        }
+        // The first three do not hold the open border's corners.
+        if (preset < Preset::fast) continue;
+        CHECK(area_of(result.mesh, 0) == Approx(128).epsilon(1e-6));
+        CHECK(area_of(result.mesh, 1) == Approx(128).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a target that kept curves do not allow is missed and said to be") {
+    // Every square another group: all vertices inside are nodes.
+    TriangleMesh mesh = test::grid(8);
+    mesh.face_groups = squares(8, [](Index x, Index y) { return x + 8 * y; });
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), keeping(0.1, preset));
+        CHECK(result.report.stop == StopReason::no_legal_collapse);
+        CHECK(result.report.faces_out > result.report.target_faces);
+        CHECK(result.report.refusals[static_cast<std::size_t>(Refusal::group)] > 0);
+        CHECK(result.report.components_deleted == 0);
+        // The corners of the sheet are on no curve.
+        for (Index group = 1; group < 63; ++group) {
+            if (group != 7 && group != 56) CHECK(area_of(result.mesh, group) == Approx(1));
+        }
+    }
+}
+
+TEST_CASE("kept groups change nothing where there are none") {
+    TriangleMesh mesh = test::icosphere(3);
+    const SimplifyResult plain = simplify(mesh.view(), {.target = ratio(0.1)});
+    CHECK(simplify(mesh.view(), keeping(0.1)).mesh.positions == plain.mesh.positions);
+    mesh.face_groups.assign(mesh.triangles.size(), 3);
+    CHECK(simplify(mesh.view(), keeping(0.1)).mesh.positions == plain.mesh.positions);
+}
+
+TEST_CASE("kept curves that lie on seams of kept attributes go with them") {
+    TriangleMesh mesh = octants(3);
+    mesh.attributes.width = 1;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+        mesh.attributes.values.insert(mesh.attributes.values.end(), 3,
+                                      static_cast<float>(mesh.face_groups[f]));
+    const SimplifyResult result = simplify(mesh.view(), keeping(0.1));
+    CHECK(result.report.faces_out <= result.report.target_faces);
+    CHECK(nodes_by_degree(result.mesh) == nodes_by_degree(mesh));
+    for (std::size_t f = 0; f < result.mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(result.mesh.attributes.values[3 * f + k] == float(result.mesh.face_groups[f]));
+    }
+}

@@ -1,0 +1,58 @@
+#include "faqem/engine/mesh/index_lists.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using engine::List;
+using engine::Lists;
+
+namespace {
+
+std::vector<Index> items(const Lists& lists, const List& list) {
+    return {lists[list].begin(), lists[list].end()};
+}
+
+}  // namespace
+
+TEST_CASE("lists: a list is empty until it is given something, and may be emptied again") {
+    Lists lists;
+    List list;
+    CHECK(items(lists, list).empty());
+    lists.assign(list, std::vector<Index>{7, 3});
+    CHECK(items(lists, list) == std::vector<Index>{7, 3});
+    list.size = 0;
+    CHECK(items(lists, list).empty());
+}
+
+TEST_CASE("lists: with room enough a list stays where it is, else it moves") {
+    Lists lists;
+    List list = lists.make_room(3), next = lists.make_room(3);
+    const Index place = list.place;
+    for (Index i = 0; i < 3; ++i) lists.push_back(list, i);
+    lists.push_back(next, 9);
+    lists.assign(list, std::vector<Index>{5, 6});
+    CHECK(list.place == place);
+    lists.assign(list, std::vector<Index>{1, 2, 3, 4});
+    CHECK(list.place != place);
+    CHECK(items(lists, list) == std::vector<Index>{1, 2, 3, 4});
+    CHECK(items(lists, next) == std::vector<Index>{9});
+    const Index roomy = list.place;
+    lists.assign(list, std::vector<Index>{1, 2, 3, 4, 5, 6});  // half as much again
+    CHECK(list.place == roomy);
+}
+
+TEST_CASE("lists: many of them do not disturb each other") {
+    test::Random random(4);
+    Lists lists;
+    std::vector<List> handles(50);
+    std::vector<std::vector<Index>> expected(handles.size());
+    for (int step = 0; step < 5000; ++step) {
+        const std::size_t at = random.below(handles.size());
+        expected[at].assign(random.below(40), 0);
+        for (Index& number : expected[at]) number = random.below(1000);
+        lists.assign(handles[at], expected[at]);
+    }
+    for (std::size_t i = 0; i < handles.size(); ++i) CHECK(items(lists, handles[i]) == expected[i]);
+}

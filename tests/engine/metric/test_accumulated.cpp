@@ -1,0 +1,152 @@
+#include "faqem/engine/metric/accumulated.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support/meshes.hpp"
+#include "faqem/detail/simplify/presets.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+const double root2 = std::sqrt(2.0);
+
+// The paper's Table 1 on a mesh in the engine's own units.
+CompositeWeights paper() {
+    CompositeWeights w;
+    w.base = BaseWeight::inverse_area;
+    w.boundary = 500;
+    w.normal = 0.01;
+    w.area = 100;
+    w.seam = 5000;
+    return w;
+}
+
+struct Bench {
+    Bench(const TriangleMesh& mesh, const CompositeWeights& weights, std::vector<std::uint8_t> seams = {})
+        : complex(test::complex_of(mesh)), pairs(complex, {}), seam(std::move(seams)), metric(weights, seam) {
+        metric.initialise(complex, pairs);
+    }
+    std::optional<Candidate> evaluate(Index u, Index v, Freedom freedom = Freedom::anywhere) const {
+        return metric.evaluate(complex, pairs, test::pair_of(pairs, u, v), freedom);
+    }
+    PairTable::Change collapse(Index u, Index v, const Vector3& p) {
+        metric.collapsing(complex, pairs, u, v, p);
+        complex.collapse(u, v, p);
+        std::vector<Index> killed;
+        std::vector<PairTable::Change> changes;
+        pairs.merge(complex, u, v, killed, changes);
+        return changes.empty() ? PairTable::Change() : changes.front();
+    }
+
+    Complex complex;
+    PairTable pairs;
+    std::vector<std::uint8_t> seam;
+    MemoryMetric metric;
+};
+
+}  // namespace
+
+TEST_CASE("the vertex quadric is base + boundary + normal") {
+    // Paper, Sec. 3.2.1, at corner 0 of the unit square: two faces of area 1/2 give 4 z^2; the border turns
+    // by a right angle: 500 / sqrt 2 (z^2 + x^2); the tangent plane gives z^2 / 100.
+    const Bench bench(test::quad(), paper());
+    const Quadric& q = bench.metric.quadric(0);
+    CHECK(q({0, 0, 2}) == Approx(4 * (4 + 500 / root2 + 0.01)));
+    CHECK(q({2, 0, 0}) == Approx(4 * 500 / root2));
+    CHECK(q({0, 2, 0}) == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("weight zero turns a term off") {
+    CompositeWeights w = paper();
+    w.boundary = w.normal = 0;
+    const Bench bench(test::quad(), w);
+    CHECK(bench.metric.quadric(0)({1, 1, 2}) == Approx(4 * 4));
+    w.area = 0;
+    CHECK(Bench(test::quad(), w).evaluate(0, 1)->cost == 0);
+}
+
+TEST_CASE("the cost of a rim pair is the quadric where it is solved, plus the area term there") {
+    // Paper eq. 2-4. Pair 0-1 of the unit square: 500 / sqrt 2 (x^2 + (x - 1)^2) and no y: singular, and the
+    // midpoint is best: 250 / sqrt 2. There sides 0-3 and 1-2 cost 100 / 8 each, side 0-1 nothing.
+    const Bench bench(test::quad(), paper());
+    const auto found = bench.evaluate(0, 1);
+    REQUIRE(found);
+    CHECK(found->point == Vector3(0.5, 0, 0));
+    CHECK(found->cost == Approx(250 / root2 + 25));
+}
+
+TEST_CASE("before placement, the area term takes part in finding the point") {
+    // Unit square, unit base: 3 z^2 and ((y^2 + z^2) + (x^2 + z^2) + ((1 - x)^2 + z^2)) / 2 for the pair 0-1.
+    CompositeWeights w;
+    w.area = 1;
+    w.area_term = AreaTerm::before_placement;
+    const auto found = Bench(test::quad(), w).evaluate(0, 1);
+    REQUIRE(found);
+    CHECK((found->point - Vector3(0.5, 0, 0)).norm() < 1e-12);
+    CHECK(found->cost == Approx(0.25));
+}
+
+TEST_CASE("after placement, it does not move the point") {
+    CompositeWeights w;
+    w.area = 1e9;
+    CHECK(Bench(test::quad(), w).evaluate(0, 1)->point == Vector3(0, 0, 0));
+}
+
+TEST_CASE("a seam vertex multiplies its whole first quadric") {
+    // Supplementary, w_uv.
+    const Bench plain(test::quad(), paper());
+    const Bench seam(test::quad(), paper(), {0, 1, 0, 0});
+    const Vector3 p(1, 2, 3);
+    CHECK(seam.metric.quadric(1)(p) == Approx(5000 * plain.metric.quadric(1)(p)));
+    CHECK(seam.metric.quadric(0)(p) == plain.metric.quadric(0)(p));
+}
+
+TEST_CASE("freedom is kept, and nowhere is no candidate") {
+    const Bench bench(test::quad(), paper());
+    CHECK(bench.evaluate(0, 1, Freedom::at_first)->point == Vector3(0, 0, 0));
+    CHECK(bench.evaluate(0, 1, Freedom::at_second)->point == Vector3(1, 0, 0));
+    CHECK(bench.evaluate(0, 1, Freedom::at_first)->cost == Approx(500 / root2 + 50));
+    CHECK_FALSE(bench.evaluate(0, 1, Freedom::nowhere));
+}
+
+TEST_CASE("a cost that is not finite is no candidate") {
+    CHECK_FALSE(Bench(test::scaled(test::cube(), 1e200), paper()).evaluate(0, 1));
+}
+
+TEST_CASE("costs are never negative") {
+    const TriangleMesh mesh = test::moved(test::grid(4), {0.1, 0.7, 1e5});
+    const Bench bench(mesh, CompositeWeights());
+    for (Index pair = 0; pair < bench.pairs.size(); ++pair)
+        CHECK(bench.evaluate(bench.pairs.first(pair), bench.pairs.second(pair))->cost >= 0);
+}
+
+TEST_CASE("quadrics are remembered: the survivor carries the sum") {
+    Bench bench(test::cube(), CompositeWeights());
+    const Vector3 p(1, 2, 3);
+    const double sum = bench.metric.quadric(0)(p) + bench.metric.quadric(1)(p);
+    bench.collapse(0, 1, {0.5, 0, 0});
+    CHECK(bench.metric.quadric(0)(p) == sum);
+}
+
+TEST_CASE("the area term is that of the border as it is now, not of its history") {
+    // Unit square, 1 joined to 0 in (1/2, 0, 0): the triangle 0 2 3 is left, all its sides open.
+    CompositeWeights w;
+    w.area = 1;
+    Bench bench(test::quad(), w);
+    bench.collapse(0, 1, {0.5, 0, 0});
+    const auto found = bench.evaluate(2, 3, Freedom::at_second);
+    REQUIRE(found);
+    // At 3 = (0, 1, 0) the sides 2-3 and 3-0 cost nothing; side 2-0 spans the triangle of area 1/2.
+    CHECK(found->cost == Approx(2 * 0.25));
+}
+
+TEST_CASE("only the area term reaches beyond the survivor's own pairs") {
+    const PairTable::Change open{{1, 2}, true}, inner{{1, 2}, false};
+    CompositeWeights w;
+    CHECK(MemoryMetric(w).staleness(open) == Staleness::none);
+    w.area = 1;
+    CHECK(MemoryMetric(w).staleness(open) == Staleness::now);
+    CHECK(MemoryMetric(w).staleness(inner) == Staleness::none);
+}

@@ -1,0 +1,230 @@
+#include "faqem/engine/metric/weighted.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "support/original.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/error.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+static_assert(WeighingMetric<ImportanceMetric<MemoryMetric>>);
+static_assert(!WeighingMetric<MemorylessMetric>);
+static_assert(!RefiningMetric<ImportanceMetric<MemorylessMetric>>);
+static_assert(RefiningMetric<ImportanceMetric<TrackedMetric>>);
+
+bool is_upper(const TriangleMesh& mesh, const Triangle& t) {
+    return mesh.positions[t[0]][2] + mesh.positions[t[1]][2] + mesh.positions[t[2]][2] > 0;
+}
+
+double upper_share(const TriangleMesh& mesh) {
+    const auto upper = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                     [&](const Triangle& t) { return is_upper(mesh, t); });
+    return static_cast<double>(upper) / static_cast<double>(mesh.triangles.size());
+}
+
+TriangleMesh upper_half(TriangleMesh mesh) {
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return !is_upper(mesh, t); });
+    return mesh;
+}
+
+// A bumpy sphere, its upper half with this weight.
+struct Globe {
+    explicit Globe(float weight) {
+        for (Vec3& p : mesh.positions) {
+            const double r = 1 + 0.03 * std::sin(9 * p[0]) * std::cos(8 * p[1]) * std::sin(7 * p[2]);
+            p = {r * p[0], r * p[1], r * p[2]};
+            weights.push_back(p[2] > 0 ? weight : 1);
+        }
+    }
+    SimplifyResult simplified(Preset preset) const {
+        MeshView view = mesh.view();
+        view.vertex_weights = weights;
+        Options options;
+        options.target = ratio(0.1);
+        options.preset = preset;
+        return simplify(view, options);
+    }
+
+    TriangleMesh mesh = test::icosphere(4);
+    std::vector<float> weights;
+};
+
+// Calls visit(u, v, without, with) for every pair: what it costs without weights and with them.
+template <class Metric, class Visit>
+void for_each_pair(const Complex& complex, const PairTable& pairs, Metric& plain,
+                   ImportanceMetric<Metric>& weighted, Visit&& visit) {
+    plain.initialise(complex, pairs);
+    weighted.initialise(complex, pairs);
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        const auto a = plain.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto b = weighted.evaluate(complex, pairs, pair, Freedom::anywhere);
+        REQUIRE((a && b));
+        visit(u, v, *a, *b);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
+    const Complex complex = test::complex_of(mesh);
+    const PairTable pairs(complex, {});
+    test::Random random(2);
+    std::vector<double> weights;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) weights.push_back(random.between(0.1, 10));
+    MemorylessMetric plain;
+    ImportanceMetric weighted(MemorylessMetric(), weights);
+    for_each_pair(complex, pairs, plain, weighted,
+                  [&](Index u, Index v, const Candidate& a, const Candidate& b) {
+                      CHECK(a.point == b.point);
+                      CHECK(weighted.weight(u, v) == std::max(weights[u], weights[v]));
+                      CHECK(b.cost == Approx(a.cost * weighted.weight(u, v)));
+                      CHECK(!weighted.evaluate(complex, pairs, test::pair_of(pairs, u, v), Freedom::nowhere));
+                  });
+}
+
+TEST_CASE("what refining finds is multiplied too and never falls below the first cost") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
+    const Complex complex = test::complex_of(mesh);
+    const PairTable pairs(complex, {});
+    const std::vector<double> weights(mesh.positions.size(), 3);
+    const test::OriginalOf original(mesh);
+    TrackedMetric plain({}, original.surface, original.lineage, 80, 0.1);
+    ImportanceMetric weighted(TrackedMetric({}, original.surface, original.lineage, 80, 0.1), weights);
+    for_each_pair(complex, pairs, plain, weighted,
+                  [&](Index u, Index v, const Candidate& a, const Candidate& b) {
+                      const double refined = weighted.refine(complex, pairs, u, v, b);
+                      CHECK(refined == Approx(3 * plain.refine(complex, pairs, u, v, a)));
+                      CHECK(refined >= b.cost);
+                  });
+}
+
+TEST_CASE("the new vertex has the weight of its place on the edge") {
+    const TriangleMesh mesh = test::quad();
+    const Complex complex = test::complex_of(mesh);
+    const PairTable pairs(complex, {});
+    // Vertices 0 and 1 are at x = 0 and 1; the last one lies beside the edge, the others before and behind.
+    const std::pair<Vector3, double> places[] = {{{0, 0, 0}, 1},  {{1, 0, 0}, 9}, {{0.25, 0, 0}, 3},
+                                                 {{-5, 0, 0}, 1}, {{7, 0, 0}, 9}, {{0.5, 3, -2}, 5}};
+    for (const auto& [place, expected] : places) {
+        CAPTURE(place.transpose());
+        ImportanceMetric metric(MemorylessMetric(), {1, 9, 0.5, 0.5});
+        metric.initialise(complex, pairs);
+        metric.collapsing(complex, pairs, 0, 1, place);
+        CHECK(metric.weight(0, 3) == expected);
+    }
+}
+
+TEST_CASE("a cost that is no longer finite is no candidate") {
+    const TriangleMesh mesh = test::scaled(test::tetrahedron(), 1e60);
+    const Complex complex = test::complex_of(mesh);
+    const PairTable pairs(complex, {});
+    ImportanceMetric metric(MemorylessMetric(), {1e200, 1, 1, 1});
+    metric.initialise(complex, pairs);
+    CHECK(!metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_first));
+    CHECK(metric.evaluate(complex, pairs, test::pair_of(pairs, 2, 3), Freedom::at_first));
+}
+
+TEST_CASE("where the weight is ten, more faces are kept and the error is smaller") {
+    const Globe even(1), tilted(10);
+    const TriangleMesh upper = upper_half(even.mesh);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult a = even.simplified(preset), b = tilted.simplified(preset);
+        CHECK(b.report.faces_out <= b.report.target_faces);
+        CHECK(upper_share(a.mesh) == Approx(0.5).margin(0.05));
+        CHECK(upper_share(b.mesh) > 0.6);
+        const OneSided before = compare(upper.view(), a.mesh.view(), {.samples = 20000}).a_to_b;
+        const OneSided after = compare(upper.view(), b.mesh.view(), {.samples = 20000}).a_to_b;
+        CHECK(after.mean_squared < 0.8 * before.mean_squared);
+    }
+}
+
+TEST_CASE("weights that are the same everywhere change nothing") {
+    const Globe none(1);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult ones = none.simplified(preset);
+        Options options;
+        options.target = ratio(0.1);
+        options.preset = preset;
+        const SimplifyResult plain = simplify(none.mesh.view(), options);
+        CHECK(ones.mesh.positions == plain.mesh.positions);
+        CHECK(ones.mesh.triangles == plain.mesh.triangles);
+    }
+}
+
+TEST_CASE("one weight for all scales the price of handles and parts, too") {
+    // A ring whose cross-section is a triangle cannot be collapsed under the link condition; beside it are
+    // parts to delete. With a power of two all costs stay exact.
+    TriangleMesh mesh = test::shaken(test::torus(60, 3), 0.02, 1);
+    for (int i = 0; i < 6; ++i)
+        mesh =
+            test::both(mesh, test::moved(test::scaled(test::tetrahedron(), 0.1 + 0.02 * i), {3.0 + i, 0, 0}));
+    const std::vector<float> weights(mesh.positions.size(), 4);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        Options options;
+        options.target = ratio(0.1);
+        options.preset = preset;
+        const SimplifyResult plain = simplify(mesh.view(), options);
+        MeshView view = mesh.view();
+        view.vertex_weights = weights;
+        const SimplifyResult weighted = simplify(view, options);
+        CHECK(weighted.mesh.positions == plain.mesh.positions);
+        CHECK(weighted.mesh.triangles == plain.mesh.triangles);
+        CHECK(weighted.report.rungs == plain.report.rungs);
+        if (preset >= Preset::fast)
+            CHECK(plain.report.rungs[static_cast<std::size_t>(Rung::without_link)] > 0);
+    }
+}
+
+TEST_CASE("of vertices at one place the largest weight counts") {
+    // Each face has corners of its own; a quarter of those at a vertex have the weight.
+    const Globe globe(10);
+    TriangleMesh split;
+    std::vector<float> weights;
+    std::vector<bool> given(globe.mesh.positions.size(), false);
+    for (const Triangle& t : globe.mesh.triangles) {
+        Triangle own;
+        for (std::size_t k = 0; k < 3; ++k) {
+            own[k] = static_cast<Index>(split.positions.size());
+            split.positions.push_back(globe.mesh.positions[t[k]]);
+            weights.push_back(given[t[k]] ? 1 : globe.weights[t[k]]);
+            given[t[k]] = true;
+        }
+        split.triangles.push_back(own);
+    }
+    MeshView view = split.view();
+    view.vertex_weights = weights;
+    const SimplifyResult a = simplify(view, {.target = ratio(0.1)});
+    const SimplifyResult b = globe.simplified(Preset::balanced);
+    CHECK(a.report.faces_out == b.report.faces_out);
+    CHECK(upper_share(a.mesh) == Approx(upper_share(b.mesh)).margin(0.01));
+}
+
+TEST_CASE("weights have a range, and the vertex that leaves it is named") {
+    const TriangleMesh mesh = test::quad();
+    for (const float bad : {0.0f, -1.0f, 1e-7f, 2e6f, std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity()}) {
+        CAPTURE(bad);
+        const std::vector<float> weights = {1, 1e-6f, bad, 1e6f};
+        MeshView view = mesh.view();
+        view.vertex_weights = weights;
+        CHECK_THROWS_WITH(simplify(view), "vertex 2: weight is not in [1e-6, 1e6]");
+        CHECK_THROWS_AS(simplify(view), InputError);
+    }
+    const std::vector<float> few = {1, 1, 1};
+    MeshView view = mesh.view();
+    view.vertex_weights = few;
+    CHECK_THROWS_WITH(simplify(view), "vertex_weights: needs one entry per vertex or none");
+}

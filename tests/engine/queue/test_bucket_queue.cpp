@@ -1,0 +1,55 @@
+#include "faqem/engine/queue/bucket_queue.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+TEST_CASE("buckets give out nearly equal costs in the order in which they came") {
+    BucketQueue queue;
+    queue.reserve(6);
+    for (const Index pair : {4u, 1u, 5u}) queue.set(pair, 1 + pair * 1e-4);
+    queue.set(2, 1.1);
+    queue.set(0, 0.0);
+    queue.set(3, 1e300);  // beyond what a float holds
+    queue.set(1, 1.1);    // beside 2 now, later than that
+    std::vector<Index> order;
+    while (!queue.empty()) order.push_back(queue.pop());
+    CHECK(order == std::vector<Index>{0, 4, 5, 2, 1, 3});
+}
+
+TEST_CASE("buckets never give out a cost that is a sixty-fourth above another") {
+    test::Random random(6);
+    BucketQueue queue;
+    std::vector<double> cost(300, -1);
+    queue.reserve(cost.size());
+    std::size_t size = 0;
+    for (int step = 0; step < 20'000; ++step) {
+        const Index pair = random.below(cost.size());
+        const double roll = random.unit();
+        if (roll < 0.6) {
+            size += cost[pair] < 0;
+            cost[pair] = std::pow(10.0, random.between(-12, 3));
+            queue.set(pair, cost[pair]);
+        } else if (roll < 0.7) {
+            size -= cost[pair] >= 0;
+            cost[pair] = -1;
+            queue.erase(pair);
+        } else if (size > 0) {
+            const double taken = std::exchange(cost[queue.pop()], -1);
+            --size;
+            REQUIRE(taken >= 0);
+            for (const double other : cost) {
+                if (other >= 0 && other * (1 + 1.0 / 64) < taken)
+                    FAIL("a lower one is left at step " << step);
+            }
+        }
+        REQUIRE(queue.empty() == (size == 0));
+        REQUIRE(queue.contains(pair) == (cost[pair] >= 0));
+    }
+}

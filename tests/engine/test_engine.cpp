@@ -1,0 +1,229 @@
+#include "faqem/engine/engine.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "support/engine_script.hpp"
+#include "support/meshes.hpp"
+#include "support/naive.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+using namespace faqem::test;
+
+namespace {
+
+// The presets at the size the mesh has.
+struct Named {
+    CompositeWeights weights;
+    Rules rules;
+};
+
+Named qem() { return {{}, {LinkCondition::on, 0, 0}}; }
+
+Named paper() {
+    Named n;
+    n.weights.base = BaseWeight::inverse_area;
+    n.weights.boundary = 500;
+    n.weights.normal = 0.01;
+    n.weights.area = 100;
+    return n;
+}
+
+Named stmw() {
+    Named n;
+    n.weights.base = BaseWeight::area;
+    n.weights.area = 1;
+    n.weights.area_term = AreaTerm::before_placement;
+    return n;
+}
+
+}  // namespace
+
+TEST_CASE("the collapses are those of the paper's algorithm, done from its equations without any structure") {
+    const TriangleMesh meshes[] = {
+        test::shaken(test::icosphere(1), 0.1, 1),
+        test::shaken(test::grid(5), 0.2, 2),
+        test::shaken(test::cylinder(8, 4, 2), 0.1, 3),
+        test::shaken(test::torus(7, 5), 0.1, 4),
+        test::both(test::shaken(test::grid(3), 0.2, 5), test::shaken(test::book(), 0.2, 6)),
+        test::soup(7, 25, 40),
+        test::soup(8, 40, 30)};
+    for (const TriangleMesh& mesh : meshes) {
+        for (const Named& preset : {qem(), paper(), stmw()}) {
+            // At the corner of a border qem has pairs that cost nothing, and rounding would choose.
+            if (preset.rules.link == LinkCondition::on && !test::closed_manifold(mesh.triangles)) continue;
+            const std::size_t target = mesh.triangles.size() / 5;
+            const std::vector<Collapse> expected =
+                test::Naive(mesh, preset.weights, preset.rules).run(target);
+            Play<MemoryMetric> play(mesh, MemoryMetric(preset.weights));
+            play.run(target, preset.rules);
+            const CollapseHistory history = play.recorder.take();
+            // Beyond `expected` the engine climbs its ladder.
+            REQUIRE(history.collapses.size() >= expected.size());
+            REQUIRE(expected.size() > 3);
+            for (std::size_t k = 0; k < expected.size(); ++k) {
+                const Collapse &found = history.collapses[k], &wanted = expected[k];
+                INFO("collapse " << k << " of " << expected.size() << ", mesh of " << mesh.triangles.size()
+                                 << " faces, area weight " << preset.weights.area);
+                CAPTURE(found.first, found.second, wanted.first, wanted.second);
+                CAPTURE(found.position, wanted.position);
+                REQUIRE(ends(found.first, found.second) == ends(wanted.first, wanted.second));
+                const Vector3 apart = to_eigen(found.position) - to_eigen(wanted.position);
+                REQUIRE(apart.norm() <= 1e-5 * (1 + to_eigen(wanted.position).norm()));
+            }
+        }
+    }
+}
+
+TEST_CASE("on a flat hexagon qem takes the first of equal pairs, the others keep the rim") {
+    // All planes are one: in qem every cost is 0, the pair of lowest index is hub and vertex 1, and of
+    // equally good places the first end, the hub, is taken. The area term of both others is 0 only at the rim
+    // vertex.
+    const TriangleMesh hexagon = test::fan(6);
+    Play<MemoryMetric> plain(hexagon, MemoryMetric(qem().weights));
+    CHECK(plain.run(4, qem().rules).collapses == 1);
+    const CollapseHistory history = plain.recorder.take();
+    CHECK(history.collapses[0].first == 0);
+    CHECK(history.collapses[0].second == 1);
+    CHECK(history.collapses[0].position == Vec3{0, 0, 0});
+    for (const Named& preset : {paper(), stmw()}) {
+        Play<MemoryMetric> play(hexagon, MemoryMetric(preset.weights));
+        CHECK(play.run(4, preset.rules).collapses == 1);
+        const Collapse first = play.recorder.take().collapses.at(0);
+        REQUIRE(std::min(first.first, first.second) == 0);
+        const Vector3 rim = to_eigen(hexagon.positions[std::max(first.first, first.second)]);
+        CHECK((to_eigen(first.position) - rim).norm() < 1e-9);
+        double area = 0;
+        for (Index f = 0; f < play.complex.face_slots(); ++f) {
+            if (play.complex.alive(f)) area += play.complex.area_vector(f).z() / 2;
+        }
+        CHECK(area == Approx(1.5 * std::sqrt(3.0)));
+    }
+}
+
+TEST_CASE("the cheapest pair goes first, and the loop ends at the target") {
+    Script script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
+    Play<Script> play(test::grid(2), script);
+    const LoopResult& result = play.run(5, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(result.collapses == 2);
+    const CollapseHistory history = play.recorder.take();
+    CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(0, 1));
+    CHECK(play.complex.face_count() == 5);
+    CHECK(result.rungs == decltype(result.rungs){});
+}
+
+namespace {
+
+// As Script, but some pairs turn out dearer when it comes to it.
+struct Surprise : Script {
+    std::map<Ends, double> real;
+    double refine(const Complex&, const PairTable&, Index u, Index v, const Candidate& candidate) {
+        const auto at = real.find(ends(u, v));
+        return at == real.end() ? candidate.cost : at->second;
+    }
+};
+static_assert(RefiningMetric<Surprise> && !RefiningMetric<Script>);
+
+}  // namespace
+
+TEST_CASE("a pair that turns out dearer than the next one waits for its turn") {
+    Surprise script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
+    script.real = {{{0, 1}, 1.5}};  // the costs are 0, 1 and 2: it comes second now
+    Play<Surprise> play(test::grid(2), script);
+    CHECK(play.run(5, {LinkCondition::off, 0, 0}).collapses == 2);
+    const CollapseHistory history = play.recorder.take();
+    CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(3, 4));
+    CHECK(ends(history.collapses[1].first, history.collapses[1].second) == Ends(0, 1));
+}
+
+TEST_CASE("a pair that is the last one goes, however dear it is") {
+    Surprise script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}};
+    script.real = {{{0, 1}, 1e9}};
+    Play<Surprise> play(test::grid(2), script);
+    CHECK(play.run(7, {LinkCondition::off, 0, 0}).collapses == 1);
+}
+
+TEST_CASE("locked vertices hold the new point, two of them the pair") {
+    Script script;
+    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{1, 2}, {1.5, 0, 0}}};
+    Play<Script> play(test::grid(2), script);
+    play.locked = {1, 1, 0, 0, 0, 0, 0, 0, 0};
+    const LoopResult& result = play.run(1, {LinkCondition::off, 0, 0});
+    CHECK(result.collapses == 1);
+    CHECK(refused(result, Refusal::locked) > 0);
+    CHECK(play.complex.position(1) == Vector3(1, 0, 0));
+    const CollapseHistory history = play.recorder.take();
+    CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(1, 2));
+    CHECK(history.collapses[0].position == Vec3{1, 0, 0});
+}
+
+TEST_CASE("a virtual pair joins two parts into one") {
+    const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {1.5, 0, 0}));
+    const std::vector<Ends> extra = {{1, 4}};
+    Script script;
+    script.offers = {{{1, 4}, {1.25, 0, 0}}, {{2, 3}, {0.5, 1, 0}}};
+    Play<Script> play(mesh, script, extra);
+    CHECK(play.run(3, {LinkCondition::off, 0, 0}).collapses == 2);
+    CHECK(components(play.complex).size() == 1);
+}
+
+TEST_CASE("the last faces are not collapsed away") {
+    Script script;
+    for (Index u = 0; u < 4; ++u) {
+        for (Index v = u + 1; v < 4; ++v) script.offers[{u, v}] = {0.5, 0.5, 0.25};
+    }
+    Play<Script> play(test::quad(), script);
+    const LoopResult& result = play.run(0, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::no_legal_collapse);
+    CHECK(play.complex.face_count() > 0);
+    CHECK(refused(result, Refusal::last_faces) > 0);
+}
+
+TEST_CASE("the last face with an area is not collapsed away while others have none") {
+    Script script;
+    script.offers = {{{1, 2}, {4, 0, 0}}, {{3, 4}, {2, 0, 0}}};
+    // Two faces without area hang on the edge 0 1.
+    Play<Script> play(test::make({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {2, 0, 0}, {1, 0, 0}},
+                                 {{0, 1, 2}, {1, 0, 3}, {3, 0, 4}}),
+                      script);
+    const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(refused(result, Refusal::last_faces) == 1);
+    CHECK(play.complex.alive(0));
+}
+
+TEST_CASE("the end of a border waits for its distance to the next one") {
+    // A ring between a triangle of side 4 and a hole 3 4 5 of side 1; squares beside it cost 0, 1 and 2.
+    //
+    //     5 is at (0, 0.5), 3 at (-0.5, -0.5), 4 at (0.5, -0.5); the outer corner nearest to 3 is sqrt(4.5)
+    //     away.
+    const TriangleMesh ring =
+        test::make({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}},
+                   {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
+    const auto order_of_hole = [&](double distance_weight) {
+        Script script;
+        script.offers[{3, 4}] = {0.1, -0.5, 0};
+        TriangleMesh mesh = ring;
+        for (Index i = 0; i < 3; ++i) {
+            const Index first = 6 + 4 * i;
+            mesh = test::both(mesh, test::moved(test::quad(), {100, 10.0 * i, 0}));
+            script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+        }
+        Play<Script> play(mesh, script);
+        play.run(9, {LinkCondition::off, -1, 0, -1}, 0, distance_weight);
+        const CollapseHistory history = play.recorder.take();
+        std::size_t at = 0;
+        while (at < history.collapses.size() && history.collapses[at].first > 5) ++at;
+        return at;
+    };
+    // The script's costs are 0 for the hole, then 1, 2 and 3.
+    CHECK(order_of_hole(0) == 0);
+    CHECK(order_of_hole(1.5 / 4.5) == 1);
+    CHECK(order_of_hole(2.5 / 4.5) == 2);
+}

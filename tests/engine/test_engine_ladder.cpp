@@ -1,0 +1,199 @@
+// Where the queue runs dry: what the ladder lifts, and what is deleted.
+#include "faqem/engine/engine.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "support/engine_script.hpp"
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+using namespace faqem::test;
+
+TEST_CASE("the ladder allows flips to -1/2, then all of them, each step counted") {
+    Play<Script> gentle(hinge, turn_hinge(80));
+    CHECK(gentle.run(1, {LinkCondition::off, 0, 0}).rungs == decltype(LoopResult::rungs){});
+    Play<Script> half(hinge, turn_hinge(100));
+    const LoopResult& first = half.run(1, {LinkCondition::off, 0, 0});
+    CHECK(first.stop == StopReason::reached_target);
+    CHECK(taken(first, Rung::reseed) == 1);
+    CHECK(taken(first, Rung::without_link) == 0);
+    CHECK(taken(first, Rung::flip_half) == 1);
+    CHECK(taken(first, Rung::flip_any) == 0);
+    CHECK(refused(first, Refusal::flip) == 2);
+    Play<Script> any(hinge, turn_hinge(150));
+    const LoopResult& second = any.run(1, {LinkCondition::off, 0, 0});
+    CHECK(second.stop == StopReason::reached_target);
+    CHECK(taken(second, Rung::flip_half) == 1);
+    CHECK(taken(second, Rung::flip_any) == 1);
+    CHECK(refused(second, Refusal::flip) == 3);
+}
+
+TEST_CASE("the ladder lifts the link condition before it allows flips") {
+    // The diagonal of a square, joined in its middle: two more faces are there, so that something is left.
+    TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
+    Script script;
+    script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
+    Play<Script> play(mesh, script);
+    const LoopResult& result = play.run(2, {LinkCondition::on, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(taken(result, Rung::reseed) == 1);
+    CHECK(taken(result, Rung::without_link) == 1);
+    CHECK(taken(result, Rung::flip_half) == 0);
+    CHECK(refused(result, Refusal::link) == 2);
+}
+
+namespace {
+
+// What the mesh of vertices 0 to 4 offers comes after so many collapses of the squares beside it, whose costs
+// are 1, 2, 3 and 4; its own is 0.
+std::size_t squares_before(TriangleMesh mesh, Script script, std::size_t target, const Rules& rules,
+                           Rung rung, double distance_weight = 0) {
+    for (Index i = 0; i < 4; ++i) {
+        const Index first = 5 + 4 * i;
+        mesh = test::both(mesh, test::moved(test::quad(), {5.0 * (i + 1), 0, 0}));
+        script.offers[{first, first + 1}] = engine::to_eigen(mesh.positions[first]);
+    }
+    Play<Script> play(mesh, script);
+    play.run(target, rules, 0, distance_weight);
+    const CollapseHistory history = play.recorder.take();
+    const auto is_own = [](const Collapse& c) { return std::max(c.first, c.second) <= 4; };
+    const auto found = std::find_if(history.collapses.begin(), history.collapses.end(), is_own);
+    CHECK(taken(play.result, rung) == 1);
+    return static_cast<std::size_t>(found - history.collapses.begin());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "by size, the link condition holds a pair until collapses cost more than its length to the fourth") {
+    // Two tetrahedra on one triangle 0 1 2: joining two of its corners would leave double faces.
+    const auto order_of_neck = [](double length, LinkCondition link) {
+        const TriangleMesh neck =
+            test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 1}, {0.5, 0.4, -1}},
+                       {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
+        Script script;
+        script.offers[{0, 1}] = {0.5 * length, 0, 0};
+        return squares_before(test::scaled(neck, length), script, 8, {link, -1, 0}, Rung::without_link);
+    };
+    // 0.5^4 < 1 < 1.1^4 < 2 < 1.3^4 < 3
+    CHECK(order_of_neck(0.5, LinkCondition::by_size) == 0);
+    CHECK(order_of_neck(1.1, LinkCondition::by_size) == 1);
+    CHECK(order_of_neck(1.3, LinkCondition::by_size) == 2);
+    CHECK(order_of_neck(0.5, LinkCondition::on) == 4);
+}
+
+TEST_CASE("by size, a fold is put off until collapses cost more than the pair's length to the fourth") {
+    //     2
+    //    / \     Joining 3 and 4 lays the flap 0 1 3
+    //   0---1
+    //    \ / \    nearly upon the face 0 1 2.
+    //     3---4
+    const auto order_of_flap = [](double length, LinkCondition link, double distance_weight = 0) {
+        const TriangleMesh flap = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
+                                             {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});
+        Script script;
+        script.offers[{3, 4}] = {0.5 * length, length, 0.1 * length};
+        return squares_before(test::scaled(flap, length), script, 6, {link, -1, 0, -0.9}, Rung::fold,
+                              distance_weight);
+    };
+    CHECK(order_of_flap(0.5, LinkCondition::by_size) == 0);
+    CHECK(order_of_flap(1.1, LinkCondition::off) == 1);
+    CHECK(order_of_flap(1.3, LinkCondition::by_size) == 2);
+    CHECK(order_of_flap(0.5, LinkCondition::on) == 4);
+    // The weight of distances, w, makes it wait for 2 w l^2, where that is more.
+    CHECK(order_of_flap(0.5, LinkCondition::by_size, 3) == 1);
+    CHECK(order_of_flap(0.5, LinkCondition::by_size, 5) == 2);
+    CHECK(order_of_flap(1.1, LinkCondition::by_size, 0.1) == 1);
+}
+
+TEST_CASE("a strict link condition is kept on every rung") {
+    const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
+    Script script;
+    script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
+    Play<Script> play(mesh, script);
+    play.locked[0] = play.locked[7] = 1;  // so that no part is deleted
+    const LoopResult& result = play.run(2, {LinkCondition::strict, -0.5, 0});
+    CHECK(result.stop == StopReason::no_legal_collapse);
+    CHECK(taken(result, Rung::without_link) == 0);
+    CHECK(taken(result, Rung::flip_any) == 1);
+    CHECK(play.complex.face_count() == 4);
+}
+
+TEST_CASE("pairs shorter than the limit cost nothing because they are not collapsed, until flips are free") {
+    Play<Script> play(hinge, turn_hinge(10));
+    const LoopResult& result = play.run(1, {LinkCondition::off, 0, 100});
+    CHECK(taken(result, Rung::flip_any) == 1);
+    CHECK(refused(result, Refusal::zero_length) == 15);  // five pairs, looked at three times
+    CHECK(result.stop == StopReason::reached_target);
+}
+
+TEST_CASE("small parts are deleted early, larger ones last, the largest never") {
+    // Squares of sides 1, 2, 4 and 8, two faces each; no pair can be collapsed.
+    TriangleMesh mesh;
+    for (const double side : {4, 1, 8, 2})
+        mesh = test::both(mesh, test::moved(test::scaled(test::quad(), side), {20 * side, 0, 0}));
+    Play<Script> tiny(mesh, {});
+    const LoopResult& one = tiny.run(6, {LinkCondition::on, 0, 0}, 1.5);
+    CHECK(one.stop == StopReason::reached_target);
+    CHECK(taken(one, Rung::tiny_components) == 1);
+    CHECK(taken(one, Rung::any_component) == 0);
+    CHECK(one.components_deleted == 1);
+    CHECK_FALSE(tiny.complex.alive(2));
+    Play<Script> all(mesh, {});
+    const LoopResult& three = all.run(1, {LinkCondition::on, 0, 0}, 1.5);
+    CHECK(three.stop == StopReason::no_legal_collapse);
+    CHECK(taken(three, Rung::any_component) == 1);
+    CHECK(three.components_deleted == 3);
+    CHECK(all.complex.face_count() == 2);
+    CHECK(all.complex.alive(4));
+    const CollapseHistory history = all.recorder.take();
+    REQUIRE(history.deleted_faces.size() == 6);
+    CHECK(history.deleted_faces[0].face == 2);
+    CHECK(history.deleted_faces[5].face == 1);
+    Play<Script> some(mesh, {});
+    CHECK(some.run(4, {LinkCondition::on, 0, 0}).components_deleted == 2);
+    CHECK(some.complex.alive(0));
+}
+
+TEST_CASE("parts with locked vertices are not deleted, nor any part where UVs are kept") {
+    const TriangleMesh mesh = test::both(test::quad(), test::moved(test::scaled(test::quad(), 3), {5, 0, 0}));
+    Play<Script> play(mesh, {});
+    play.locked[1] = 1;
+    CHECK(play.run(2, {LinkCondition::off, 0, 0}, 2).components_deleted == 0);
+    CHECK(play.result.stop == StopReason::no_legal_collapse);
+    Play<Script> kept(mesh, {});
+    kept.wedges = Wedges(kept.complex, {std::vector<float>(12, 0.5f), 1});
+    CHECK(kept.run(2, {LinkCondition::off, 0, 0}).components_deleted == 0);
+}
+
+TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as many as needed") {
+    // A square of two triangles; the first is there three times, the second as well the other way round.
+    TriangleMesh mesh = test::quad();
+    mesh.triangles = {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {2, 0, 1}, {0, 3, 2}};
+    for (const std::size_t target : {std::size_t{1}, std::size_t{4}}) {
+        Play<Script> play(mesh, Script());
+        const LoopResult& result = play.run(target, {LinkCondition::off, 0, 0});
+        CHECK(play.complex.face_count() == std::max<std::size_t>(target, 3));
+        CHECK(taken(result, Rung::double_faces) == 1);
+        CHECK(play.complex.alive(0));  // the first of each stays
+        CHECK(play.complex.alive(2));
+        CHECK(play.complex.alive(4));
+        CHECK(play.complex.alive(3) == (target == 4));
+        play.pairs.for_each_pair(1, [&](Neighbour n) {
+            if (n.vertex == 2) CHECK(play.pairs.face_count(n.pair) == (target == 4 ? 2 : 1));
+        });
+    }
+}
+
+TEST_CASE("components without area are deleted first, however long they are") {
+    const TriangleMesh line = test::make({{0, 0, 1}, {100, 0, 1}, {50, 0, 1}}, {{0, 1, 2}});
+    Play<Script> play(test::both(line, test::quad()), Script());
+    const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});
+    CHECK(result.stop == StopReason::reached_target);
+    CHECK(result.components_deleted == 1);
+    CHECK(taken(result, Rung::tiny_components) == 1);
+    CHECK_FALSE(play.complex.alive(0));
+}

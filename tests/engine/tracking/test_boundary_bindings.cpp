@@ -1,0 +1,133 @@
+#include "faqem/engine/tracking/boundary_bindings.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "support/original.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+struct Bench {
+    explicit Bench(const TriangleMesh& mesh)
+        : original(mesh),
+          complex(original.positions, original.triangles),
+          pairs(complex, {}),
+          border(original.surface, original.lineage, complex, pairs) {}
+    double squared_distance(Index u, Index v, const Vector3& p) {
+        return border.squared_distance(complex, pairs, u, v, p);
+    }
+    void collapse(Index u, Index v, const Vector3& p) {
+        border.collapsing(pairs, u, v);
+        complex.collapse(u, v, p);
+        std::vector<Index> killed;
+        std::vector<PairTable::Change> changes;
+        pairs.merge(complex, u, v, killed, changes);
+        border.collapsed(complex, pairs, u, changes);
+    }
+
+    test::OriginalOf original;
+    Complex complex;
+    PairTable pairs;
+    BorderBindings border;
+};
+
+// The unit square with its middle.
+//
+//     3---2
+//     | 4 |
+//     0---1
+const TriangleMesh square = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+
+}  // namespace
+
+TEST_CASE("border bindings: corners that are cut off are as far away as the cut") {
+    Bench bench(square);
+    CHECK(bench.squared_distance(0, 1, {0.5, 0, 0}) == Approx(0.2));  // of 0 from the side 3 (0.5, 0)
+    CHECK(bench.squared_distance(4, 0, {0.1, 0.1, 0}) == Approx(0.02));
+    CHECK(bench.squared_distance(4, 0, {0, 0, 0}) == 0);
+}
+
+TEST_CASE("border bindings: the new vertex may be far from the original border") {
+    Bench bench(square);
+    CHECK(bench.squared_distance(0, 1, {0.5, -2, 0}) == Approx(4));
+}
+
+TEST_CASE("border bindings: an open edge from one border to another is as far away as its middle") {
+    //  5---6---7---8---9
+    //  | / | / | / | / |
+    //  0---1---2---3---4
+    TriangleMesh strip;
+    for (const double y : {0.0, 1.0}) {
+        for (const double x : {0.0, 1.0, 2.0, 3.0, 4.0}) strip.positions.push_back({x, y, 0});
+    }
+    for (Index i = 0; i < 4; ++i) {
+        strip.triangles.push_back({i, i + 1, i + 6});
+        strip.triangles.push_back({i, i + 6, i + 5});
+    }
+    Bench bench(strip);
+    // Corner 7 is sqrt(1/5) away from the edge to 8; the middles of those to 6 and 8 are 1/2 away from both
+    // sides.
+    CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
+}
+
+TEST_CASE("border bindings: what is bound goes with the border from collapse to collapse") {
+    // The rim of a disc of 16 triangles; vertices 1, 2, 3 ... go into 1 one after the other.
+    Bench bench(test::fan(16));
+    double last = 0;
+    for (Index next = 2; next < 8; ++next) {
+        const Vector3 p = bench.complex.position(1);
+        const double distance = bench.squared_distance(1, next, p);
+        // The chord from 1 to next + 1 stands for an arc of `next` sides: it is farthest from its middle.
+        const double half = test::pi * next / 16;
+        const double height = 1 - std::cos(half);
+        CHECK(distance <= height * height * 1.0001);
+        CHECK(distance >= 0.7 * height * height);
+        CHECK(distance > last);
+        last = distance;
+        bench.collapse(1, next, p);
+    }
+}
+
+TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell") {
+    // Of the square only corner 1 is looked after: nothing is bound to the edges at corner 3.
+    const test::OriginalOf original(square);
+    Complex complex(original.positions, original.triangles);
+    PairTable pairs(complex, {});
+    Lineage corner;
+    corner.add(1, 1);
+    BorderBindings border(original.surface, corner, complex, pairs);
+    CHECK(border.squared_distance(complex, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
+    // On the side 0 1, but the middle of the edge to 2 is 1/4 away from the side 1 2.
+    CHECK(border.squared_distance(complex, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
+}
+
+TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {
+    Bench inside(test::icosphere(1));
+    CHECK(inside.squared_distance(0, 12, {5, 5, 5}) == 0);
+    Bench triangle(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    CHECK(triangle.squared_distance(0, 1, {0.5, 0, 0}) == 0);
+}
+
+TEST_CASE("border bindings: a border that begins where the original had none is let be") {
+    // Each side of the triangle 0 1 2 has a flap of two faces, back to back.
+    Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                           {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}}));
+    bench.collapse(0, 3, {0, 0, 0});
+    REQUIRE(bench.pairs.boundary_degree(0) > 0);
+    CHECK(bench.squared_distance(0, 1, {7, 7, 7}) == 0);
+    bench.collapse(0, 1, {0, 0, 0});
+}
+
+TEST_CASE("border bindings: a simplified disc keeps its rim as a polygon of equal sides would") {
+    const TriangleMesh disc = test::fan(128);
+    Options options;
+    options.target = faces(16);
+    const SimplifyResult result = simplify(disc.view(), options);
+    const double side_height = 1 - std::cos(test::pi / 16);
+    CHECK(compare(disc.view(), result.mesh.view()).hausdorff <= 2 * side_height);
+}

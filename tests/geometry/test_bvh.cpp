@@ -1,0 +1,332 @@
+#include "faqem/detail/geometry/bvh.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "support/meshes.hpp"
+
+using faqem::Index;
+using faqem::no_index;
+using faqem::Triangle;
+using faqem::Vec3;
+using faqem::detail::Bvh;
+using faqem::detail::closest_point_on_triangle;
+using faqem::detail::ClosestPoint;
+using faqem::engine::Vector3;
+
+namespace {
+
+// The triangle of most tests:
+//
+//     c (0,2,0)
+//     | \       interior, edges and corners are queried from above
+//     |   \     (height 3) and from the sides.
+//     a --- b (4,0,0)
+const Vector3 a(0, 0, 0), b(4, 0, 0), c(0, 2, 0);
+
+void check_consistent(const ClosestPoint& hit, const Vector3& p, const Vector3& x, const Vector3& y,
+                      const Vector3& z) {
+    CHECK(hit.barycentric.minCoeff() >= 0);
+    CHECK(hit.barycentric.sum() == Approx(1));
+    const Vector3 mixed = hit.barycentric[0] * x + hit.barycentric[1] * y + hit.barycentric[2] * z;
+    CHECK((mixed - hit.point).norm() <= 1e-12 * (1 + mixed.norm()));
+    CHECK(hit.distance_squared == Approx((p - hit.point).squaredNorm()));
+}
+
+ClosestPoint query(const Vector3& p, const Vector3& x = a, const Vector3& y = b, const Vector3& z = c) {
+    const ClosestPoint hit = closest_point_on_triangle(p, x, y, z);
+    check_consistent(hit, p, x, y, z);
+    return hit;
+}
+
+/// Random triangles of very different size, some without area, about a grid that gives many exact ties.
+struct Soup {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+
+    explicit Soup(std::size_t faces, unsigned seed) {
+        std::mt19937 engine(seed);
+        const auto unit = [&] { return engine() / 4294967296.0; };
+        for (std::size_t f = 0; f < faces; ++f) {
+            const double size = std::pow(10.0, -3 * unit());
+            const Vec3 centre = {unit(), unit(), unit()};
+            const auto first = static_cast<Index>(positions.size());
+            for (int k = 0; k < 3; ++k) {
+                Vec3 p = centre;
+                for (double& x : p) x += size * (unit() - 0.5);
+                positions.push_back(p);
+            }
+            if (f % 10 == 3) positions.back() = positions[first];
+            if (f % 10 == 7) positions[first + 1] = positions[first + 2] = positions[first];
+            triangles.push_back({first, first + 1, first + 2});
+        }
+    }
+
+    ClosestPoint on(Index f, const Vec3& p) const {
+        const auto corner = [&](int k) {
+            return faqem::engine::to_eigen(positions[triangles[f][static_cast<std::size_t>(k)]]);
+        };
+        return closest_point_on_triangle(faqem::engine::to_eigen(p), corner(0), corner(1), corner(2));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the closest point on a triangle lies in the region of the query") {
+    CHECK(query({1, 0.5, 3}).point == Vector3(1, 0.5, 0));
+    CHECK(query({1, 0.5, 3}).distance_squared == 9);
+    CHECK(query({-1, -2, 0}).point == a);
+    CHECK(query({6, -1, 2}).point == b);
+    CHECK(query({-1, 5, 0}).point == c);
+    CHECK(query({2, -3, 1}).point.isApprox(Vector3(2, 0, 0)));
+    CHECK(query({-3, 1, 1}).point.isApprox(Vector3(0, 1, 0)));
+    // Beyond bc, whose normal is (1, 2): from its middle (2, 1).
+    CHECK(query({2 + 1, 1 + 2, 0}).point.isApprox(Vector3(2, 1, 0)));
+}
+
+TEST_CASE("a corner that is hit is returned to the last bit") {
+    const Vector3 x(0.1, 0.2, 0.3), y(1.7, 0.2, 0.9), z(0.3, 2.1, 1e-3);
+    for (const Vector3& corner : {x, y, z}) {
+        const Vector3 centre = (x + y + z) / 3;
+        const ClosestPoint hit = query(corner + 5 * (corner - centre), x, y, z);
+        CHECK(hit.point == corner);
+        CHECK(hit.barycentric.maxCoeff() == 1);
+    }
+}
+
+TEST_CASE("triangles without area are segments or points") {
+    CHECK(query({1, 2, 0}, a, b, b).point.isApprox(Vector3(1, 0, 0)));
+    CHECK(query({1, 2, 0}, b, a, Vector3(2, 0, 0)).point.isApprox(Vector3(1, 0, 0)));
+    CHECK(query({1, 2, 0}, a, a, a).point == a);
+    CHECK(query({1, 2, 2}, a, a, a).distance_squared == 9);
+    CHECK(query({5, 1, 0}, a, Vector3(1, 0, 0), b).point == b);
+}
+
+TEST_CASE("a needle's closest point is not lost in rounding") {
+    // Height 1e-12 over a base of 1: the area formula alone is noise here.
+    const Vector3 x(1, 1, 1), y(2, 1, 1), z(1.5, 1 + 1e-12, 1);
+    for (int i = 1; i < 50; ++i) {
+        const double s = i / 50.0;
+        const ClosestPoint hit = query({1 + s, 3, 1.5}, x, y, z);
+        CHECK(hit.point.x() == Approx(1 + s).margin(1e-9));
+        CHECK(hit.distance_squared == Approx(4.25).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("the tree finds what a search over all faces finds") {
+    for (const std::size_t faces : {1u, 2u, 5u, 17u, 1000u}) {
+        const Soup soup(faces, 7);
+        const Bvh tree(soup.positions, soup.triangles);
+        std::mt19937 engine(11);
+        for (int i = 0; i < 300; ++i) {
+            const double scale = i % 3 == 0 ? 10 : 1;
+            const Vec3 p = {scale * engine() / 4294967296.0, scale * engine() / 4294967296.0,
+                            scale * engine() / 4294967296.0};
+            double best = std::numeric_limits<double>::infinity();
+            for (Index f = 0; f < faces; ++f) best = std::min(best, soup.on(f, p).distance_squared);
+            const Bvh::Hit hit = tree.closest(p);
+            REQUIRE(hit.face < faces);
+            CHECK(hit.distance_squared == best);
+            CHECK(soup.on(hit.face, p).distance_squared == best);
+            CHECK(hit.point == faqem::engine::to_array(soup.on(hit.face, p).point));
+        }
+    }
+}
+
+TEST_CASE("of faces at the same distance the tree takes the first") {
+    const Index n = 12;
+    faqem::TriangleMesh mesh = faqem::test::grid(n);
+    // A second sheet over the first: every face is there twice.
+    const std::vector<Triangle> sheet = mesh.triangles;
+    mesh.triangles.insert(mesh.triangles.end(), sheet.begin(), sheet.end());
+    const Bvh tree(mesh.positions, mesh.triangles);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        Index first = 0;
+        const auto has = [&](Index f) {
+            const Triangle& t = mesh.triangles[f];
+            return t[0] == v || t[1] == v || t[2] == v;
+        };
+        while (!has(first)) ++first;
+        Vec3 above = mesh.positions[v];
+        above[2] = 5;
+        CHECK(tree.closest(above).face == first);
+    }
+}
+
+TEST_CASE("a filter hides faces from the tree") {
+    const Soup soup(400, 3);
+    const Bvh tree(soup.positions, soup.triangles);
+    const Vec3 p = {0.5, 0.4, 0.6};
+    for (Index modulus = 2; modulus < 9; ++modulus) {
+        const auto allowed = [&](Index f) { return f % modulus == 1; };
+        double best = std::numeric_limits<double>::infinity();
+        for (Index f = 0; f < 400; ++f) {
+            if (allowed(f)) best = std::min(best, soup.on(f, p).distance_squared);
+        }
+        const Bvh::Hit hit = tree.closest_if(p, allowed);
+        CHECK(allowed(hit.face));
+        CHECK(hit.distance_squared == best);
+    }
+    CHECK(tree.closest_if(p, [](Index) { return false; }).face == no_index);
+}
+
+TEST_CASE("a search that is refused too often ends with the best so far") {
+    const Soup soup(400, 3);
+    const Bvh tree(soup.positions, soup.triangles);
+    const Vec3 p = {0.5, 0.4, 0.6};
+    constexpr double anywhere = std::numeric_limits<double>::infinity();
+    for (std::size_t most = 0; most < 40; ++most) {
+        std::size_t asked = 0;
+        const auto never = [&](Index) { return ++asked, false; };
+        CHECK(tree.closest_if(p, never, anywhere, most).face == no_index);
+        CHECK(asked == most);
+    }
+    const Index nearest = tree.closest(p).face;
+    const auto all_but_nearest = [&](Index f) { return f != nearest; };
+    CHECK(tree.closest_if(p, all_but_nearest, anywhere, 2).distance_squared ==
+          tree.closest_if(p, all_but_nearest).distance_squared);
+}
+
+TEST_CASE("the largest distance asked for is inclusive") {
+    const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
+    const std::vector<Triangle> triangles = {{0, 1, 2}};
+    const Bvh tree(positions, triangles);
+    CHECK(tree.closest({1, 0.5, 3}, 9).face == 0);
+    CHECK(tree.closest({1, 0.5, 3}, 8.999).face == no_index);
+}
+
+TEST_CASE("all faces within a distance are visited, once") {
+    const Soup soup(500, 5);
+    const Bvh tree(soup.positions, soup.triangles);
+    const Vec3 p = {0.5, 0.5, 0.5};
+    std::vector<int> visits(500, 0);
+    tree.visit_within(p, 0.04, [&](Index f, const ClosestPoint& hit) {
+        ++visits[f];
+        CHECK(hit.distance_squared == soup.on(f, p).distance_squared);
+    });
+    for (Index f = 0; f < 500; ++f) CHECK(visits[f] == (soup.on(f, p).distance_squared <= 0.04 ? 1 : 0));
+}
+
+TEST_CASE("a ray meets what is before it, and tells the side it comes from") {
+    const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
+    const std::vector<Triangle> triangles = {{0, 1, 2}};
+    const Bvh tree(positions, triangles);
+    std::vector<Bvh::Side> sides;
+    const auto seen = [&](Index f, Bvh::Side side) {
+        CHECK(f == 0);
+        sides.push_back(side);
+        return true;
+    };
+    CHECK(tree.meets({1, 0.5, 3}, {0, 0, -1}, seen));
+    CHECK(tree.meets({1, 0.5, -3}, {0, 0, 1}, seen));
+    CHECK(sides == std::vector{Bvh::Side::front, Bvh::Side::back});
+    CHECK(tree.meets({0, 0, 1}, {0, 0, -1}, seen));              // a corner
+    CHECK(tree.meets({2, 0, 1}, {0, 0, -1}, seen));              // an edge
+    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, 1}, seen));       // behind it
+    CHECK_FALSE(tree.meets({3, 1.5, 3}, {0, 0, -1}, seen));      // beside it
+    CHECK_FALSE(tree.meets({-1, 0.5, 0}, {1, 0, 0}, seen));      // in its plane
+    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, -1}, [](Index, Bvh::Side) { return false; }));
+    CHECK_FALSE(Bvh().meets({0, 0, 0}, {0, 0, 1}, seen));
+}
+
+TEST_CASE("a ray meets what a search over all faces meets") {
+    for (const std::size_t faces : {1u, 5u, 17u, 1000u}) {
+        const Soup soup(faces, 7);
+        const Bvh tree(soup.positions, soup.triangles);
+        std::mt19937 engine(11);
+        const auto unit = [&] { return engine() / 4294967296.0; };
+        std::size_t met = 0;
+        for (int i = 0; i < 300; ++i) {
+            const Vector3 origin(unit(), unit(), unit());
+            Vector3 direction = Vector3(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalized();
+            if (i % 3 == 0) direction = i % 2 ? Vector3(0, 0, -1) : Vector3(0, 1, 0);
+            std::vector<int> expected(faces, 0), found(faces, 0);
+            for (Index f = 0; f < faces; ++f) {
+                // The point on the plane has barycentric coordinates of one sign.
+                const auto corner = [&](std::size_t k) {
+                    return faqem::engine::to_eigen(soup.positions[soup.triangles[f][k]]);
+                };
+                const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+                const double slope = normal.dot(direction), t = normal.dot(corner(0) - origin) / slope;
+                if (!(std::abs(slope) > 0 && t > 0)) continue;
+                const Vector3 p = origin + t * direction;
+                bool inside = true;
+                for (std::size_t k = 0; k < 3; ++k)
+                    inside = inside && (corner((k + 1) % 3) - corner(k)).cross(p - corner(k)).dot(normal) >= 0;
+                if (inside) expected[f] = slope < 0 ? 1 : 2;
+            }
+            const bool any = tree.meets(faqem::engine::to_array(origin), faqem::engine::to_array(direction),
+                                        [&](Index f, Bvh::Side side) {
+                                            found[f] = side == Bvh::Side::front ? 1 : 2;
+                                            return false;
+                                        });
+            CHECK_FALSE(any);
+            CHECK(found == expected);
+            met += static_cast<std::size_t>(std::count(found.begin(), found.end(), 0)) < faces;
+        }
+        CHECK((faces < 1000 || met > 150));
+    }
+}
+
+TEST_CASE("trees over nothing and over dropped faces answer that there is nothing") {
+    CHECK(Bvh(std::span<const Vec3>(), {}).closest({0, 0, 0}).face == no_index);
+    const std::vector<Triangle> dropped = {{no_index, no_index, no_index}};
+    CHECK(Bvh(std::span<const Vec3>(), dropped).empty());
+}
+
+TEST_CASE("coincident and exponentially spaced faces give a tree of bounded depth") {
+    Soup soup(0, 0);
+    const std::vector<Vec3> corner = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3000; ++i) {
+        // 2^-i down to the smallest denormal, and from there on a thousand coincident faces.
+        const double scale = std::ldexp(1.0, -std::min(i, 1074));
+        const auto first = static_cast<Index>(soup.positions.size());
+        for (const Vec3& p : corner) soup.positions.push_back({scale * p[0], scale * p[1], scale * p[2]});
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    const Bvh tree(soup.positions, soup.triangles);
+    const Bvh::Hit hit = tree.closest({1, 1, 1});
+    CHECK(hit.face == 0);
+    CHECK(hit.distance_squared == Approx(4.0 / 3));
+    CHECK(tree.closest({-1, -1, -1}).face < 3000);
+}
+
+TEST_CASE("a tree over nearly the whole range of doubles finds the face that a point is on") {
+    const double far = 1.7e308, side = 1e300;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const double x : {-far, -far / 2, 0.0, far / 2, far}) {
+        const auto first = static_cast<Index>(positions.size());
+        positions.insert(positions.end(), {{x, 0, 0}, {x, side, 0}, {x, 0, side}});
+        triangles.push_back({first, first + 1, first + 2});
+    }
+    const Bvh tree(positions, triangles);
+    for (Index f = 0; f < triangles.size(); ++f) {
+        const auto hit = tree.closest(positions[triangles[f][0]]);
+        CHECK(hit.face == f);
+        CHECK(hit.distance_squared == 0);
+    }
+}
+
+TEST_CASE("a tree whose triangles have moved answers as a new one would") {
+    Soup soup(500, 5);
+    std::vector<Vector3> positions;
+    for (const Vec3& p : soup.positions) positions.push_back(faqem::engine::to_eigen(p));
+    Bvh tree(positions, soup.triangles);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        positions[v] = 2 * Vector3(positions[v].y(), positions[v].z(), positions[v].x());
+        soup.positions[v] = faqem::engine::to_array(positions[v]);
+    }
+    tree.refit(positions, soup.triangles);
+    const Bvh anew(positions, soup.triangles);
+    for (std::size_t v = 0; v < positions.size(); v += 7) {
+        const Vec3 p = faqem::engine::to_array(0.9 * positions[v] + Vector3(0.1, 0, 0));
+        CHECK(tree.closest(p).distance_squared == Approx(anew.closest(p).distance_squared).margin(1e-30));
+        const auto near = static_cast<Index>(soup.triangles.size() - 1 - v / 3);
+        const auto [a0, b0, c0] = soup.triangles[near];
+        CHECK(tree.closest_from(p, near, positions[a0], positions[b0], positions[c0]).distance_squared ==
+              tree.closest(p).distance_squared);
+    }
+}

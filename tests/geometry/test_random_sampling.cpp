@@ -1,0 +1,55 @@
+#include "faqem/detail/geometry/random_sampling.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using detail::Surface;
+using detail::SurfaceSample;
+
+namespace {
+
+constexpr std::uint64_t n = 2000;
+
+}  // namespace
+
+TEST_CASE("samples lie where their barycentrics say") {
+    const TriangleMesh mesh = test::icosphere(1);
+    const Surface surface = detail::make_surface(mesh.view(), "mesh");
+    for (std::uint64_t i = 0; i < n; ++i) {
+        const SurfaceSample s = detail::sample(surface, i, n, 1);
+        REQUIRE(s.face < surface.triangles.size());
+        engine::Vector3 p = engine::Vector3::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(s.barycentric[k] >= 0);
+            p += s.barycentric[k] * surface.corner(s.face, k);
+        }
+        CHECK(s.barycentric[0] + s.barycentric[1] + s.barycentric[2] == Approx(1));
+        CHECK((p - engine::to_eigen(s.point)).norm() < 1e-15);
+    }
+}
+
+TEST_CASE("each slice of the area has one sample, so that faces are hit in proportion to it") {
+    // Two triangles, the second of three times the area.
+    const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 1}, {0, 0, 1}, {0, 1, 1}},
+                                         {{0, 1, 2}, {4, 3, 5}});
+    const Surface surface = detail::make_surface(mesh.view(), "mesh");
+    std::uint64_t first = 0;
+    for (std::uint64_t i = 0; i < n; ++i) first += detail::sample(surface, i, n, 3).face == 0;
+    CHECK(first == n / 4);
+}
+
+TEST_CASE("samples depend on their number and the seed alone") {
+    const TriangleMesh mesh = test::cube();
+    const Surface surface = detail::make_surface(mesh.view(), "mesh");
+    std::set<Vec3> places;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        const Vec3 p = detail::sample(surface, i, 100, 1).point;
+        CHECK(p == detail::sample(surface, i, 100, 1).point);
+        CHECK(p != detail::sample(surface, i, 100, 2).point);
+        places.insert(p);
+    }
+    CHECK(places.size() == 100);
+}

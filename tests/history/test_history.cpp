@@ -1,0 +1,324 @@
+#include "faqem/history.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include "support/meshes.hpp"
+#include "faqem/error.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+
+namespace {
+
+// The unit square, corner 1 joined to corner 0 at (1/2, 0, 0): face 1 is left.
+CollapseHistory small() {
+    CollapseHistory h;
+    h.positions = test::quad().positions;
+    h.triangles = test::quad().triangles;
+    h.face_groups = {3, 4};
+    h.collapses = {{0, 1, {0.5, 0, 0}}};
+    h.patch_begin = {0, 2};
+    h.patch_faces = {0, 1};
+    h.kept_versions = {4, 2, 3};
+    h.kept_faces = {1};
+    return h;
+}
+
+// One of everything, a deleted part included.
+CollapseHistory with_deleted_part() {
+    CollapseHistory h = small();
+    h.positions.insert(h.positions.end(), {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}});
+    h.triangles.push_back({4, 5, 6});
+    h.face_groups.push_back(9);
+    h.kept_versions[0] = 7;
+    h.deleted_faces = {{1, 2}};
+    return h;
+}
+
+// The unit square with its diagonal swapped.
+CollapseHistory swapped() {
+    CollapseHistory h;
+    h.positions = test::quad().positions;
+    h.triangles = test::quad().triangles;
+    h.patch_begin = {0, 2};
+    h.patch_faces = {0, 1};
+    h.kept_versions = {0, 1, 2, 3};
+    h.kept_faces = {0, 1};
+    return h;
+}
+
+std::string bytes(const CollapseHistory& history) {
+    std::ostringstream out;
+    write(history, out);
+    return out.str();
+}
+
+CollapseHistory read(const std::string& text) {
+    std::istringstream in(text);
+    return read_history(in);
+}
+
+std::string complaint(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+// What validate() says of the small history changed by `change`; read_history() must say the same.
+std::string changed(const std::function<void(CollapseHistory&)>& change) {
+    CollapseHistory h = with_deleted_part();
+    change(h);
+    const std::string said = complaint([&] { validate(h); });
+    CHECK(complaint([&] { read(bytes(h)); }) == said);
+    return said;
+}
+
+bool same(const TriangleMesh& a, const TriangleMesh& b) {
+    return a.positions == b.positions && a.triangles == b.triangles && a.face_groups == b.face_groups;
+}
+
+}  // namespace
+
+TEST_CASE("a history says where its versions are and which faces a collapse touched") {
+    const CollapseHistory h = small();
+    CHECK(h.position(2) == Vec3{1, 1, 0});
+    CHECK(h.position(4) == Vec3{0.5, 0, 0});
+    CHECK(h.patch(0).size() == 2);
+    CHECK_FALSE(h.empty());
+    CHECK(CollapseHistory().empty());
+}
+
+TEST_CASE("replay makes the small mesh") {
+    const TriangleMesh mesh = replay(small());
+    CHECK(mesh.positions == std::vector<Vec3>{{0.5, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+    CHECK(mesh.face_groups == std::vector<Index>{4});
+}
+
+TEST_CASE("what was written is read again, byte for byte") {
+    for (const CollapseHistory& h : {small(), with_deleted_part(), CollapseHistory()}) {
+        const std::string text = bytes(h);
+        const CollapseHistory again = read(text);
+        CHECK(bytes(again) == text);
+        CHECK(again.positions == h.positions);
+        CHECK(again.triangles == h.triangles);
+        CHECK(again.kept_versions == h.kept_versions);
+        CHECK(again.collapses.size() == h.collapses.size());
+        CHECK(again.deleted_faces.size() == h.deleted_faces.size());
+    }
+}
+
+TEST_CASE("a history cut off anywhere is refused, with the section") {
+    const std::string text = bytes(with_deleted_part());
+    for (std::size_t size = 0; size < text.size(); ++size) {
+        const std::string said = complaint([&] { read(text.substr(0, size)); });
+        if (said.find("history: ") != 0 || said.find("ends too early") == std::string::npos)
+            FAIL("cut at " << size << ": " << said);
+    }
+    CHECK(complaint([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
+    CHECK(complaint([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
+    CHECK(complaint([&] { read(text.substr(0, text.size() - 1)); }) == "history: kept_faces: ends too early");
+}
+
+TEST_CASE("a file of another kind is refused") {
+    CHECK(complaint([] { read("glTF............"); }) ==
+          "history: header: not a collapse history of this version");
+}
+
+TEST_CASE("a count that lies costs no memory") {
+    // Each count in turn becomes 2^60 and 2^64 - 1: memory for that would throw bad_alloc or length_error.
+    const std::string text = bytes(with_deleted_part());
+    const std::uint64_t elements[] = {24, 12, 4, 4, 4, 24, 8, 4, 24, 8, 4, 4, 4};
+    std::size_t at = 8;
+    for (const std::uint64_t size : elements) {
+        std::uint64_t count = 0;
+        std::memcpy(&count, &text[at], sizeof count);
+        for (const std::uint64_t lie : {std::uint64_t{1} << 60, ~std::uint64_t{0}, count + 1}) {
+            std::string forged = text;
+            std::memcpy(&forged[at], &lie, sizeof lie);
+            CHECK(complaint([&] { read(forged); }) != "accepted");
+        }
+        at += 8 + count * size;
+    }
+    CHECK(at == text.size());
+}
+
+TEST_CASE("where the kept vertices went is written and read, or refused where the number is wrong") {
+    CollapseHistory history = with_deleted_part();
+    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
+        history.kept_positions.push_back({1.0 + i, 2, 3});
+    }
+    std::istringstream in(bytes(history));
+    const CollapseHistory again = read_history(in);
+    CHECK(again.kept_positions == history.kept_positions);
+    CHECK(replay(again).positions == history.kept_positions);
+    history.kept_positions.pop_back();
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: kept_positions: needs one entry per kept version or none");
+}
+
+TEST_CASE("a swap is written, read and replayed") {
+    CollapseHistory history = swapped();
+    const TriangleMesh mesh = replay(read(bytes(history)));
+    //  3---2        3---2
+    //  | / |   ->   | \ |
+    //  0---1        0---1
+    CHECK(mesh.triangles == std::vector<Triangle>{{2, 3, 1}, {0, 1, 3}});
+    history.patch_faces.insert(history.patch_faces.end(), {1, 0});
+    history.patch_begin.push_back(4);
+    validate(history);
+    CHECK(replay(history).triangles == std::vector<Triangle>{{3, 0, 2}, {1, 2, 0}});
+}
+
+TEST_CASE("a swap needs two faces with one edge in common") {
+    CollapseHistory history = swapped();
+    history.patch_faces = {0, 0};
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: patch_begin[0]: a swap of faces that share no edge");
+    history.patch_faces = {0};
+    history.patch_begin = {0, 1};
+    CHECK(complaint([&] { validate(history); }) == "history: patch_begin[0]: a swap has two faces");
+    history = small();  // face 0 is not kept
+    history.patch_faces.insert(history.patch_faces.end(), {0, 1});
+    history.patch_begin.push_back(4);
+    CHECK(complaint([&] { validate(history); }) ==
+          "history: patch_begin[1]: a swap of faces that share no edge");
+}
+
+TEST_CASE("columns of different length are refused, empty ones too") {
+    const std::string text = bytes(with_deleted_part());
+    // From the end: kept_faces 1, kept_versions 3, deleted faces 1, their times 1.
+    const std::size_t times = text.size() - (8 + 4) - (8 + 12) - (8 + 4) - (8 + 8);
+    std::string forged = text;
+    forged.erase(times + 8, 8);
+    forged[times] = 0;
+    CHECK(complaint([&] { read(forged); }) == "history: deleted_faces: columns of different length");
+    forged = text;
+    forged.erase(times + 24, 4);
+    forged[times + 16] = 0;
+    CHECK(complaint([&] { read(forged); }) == "history: deleted_faces: columns of different length");
+}
+
+TEST_CASE("lying indices are refused, and the first of them named") {
+    using H = CollapseHistory;
+    CHECK(changed([](H&) {}) == "accepted");
+    CHECK(changed([](H& h) { h.triangles[1][2] = 7; }) == "history: triangles[1]: vertex index out of range");
+    CHECK(changed([](H& h) { h.triangles[1][2] = no_index; }) ==
+          "history: triangles[1]: vertex index out of range");
+    CHECK(changed([](H& h) { h.face_groups.pop_back(); }) ==
+          "history: face_groups: needs one entry per face or none");
+    CHECK(changed([](H& h) { h.collapses[0].second = 7; }) == "history: collapses[0]: version not made yet");
+    CHECK(changed([](H& h) { h.collapses[0].first = no_index; }) ==
+          "history: collapses[0]: version not made yet");
+    CHECK(changed([](H& h) { h.collapses[0].second = 0; }) ==
+          "history: collapses[0]: version collapsed twice");
+    CHECK(changed([](H& h) {
+              h.collapses.push_back({1, 2, {}});
+              h.patch_begin.push_back(2);
+          }) == "history: collapses[1]: version collapsed twice");
+    for (const std::vector<std::uint64_t>& bad :
+         {std::vector<std::uint64_t>{}, {0}, {0, 1}, {1, 2}, {0, 3}, {0, 2, 1}, {0, ~0ull}}) {
+        CHECK(changed([&](H& h) { h.patch_begin = bad; }) ==
+              "history: patch_begin: must rise from 0 to the number of patch faces");
+    }
+    CHECK(changed([](H& h) {
+              h.collapses.push_back({2, 3, {}});
+              h.patch_begin = {0, 3, 2};
+          }) == "history: patch_begin: must rise from 0 to the number of patch faces");
+    CHECK(changed([](H& h) { h.patch_faces[1] = 3; }) == "history: patch_faces[1]: no such face");
+    CHECK(changed([](H& h) { h.deleted_faces[0].face = 3; }) == "history: deleted_faces[0]: out of range");
+    CHECK(changed([](H& h) { h.deleted_faces[0].time = 2; }) == "history: deleted_faces[0]: out of range");
+    CHECK(changed([](H& h) { h.kept_versions[1] = 8; }) == "history: kept_versions[1]: not a living version");
+    CHECK(changed([](H& h) { h.kept_versions[1] = 0; }) == "history: kept_versions[1]: not a living version");
+    CHECK(changed([](H& h) { h.kept_faces[0] = 3; }) == "history: kept_faces[0]: no such face");
+    CHECK(changed([](H& h) { h.kept_faces[0] = 2; }) ==
+          "history: kept_faces[0]: has a vertex that was not kept");
+    CHECK(changed([](H& h) { h.triangles[0].fill(no_index); }) == "history: patch_faces[0]: no such face");
+}
+
+TEST_CASE("positions that are not finite are refused, wherever they are") {
+    using H = CollapseHistory;
+    const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+    CHECK(changed([&](H& h) { h.positions[1][2] = infinite; }) ==
+          "history: positions[1]: a position that is not finite");
+    CHECK(changed([&](H& h) { h.collapses[0].position[0] = nan; }) ==
+          "history: collapses[0]: a position that is not finite");
+    CHECK(changed([&](H& h) {
+              h.kept_positions.assign(h.kept_versions.size(), {0, -infinite, 0});
+          }) == "history: kept_positions[0]: a position that is not finite");
+}
+
+TEST_CASE("a history without faces may not refer to any") {
+    using H = CollapseHistory;
+    const auto empty_but = [](const std::function<void(H&)>& change) {
+        H h;
+        change(h);
+        return complaint([&] { validate(h); });
+    };
+    CHECK(empty_but([](H&) {}) == "accepted");
+    CHECK(empty_but([](H& h) { h.kept_versions = {5}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.kept_faces = {0}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.collapses = {{0, 1, {}}}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.patch_faces = {0}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.deleted_faces = {{0, 0}}; }) != "accepted");
+}
+
+TEST_CASE("random damage to any byte is refused or harmless") {
+    const auto result = simplify(test::shaken(test::icosphere(1), 0.05, 1).view(),
+                                 {.target = ratio(0.4), .preset = Preset::qem, .history = Recording::on});
+    const std::string text = bytes(result.history);
+    test::Random random(9);
+    std::size_t refused = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::string damaged = text;
+        for (int i = 0; i < 1 + round % 3; ++i)
+            damaged[8 + random.below(text.size() - 8)] = static_cast<char>(random.below(256));
+        try {
+            const TriangleMesh mesh = replay(read(damaged));
+            for (const Triangle& t : mesh.triangles) {
+                for (const Index v : t) REQUIRE(v < mesh.positions.size());
+            }
+        } catch (const InputError&) {
+            ++refused;
+        }
+    }
+    CHECK(refused > 100);
+}
+
+TEST_CASE("the history of a run replays to its result and survives a file") {
+    const TriangleMesh sphere = test::shaken(test::icosphere(2), 0.03, 1);
+    TriangleMesh parts = test::both(test::grid(5), test::moved(test::cylinder(9, 3, 2), {7, 0, 0}));
+    parts = test::both(parts, test::moved(test::scaled(test::tetrahedron(), 1e-3), {0, 0, 3}));
+    for (Index f = 0; f < parts.triangles.size(); ++f) parts.face_groups.push_back(f % 2);
+    for (const TriangleMesh& mesh : {sphere, parts, test::soup(4, 30, 100)}) {
+        for (const Preset preset : all_presets) {
+            for (const double share : {1.0, 0.5, 0.05}) {
+                INFO(int(preset) << " " << share);
+                Options options;
+                options.preset = preset;
+                options.target = ratio(share);
+                options.history = Recording::on;
+                const SimplifyResult result = simplify(mesh.view(), options);
+                validate(result.history);
+                CHECK(same(replay(result.history), result.mesh));
+                CHECK(same(replay(read(bytes(result.history))), result.mesh));
+                CHECK(result.history.collapses.size() == result.report.collapses);
+                CHECK(result.history.kept_faces == result.face_origin);
+            }
+        }
+    }
+}
+
+TEST_CASE("a stream that fails is a WriteError") {
+    std::ostringstream out;
+    out.setstate(std::ios::badbit);
+    CHECK_THROWS_AS(write(small(), out), WriteError);
+}

@@ -1,0 +1,193 @@
+#include "faqem/cut.hpp"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+
+#include "support/meshes.hpp"
+#include "faqem/error.hpp"
+#include "faqem/levels.hpp"
+
+using namespace faqem;
+
+namespace {
+
+TriangleMesh lump() { return test::shaken(test::icosphere(3), 0.01, 3); }
+
+const std::vector<Level> wanted = {ratio(0.5), faces(300), faces(40)};
+
+std::vector<SimplifiedLevel> levels_of(const TriangleMesh& mesh, Preset preset) {
+    Options options;
+    options.preset = preset;
+    options.history = Recording::on;
+    return simplify_levels(mesh.view(), wanted, options);
+}
+
+ChainHistory chain_of(const std::vector<SimplifiedLevel>& levels) {
+    std::vector<CollapseHistory> histories;
+    for (const SimplifiedLevel& level : levels) histories.push_back(level.result.history);
+    return join(histories);
+}
+
+std::string bytes(const CollapseHistory& history) {
+    std::ostringstream out;
+    write(history, out);
+    return out.str();
+}
+
+std::string bytes(const ChainHistory& history) {
+    std::ostringstream out;
+    write(history, out);
+    return out.str();
+}
+
+ChainHistory read(const std::string& text) {
+    std::istringstream in(text);
+    return read_chain_history(in);
+}
+
+void check_same(const SimplifyResult& a, const SimplifyResult& b) {
+    CHECK(a.mesh.positions == b.mesh.positions);
+    CHECK(a.mesh.triangles == b.mesh.triangles);
+    CHECK(a.mesh.face_groups == b.mesh.face_groups);
+    CHECK(a.face_origin == b.face_origin);
+    CHECK(a.report.faces_out == b.report.faces_out);
+    CHECK(a.report.vertices_out == b.report.vertices_out);
+    CHECK(a.report.collapses == b.report.collapses);
+    CHECK(bytes(a.history) == bytes(b.history));
+}
+
+std::string complaint(const std::string& text) {
+    try {
+        read(text);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a stored chain gives every level as its run did") {
+    const TriangleMesh mesh = lump();
+    for (const Preset preset : all_presets) {
+        const auto levels = levels_of(mesh, preset);
+        const ChainHistory chain = read(bytes(chain_of(levels)));
+        REQUIRE(chain.level_count() == 3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SimplifyResult& level = levels[i].result;
+            check_same(restore(cut_at_level(chain, i)), level);
+            check_same(restore(cut_to(chain, level.report.faces_out)), level);
+            check_same(restore(cut_to(chain, level.report.target_faces)), level);
+        }
+    }
+}
+
+TEST_CASE("a cut where the order does not depend on the target is a run of its own") {
+    TriangleMesh mesh = test::both(lump(), test::moved(test::grid(12), {5, 0, 0}));
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) mesh.face_groups.push_back(f % 7 == 0);
+    for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
+        const ChainHistory chain = chain_of(levels_of(mesh, preset));
+        for (const std::uint64_t faces : {1500, 1000, 641, 300, 77, 40}) {
+            Options options;
+            options.preset = preset;
+            options.history = Recording::on;
+            options.target = faqem::faces(static_cast<double>(faces));
+            check_same(restore(cut_to(chain, faces)), simplify(mesh.view(), options));
+        }
+    }
+}
+
+TEST_CASE("between levels a cut has no more faces than asked for and is valid") {
+    const ChainHistory chain = chain_of(levels_of(lump(), Preset::best));
+    for (const std::uint64_t faces : {1279, 900, 303, 123}) {
+        const CollapseHistory cut = cut_to(chain, faces);
+        validate(cut);
+        CHECK(cut.kept_faces.size() <= faces);
+        CHECK(cut.kept_faces.size() + 2 > faces);
+        CHECK(cut.kept_positions.empty());
+    }
+}
+
+TEST_CASE("a cut above the original is the original, and one below the last level that level") {
+    const TriangleMesh mesh = lump();
+    const ChainHistory chain = chain_of(levels_of(mesh, Preset::balanced));
+    const TriangleMesh all = restore(cut_to(chain, 1'000'000)).mesh;
+    CHECK(all.positions == mesh.positions);
+    CHECK(all.triangles == mesh.triangles);
+    CHECK(bytes(cut_to(chain, 4)) == bytes(chain.last));
+}
+
+TEST_CASE("faces that were deleted are gone in a cut") {
+    const TriangleMesh mesh =
+        test::both(lump(), test::moved(test::scaled(test::tetrahedron(), 0.1), {3, 0, 0}));
+    Options options;
+    options.history = Recording::on;
+    options.topology.prune = model_units(1);
+    const auto levels = simplify_levels(mesh.view(), wanted, options);
+    const ChainHistory chain = read(bytes(chain_of(levels)));
+    CHECK(chain.last.deleted_faces.size() == 4);
+    for (const SimplifiedLevel& level : levels)
+        check_same(restore(cut_to(chain, level.result.report.faces_out)), level.result);
+    CHECK(cut_to(chain, 1'000'000).kept_faces.size() == 1280);
+}
+
+TEST_CASE("parts are cut together to a level, and between levels in proportion") {
+    const TriangleMesh large = lump(), small = test::icosphere(2);
+    const auto a = levels_of(large, Preset::balanced);
+    Options options;
+    options.history = Recording::on;
+    const auto b = simplify_levels(small.view(), {ratio(0.5), ratio(0.25), ratio(0.1)}, options);
+    const std::vector<ChainHistory> parts = {chain_of(a), chain_of(b)};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto cuts = cut_to(parts, a[i].result.report.faces_out + b[i].result.report.faces_out);
+        CHECK(bytes(cuts[0]) == bytes(a[i].result.history));
+        CHECK(bytes(cuts[1]) == bytes(b[i].result.history));
+    }
+    const auto between = cut_to(parts, 600);
+    const std::size_t faces[] = {between[0].kept_faces.size(), between[1].kept_faces.size()};
+    CHECK(faces[0] + faces[1] <= 600);
+    CHECK(faces[0] + faces[1] + 4 > 600);
+    CHECK(faces[1] <= 160);
+    CHECK(faces[1] >= 80);
+    CHECK(bytes(cut_to(parts, 4)[0]) == bytes(a[2].result.history));
+    const auto one = simplify_levels(small.view(), {ratio(0.5)}, options);
+    CHECK_THROWS_AS(cut_to(std::vector<ChainHistory>{parts[0], chain_of(one)}, 100), InputError);
+}
+
+TEST_CASE("histories of other runs are not joined") {
+    const auto a = levels_of(lump(), Preset::qem), b = levels_of(lump(), Preset::paper);
+    const std::vector<CollapseHistory> mixed = {a[0].result.history, b[1].result.history},
+                                       reversed = {a[1].result.history, a[0].result.history};
+    CHECK_THROWS_AS(join(mixed), InputError);
+    CHECK_THROWS_AS(join(reversed), InputError);
+    CHECK_THROWS_AS(join({}), InputError);
+}
+
+TEST_CASE("one history alone is a chain of one level") {
+    const auto levels = levels_of(lump(), Preset::best);
+    const ChainHistory chain = read(bytes(levels[1].result.history));
+    CHECK(chain.level_count() == 1);
+    check_same(restore(cut_to(chain, 300)), levels[1].result);
+    CHECK(read(bytes(join(std::vector<CollapseHistory>(3)))).level_count() == 3);
+}
+
+TEST_CASE("a stored chain that is cut off or forged is refused") {
+    const ChainHistory chain = chain_of(levels_of(lump(), Preset::balanced));
+    const std::string text = bytes(chain);
+    for (std::size_t n = 0; n < text.size(); n += 1997) CHECK(complaint(text.substr(0, n)) != "accepted");
+    CHECK(complaint("FAQEML02" + text.substr(8)) ==
+          "history: header: not a collapse history of this version");
+    ChainHistory forged = chain;
+    std::swap(forged.before[0], forged.before[1]);
+    CHECK(complaint(bytes(forged)).find("history: level 1: goes not as far") == 0);
+    forged = chain;
+    forged.before[0].collapses = 1'000'000;
+    CHECK(complaint(bytes(forged)).find("history: level 0: ") == 0);
+    forged = chain;
+    forged.before[1].kept_versions[0] = chain.last.collapses[0].first;
+    CHECK(complaint(bytes(forged)) == "history: kept_versions[0]: not a living version");
+    forged = chain;
+    forged.before[1].swaps.push_back({0, 1});
+    CHECK(complaint(bytes(forged)).find("history: patch_begin") == 0);
+}

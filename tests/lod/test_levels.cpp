@@ -1,0 +1,292 @@
+#include "faqem/levels.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "support/meshes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+
+using namespace faqem;
+
+namespace {
+
+TriangleMesh lump(int level = 4) { return test::shaken(test::icosphere(level), 0.01, 3); }
+
+Options with(Preset preset, Recording history = Recording::off) {
+    Options options;
+    options.preset = preset;
+    options.history = history;
+    return options;
+}
+
+void check_same(const SimplifyResult& a, const SimplifyResult& b) {
+    CHECK(a.mesh.positions == b.mesh.positions);
+    CHECK(a.mesh.triangles == b.mesh.triangles);
+    CHECK(a.mesh.attributes.values == b.mesh.attributes.values);
+    CHECK(a.vertex_origin == b.vertex_origin);
+    CHECK(a.face_origin == b.face_origin);
+    CHECK(a.report.collapses == b.report.collapses);
+    CHECK(a.report.refusals == b.report.refusals);
+    CHECK(a.history.kept_versions == b.history.kept_versions);
+    CHECK(a.history.patch_faces == b.history.patch_faces);
+}
+
+}  // namespace
+
+TEST_CASE("one level alone is what simplify gives") {
+    const TriangleMesh mesh = lump();
+    for (const Preset preset : all_presets) {
+        Options options = with(preset, Recording::on);
+        const std::vector<SimplifiedLevel> levels = simplify_levels(mesh.view(), {ratio(0.1)}, options);
+        REQUIRE(levels.size() == 1);
+        options.target = ratio(0.1);
+        check_same(levels[0].result, simplify(mesh.view(), options));
+    }
+}
+
+TEST_CASE("with memory a level is the same as a run of its own") {
+    const TriangleMesh mesh = lump();
+    for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
+        Options options = with(preset, Recording::on);
+        const auto levels = simplify_levels(mesh.view(), {ratio(0.5), faces(1000), ratio(0.05)}, options);
+        REQUIRE(levels.size() == 3);
+        const Target targets[] = {ratio(0.5), faces(1000), ratio(0.05)};
+        for (std::size_t i = 0; i < 3; ++i) {
+            options.target = targets[i];
+            check_same(levels[i].result, simplify(mesh.view(), options));
+        }
+    }
+}
+
+TEST_CASE("every level reaches its count, and its errors ascend and hold") {
+    const TriangleMesh mesh = lump();
+    const std::vector<Level> wanted = {ratio(0.5), ratio(0.25), ratio(0.1), faces(100), faces(20)};
+    for (const Preset preset : {Preset::fast, Preset::balanced, Preset::best, Preset::qem}) {
+        const auto levels = simplify_levels(mesh.view(), wanted, with(preset));
+        REQUIRE(levels.size() == wanted.size());
+        const std::size_t most[] = {2560, 1280, 512, 100, 20};
+        double last = 0;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            const SimplifyResult& result = levels[i].result;
+            CHECK(result.report.stop == StopReason::reached_target);
+            CHECK(result.report.target_faces == most[i]);
+            CHECK(result.mesh.triangles.size() <= most[i]);
+            CHECK(result.mesh.triangles.size() + 2 > most[i]);
+            CHECK(result.report.faces_in == mesh.triangles.size());
+            CHECK(result.report.faces_out == result.mesh.triangles.size());
+            CHECK(levels[i].error >= last);
+            CHECK(levels[i].distance <= levels[i].error);
+            CHECK(hausdorff(mesh.view(), result.mesh.view()).value <= levels[i].error);
+            CHECK_FALSE(result.report.max_error);
+            last = levels[i].error;
+        }
+    }
+}
+
+TEST_CASE("a level's history leads back to the original and makes its mesh") {
+    const TriangleMesh mesh = lump();
+    for (const Preset preset : {Preset::balanced, Preset::best, Preset::qem}) {
+        const auto levels =
+            simplify_levels(mesh.view(), {ratio(0.5), ratio(0.2), ratio(0.04)}, with(preset, Recording::on));
+        for (const SimplifiedLevel& level : levels) {
+            const CollapseHistory& history = level.result.history;
+            CHECK_NOTHROW(validate(history));
+            CHECK(history.collapses.size() == level.result.report.collapses);
+            const TriangleMesh again = replay(history);
+            CHECK(again.positions == level.result.mesh.positions);
+            CHECK(again.triangles == level.result.mesh.triangles);
+        }
+        const auto& first = levels.front().result.history.collapses;
+        const auto& last = levels.back().result.history.collapses;
+        REQUIRE(first.size() < last.size());
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            CHECK(first[i].first == last[i].first);
+            CHECK(first[i].second == last[i].second);
+        }
+    }
+}
+
+TEST_CASE("levels do not depend on history, threads or the levels after them") {
+    const TriangleMesh mesh = lump(6);  // 40962 vertices: blocks
+    const auto all = simplify_levels(mesh.view(), {ratio(0.5), ratio(0.1)}, with(Preset::balanced));
+    Options other = with(Preset::balanced, Recording::on);
+    other.threads = 1;
+    const auto first = simplify_levels(mesh.view(), {ratio(0.5)}, other);
+    const auto both = simplify_levels(mesh.view(), {ratio(0.5), ratio(0.1)}, other);
+    CHECK(all[0].result.mesh.positions == first[0].result.mesh.positions);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(all[i].result.mesh.positions == both[i].result.mesh.positions);
+        CHECK(all[i].result.mesh.triangles == both[i].result.mesh.triangles);
+        CHECK(all[i].error == both[i].error);
+        CHECK_NOTHROW(validate(both[i].result.history));
+        CHECK(replay(both[i].result.history).positions == both[i].result.mesh.positions);
+    }
+}
+
+TEST_CASE("moving the vertices of a level leaves the next one alone") {
+    const TriangleMesh mesh = lump();
+    const std::vector<Level> wanted = {ratio(0.3), ratio(0.1), ratio(0.02)};
+    const auto still = simplify_levels(mesh.view(), wanted, with(Preset::balanced));
+    const auto moved = simplify_levels(mesh.view(), wanted, with(Preset::best, Recording::on));
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        CHECK(moved[i].result.report.vertices_relaxed > 0);
+        CHECK(moved[i].result.face_origin == still[i].result.face_origin);
+        for (std::size_t v = 0; v < still[i].result.mesh.positions.size(); ++v) {
+            const Index version = moved[i].result.history.kept_versions[v];
+            CHECK(moved[i].result.history.position(version) == still[i].result.mesh.positions[v]);
+        }
+    }
+}
+
+TEST_CASE("what an engine carries goes on from level to level") {
+    TriangleMesh mesh = lump();
+    mesh.attributes.width = 2;
+    for (const Triangle& t : mesh.triangles) {
+        mesh.face_groups.push_back(mesh.positions[t[0]][2] > 0 ? 1 : 0);
+        for (const Index v : t) {
+            for (const std::size_t i : {0u, 1u})
+                mesh.attributes.values.push_back(static_cast<float>(mesh.positions[v][i]));
+        }
+    }
+    std::vector<float> weights(mesh.positions.size(), 1);
+    weights[0] = 100;
+    MeshView view = mesh.view();
+    view.vertex_weights = weights;
+    for (const Preset preset : {Preset::fast, Preset::balanced}) {
+        Options options = with(preset, Recording::on);
+        options.topology.group_borders = GroupBorders::kept;
+        const auto levels = simplify_levels(view, {ratio(0.5), ratio(0.2)}, options);
+        for (const SimplifiedLevel& level : levels) {
+            const TriangleMesh& out = level.result.mesh;
+            CHECK(level.result.report.stop == StopReason::reached_target);
+            CHECK(out.attributes.values.size() == 6 * out.triangles.size());
+            CHECK(out.face_groups.size() == out.triangles.size());
+            CHECK_NOTHROW(validate(level.result.history));
+        }
+        options.target = ratio(0.5);
+        CHECK(levels[0].result.mesh.positions == simplify(view, options).mesh.positions);
+    }
+}
+
+TEST_CASE("locked vertices stay through all levels") {
+    const TriangleMesh mesh = lump();
+    std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
+    for (std::size_t v = 0; v < 10; ++v) locks[50 * v] = 1;
+    MeshView view = mesh.view();
+    view.vertex_locks = locks;
+    for (const SimplifiedLevel& level : simplify_levels(view, {ratio(0.5), ratio(0.2), ratio(0.05)})) {
+        const auto& out = level.result.mesh.positions;
+        for (std::size_t v = 0; v < locks.size(); ++v) {
+            if (locks[v]) CHECK(std::count(out.begin(), out.end(), mesh.positions[v]) == 1);
+        }
+    }
+}
+
+TEST_CASE("a level may be a distance, between counts") {
+    const TriangleMesh mesh = lump();
+    const std::vector<Level> wanted = {ratio(0.5), model_units(0.03), faces(60), of_diagonal(0.1)};
+    const auto levels = simplify_levels(mesh.view(), wanted, with(Preset::fast));
+    REQUIRE(levels.size() == 4);
+    for (const std::size_t i : {1u, 3u}) {
+        const SimplifyResult& result = levels[i].result;
+        CHECK(result.report.stop == StopReason::reached_max_error);
+        REQUIRE(result.report.max_error);
+        CHECK(result.report.max_error->within());
+        CHECK(levels[i].error <= result.report.max_error->allowed);
+        CHECK(result.mesh.triangles.size() < levels[i - 1].result.mesh.triangles.size());
+    }
+    CHECK(levels[1].result.report.max_error->allowed == 0.03);
+    CHECK(levels[2].result.mesh.triangles.size() <= 60);
+    CHECK(levels[2].error > 0.03);
+    const auto first = simplify_levels(mesh.view(), {model_units(0.03)}, with(Preset::fast));
+    Options options = with(Preset::fast);
+    options.max_error = model_units(0.03);
+    CHECK(first[0].result.mesh.positions == simplify(mesh.view(), options).mesh.positions);
+}
+
+TEST_CASE("a level that the one before it has passed gives that mesh again") {
+    const TriangleMesh mesh = lump(3);
+    const auto levels =
+        simplify_levels(mesh.view(), {faces(100), model_units(1e-6), faces(100)}, with(Preset::balanced));
+    REQUIRE(levels.size() == 3);
+    for (const std::size_t i : {1u, 2u}) {
+        CHECK(levels[i].result.mesh.positions == levels[0].result.mesh.positions);
+        CHECK(levels[i].error >= levels[0].error);
+    }
+    CHECK_FALSE(levels[1].result.report.max_error->within());
+    CHECK_FALSE(levels[1].result.report.warnings.empty());
+}
+
+TEST_CASE("levels at ratio 1 lose nothing, and nothing in gives nothing out") {
+    const TriangleMesh mesh = lump(2);
+    const auto levels = simplify_levels(mesh.view(), {ratio(1), ratio(0.5)});
+    CHECK(levels[0].result.mesh.positions == mesh.positions);
+    CHECK(levels[0].error == 0);
+    CHECK(levels[1].error > 0);
+    CHECK(simplify_levels(mesh.view(), {}).empty());
+    for (const SimplifiedLevel& level : simplify_levels({}, {ratio(0.5), ratio(0.1)})) {
+        CHECK(level.result.mesh.triangles.empty());
+        CHECK(level.error == 0);
+    }
+}
+
+TEST_CASE("levels out of range or order throw and say which") {
+    const TriangleMesh mesh = test::icosphere(2);
+    const auto message = [&](const std::vector<Level>& levels, const Options& options = {}) {
+        try {
+            simplify_levels(mesh.view(), levels, options);
+        } catch (const OptionError& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing");
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(message({ratio(0.5), ratio(0.6)}).find("level 1") != std::string::npos);
+    CHECK(message({ratio(0.5), faces(1000)}).find("level 1") != std::string::npos);
+    CHECK(message({of_diagonal(0.1), ratio(0.5), of_diagonal(0.01)}).find("level 2") != std::string::npos);
+    for (const double bad : {0.0, -1.0, nan}) {
+        CHECK(message({ratio(bad)}).find("level 0") != std::string::npos);
+        CHECK(message({model_units(bad)}).find("level 0") != std::string::npos);
+    }
+    CHECK(message({ratio(1.5)}).find("level 0") != std::string::npos);
+    CHECK(message({faces(0)}).find("level 0") != std::string::npos);
+    CHECK(message({Target{}}).find("level 0") != std::string::npos);
+    Options options;
+    options.target = ratio(0.5);
+    CHECK(message({ratio(0.5)}, options).find("target") != std::string::npos);
+    options = {};
+    options.max_error = model_units(1);
+    CHECK(message({ratio(0.5)}, options).find("max_error") != std::string::npos);
+}
+
+TEST_CASE("progress of a chain rises to the end, and cancelling ends the chain") {
+    const TriangleMesh mesh = lump();
+    for (const Preset preset : {Preset::balanced, Preset::qem}) {
+        const std::vector<Level> wanted = {ratio(0.5), of_diagonal(0.02), faces(20)};
+        Options options = with(preset);
+        options.threads =
+            1;  // who waits for other threads asks every few milliseconds, as often as that takes
+        double last = 0;
+        std::size_t calls = 0;
+        options.progress = [&](Phase, double done) {
+            CHECK(done >= last);
+            CHECK(done <= 1);
+            last = done;
+            ++calls;
+            return Continue::yes;
+        };
+        simplify_levels(mesh.view(), wanted, options);
+        CHECK(last == Approx(1));
+        for (const std::size_t stop : {calls / 4, calls / 2, calls - 1}) {
+            std::size_t left = stop;
+            options.progress = [&](Phase, double) { return left-- > 0 ? Continue::yes : Continue::cancel; };
+            const auto levels = simplify_levels(mesh.view(), wanted, options);
+            REQUIRE_FALSE(levels.empty());
+            CHECK(levels.back().result.report.stop == StopReason::cancelled);
+            for (std::size_t i = 0; i + 1 < levels.size(); ++i)
+                CHECK(levels[i].result.report.stop != StopReason::cancelled);
+        }
+    }
+}

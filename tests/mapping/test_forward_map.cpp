@@ -1,0 +1,170 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/mapped_points.hpp"
+#include "support/meshes.hpp"
+#include "faqem/forward_map.hpp"
+#include "faqem/simplify.hpp"
+#include "support/hand_history.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// Two layers of n x n squares, `thick` apart, that share their rim; the upper faces first.
+TriangleMesh thin_wall(Index n, double thick) {
+    TriangleMesh wall = grid(n);
+    const Index shift = static_cast<Index>(wall.positions.size());
+    const auto is_rim = [&](Index v) {
+        const Index x = v % (n + 1), y = v / (n + 1);
+        return x == 0 || y == 0 || x == n || y == n;
+    };
+    const auto below = [&](Index v) { return is_rim(v) ? v : v + shift; };
+    for (const Triangle& t : grid(n).triangles)
+        wall.triangles.push_back({below(t[0]), below(t[2]), below(t[1])});
+    wall.positions.resize(2 * wall.positions.size());
+    for (Index v = 0; v < shift; ++v) {
+        Vec3& upper = wall.positions[v];
+        upper = {upper[0] / n, upper[1] / n, 0};
+        upper[2] = 0.05 * std::sin(5 * upper[0]) * std::cos(4 * upper[1]);
+        wall.positions[v + shift] = upper;
+        if (!is_rim(v)) wall.positions[v + shift][2] -= thick;
+    }
+    return wall;
+}
+
+SimplifyResult simplified(const TriangleMesh& mesh, Options options) {
+    options.history = Recording::on;
+    return simplify(mesh.view(), options);
+}
+
+// By a look at all faces.
+double brute_force_distance(const Vec3& from, const TriangleMesh& to) {
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto at = [&](Index v) { return engine::to_eigen(to.positions[v]); };
+    for (const auto& [a, b, c] : to.triangles) {
+        const auto found = detail::closest_point_on_triangle(engine::to_eigen(from), at(a), at(b), at(c));
+        nearest = std::min(nearest, found.distance_squared);
+    }
+    return std::sqrt(nearest);
+}
+
+}  // namespace
+
+TEST_CASE("without collapses every point stays on its face") {
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    const CollapseHistory history = hand.finish();
+    const ForwardMap map(history);
+    CHECK(small_vertices(history) == std::vector<Index>{0, 1, 2, 3});
+    for (Index f = 0; f < 2; ++f) {
+        for (const Vec3& w : spread(5)) {
+            const SmallPoint p = map.map(f, w);
+            CHECK(distance(small_point(small_mesh(history), p.face, p.barycentric),
+                           original_point(history, {f, w})) < 1e-15);
+        }
+        CHECK(map.map(f, {0.2, 0.3, 0.5}).face == f);
+    }
+}
+
+TEST_CASE("vertices follow the collapses to the vertex they ended in") {
+    std::vector<Vec3> positions;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
+    hand.collapse(hand.collapse(4, 5, {1.5, 1, 0}), 7, {1.25, 1.5, 0});
+    const CollapseHistory history = hand.finish();
+    REQUIRE(history.kept_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});
+    // 8 lost both its faces
+    CHECK(small_vertices(history) == std::vector<Index>{0, 1, 2, 3, 5, 5, 4, 5, no_index});
+}
+
+TEST_CASE("a point of a flat sheet stays where it is, if the sheet covers it") {
+    const TriangleMesh mesh = grid(12);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        Options options{.target = ratio(0.1), .preset = preset};
+        options.topology.border = Border::locked;
+        const SimplifyResult small = simplified(mesh, options);
+        const ForwardMap map(small.history);
+        double farthest = 0;
+        for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            for (const Vec3& w : spread(3)) {
+                const SmallPoint p = map.map(f, w);
+                REQUIRE(p.face < small.mesh.triangles.size());
+                farthest = std::max(farthest, distance(small_point(small.mesh, p.face, p.barycentric),
+                                                       original_point(small.history, {f, w})));
+            }
+        }
+        CHECK(farthest < 1e-12);
+    }
+}
+
+TEST_CASE("on a smooth surface nothing of the small mesh is nearer than what is found") {
+    const TriangleMesh mesh = shaken(torus(48, 24), 0.004, 7);
+    for (const Preset preset : {Preset::qem, Preset::balanced, Preset::best}) {
+        CAPTURE(name(preset));
+        const SimplifyResult small = simplified(mesh, {.target = ratio(0.1), .preset = preset});
+        const ForwardMap map(small.history);
+        std::size_t nearer = 0, all = 0;
+        for (Index f = 0; f < mesh.triangles.size(); f += 3) {
+            const Vec3 w = {0.2, 0.5, 0.3};
+            const Vec3 at = original_point(small.history, {f, w});
+            const SmallPoint p = map.map(f, w);
+            REQUIRE(p.face != no_index);
+            const double found = distance(small_point(small.mesh, p.face, p.barycentric), at);
+            nearer += brute_force_distance(at, small.mesh) < found - 1e-12;
+            ++all;
+        }
+        CHECK(nearer <= all / 100);
+    }
+}
+
+TEST_CASE("the other side of a thin wall is not taken for this one") {
+    const Index n = 24;
+    const TriangleMesh mesh = thin_wall(n, 0.001);
+    const SimplifyResult small = simplified(mesh, {.target = ratio(0.1), .preset = Preset::fast});
+    const ForwardMap map(small.history);
+    const Index side = 2 * n * n;
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const SmallPoint p = map.map(f, {0.3, 0.3, 0.4});
+        REQUIRE(p.face != no_index);
+        CHECK((small.face_origin[p.face] < side) == (f < side));
+    }
+}
+
+TEST_CASE("there and back again is about where it was") {
+    const TriangleMesh mesh = icosphere(3);
+    const SimplifyResult small = simplified(mesh, {.target = ratio(0.2)});
+    const SurfaceMap back(small.history, Mapping::projection);
+    const ForwardMap there(small.history);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const Vec3 w = {0.25, 0.25, 0.5};
+        const SmallPoint on_small = there.map(f, w);
+        const SurfacePoint again = back.map(on_small.face, on_small.barycentric);
+        CHECK(distance(original_point(small.history, again), original_point(small.history, {f, w})) < 0.1);
+    }
+}
+
+TEST_CASE("what was dropped or deleted has no place, and says so") {
+    // A double of the first face; and a small part that is pruned.
+    TriangleMesh mesh = grid(4);
+    mesh.triangles.push_back(mesh.triangles[0]);
+    const Index v = static_cast<Index>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{9, 9, 9}, {9.1, 9, 9}, {9, 9.1, 9}});
+    mesh.triangles.push_back({v, v + 1, v + 2});
+    Options options{.target = ratio(0.5)};
+    options.topology.prune = model_units(1);
+    const SimplifyResult small = simplified(mesh, options);
+    const ForwardMap map(small.history);
+    CHECK(map.map(0, {1, 0, 0}).face != no_index);
+    CHECK(map.map(32, {1, 0, 0}).face == no_index);
+    CHECK(map.map(33, {1, 0, 0}).face == no_index);
+    const std::vector<Index> vertices = small_vertices(small.history);
+    REQUIRE(vertices.size() == small.history.positions.size());
+    CHECK(vertices.back() == no_index);
+}

@@ -1,0 +1,232 @@
+#include "faqem/detail/mapping/successive_projection.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "support/mapped_points.hpp"
+#include "support/hand_history.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// A flat grid whose inner vertices were swallowed by neighbours, in a random order that turned no face over.
+CollapseHistory swallowed_grid(Index n) {
+    std::vector<Vec3> places;  // of versions
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) places.push_back({double(i), double(j), 0});
+    }
+    const std::vector<Triangle> faces = grid_faces(n, [n](Index i, Index j) { return (n + 1) * j + i; });
+    HandHistory hand(places, faces);
+    const auto inner = [&](Index v) {
+        return places[v][0] > 0 && places[v][0] < n && places[v][1] > 0 && places[v][1] < n;
+    };
+    const auto turns_none_over = [&](Index gone, Index into) {
+        for (Index f = 0; f < faces.size(); ++f) {
+            Triangle t = hand.corners(f);
+            std::replace(t.begin(), t.end(), gone, into);
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+            if (!(twice_area(places[t[0]], places[t[1]], places[t[2]]) > 0)) return false;
+        }
+        return true;
+    };
+    std::uint32_t random = 1;
+    for (int tries = 0; tries < 4000; ++tries) {
+        random = random * 1664525u + 1013904223u;
+        const Triangle t = hand.corners((random >> 8) % faces.size());
+        const Index gone = t[(random >> 4) % 3], into = t[((random >> 4) + 1) % 3];
+        if (gone == into || !inner(gone) || !turns_none_over(gone, into)) continue;
+        const Vec3 place = places[into];
+        hand.collapse(gone, into, place);
+        places.push_back(place);
+    }
+    return hand.finish();
+}
+
+}  // namespace
+
+TEST_CASE("samples stay in their material group") {
+    std::vector<Vec3> positions;
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    const auto faces = grid_faces(3, [](Index i, Index j) { return 4 * j + i; });
+    std::vector<Index> groups;
+    for (Index f = 0; f < faces.size(); ++f) groups.push_back(f % 6 < 2 ? 7 : no_index);  // left column
+    HandHistory hand(positions, faces, groups);
+    hand.collapse(5, 6, {1.9, 1, 0});  // pulls the border into the other group
+    const CollapseHistory history = hand.finish();
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < history.kept_faces.size(); ++f) {
+        for (const Vec3& w : spread(4)) {
+            CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.kept_faces[f]]);
+        }
+    }
+}
+
+// Seen from above; h = (P, B, Q) is folded over f, so that it alone looks up.
+//
+//        E            g = (E, B, A), f = (A, B, P) look down. (P, Q) becomes D, then (D, E) becomes C at E's
+//       / \           place: f = (A, B, C) now looks up. Its samples lie in g, which looks down and was never
+//      / g \          touched before: the walk ends there, on the wrong side.
+//     A-----B
+//      \ f / \.       The answer must be h.
+//       \ /  Q
+//        P
+TEST_CASE("a walk that ends on the wrong side falls back to the closest face that looks the right way") {
+    const Index a = 0, b = 1, p = 2, q = 3, e = 4;
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}, {0.4, -0.2, 0}, {0.5, 1, 0}},
+                     {{a, b, p}, {e, b, a}, {p, b, q}});
+    const Index d = hand.collapse(p, q, {0.5, -0.6, 0});
+    hand.collapse(d, e, {0.5, 1, 0});
+    const CollapseHistory history = hand.finish();
+    REQUIRE(history.kept_faces == std::vector<Index>{0, 1});
+    const SurfaceMap map(history, Mapping::projection);
+    const SurfacePoint hit = map.map(0, {0.4, 0.3, 0.3});
+    CHECK(hit.face == 2);
+    CHECK(hit.step == MapStep::closest);
+    CHECK(map.map(1, {0.4, 0.3, 0.3}).face == 1);
+}
+
+TEST_CASE("a face that was turned over has no right side and says so") {
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    hand.collapse(2, 3, {0.5, -1, 0});
+    const CollapseHistory history = hand.finish();
+    const SurfacePoint hit = SurfaceMap(history, Mapping::projection).map(0, {0.4, 0.3, 0.3});
+    CHECK(hit.step != MapStep::history);
+    CHECK(hit.face < 2);
+}
+
+// Two plates at one place, wound alike, that share their vertices since they were welded.
+TEST_CASE("samples stay on their plate where two share all vertices") {
+    constexpr Index n = 4, layer = (n + 1) * (n + 1);
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    const std::vector<Triangle> plate = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    const Index count = static_cast<Index>(plate.size());
+    std::vector<Triangle> welded = plate, unwelded = plate;
+    welded.insert(welded.end(), plate.begin(), plate.end());
+    for (const Triangle& t : plate) unwelded.push_back({t[0] + layer, t[1] + layer, t[2] + layer});
+    HandHistory hand(positions, welded);
+    Index last = 6;
+    for (const Index v : {7u, 8u, 13u, 12u, 11u, 16u, 17u, 18u}) last = hand.collapse(last, v, {2, 2, 0});
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < welded.size());
+    const SurfaceMap map(history, Mapping::projection, unwelded);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const bool first = history.kept_faces[f] < count;
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint q = map.map(f, w);
+            CHECK((q.face < count) == first);
+            CHECK(q.step == MapStep::history);
+            CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
+        }
+    }
+}
+
+// A row of vertices between two others is swallowed by its first one: the two faces that are left were in a
+// patch for each of them, more than a walk may look at.
+TEST_CASE("walks that get too long end at the closest point of their sheet") {
+    constexpr Index n = 1500;
+    std::vector<Vec3> positions = {{0, 1, 0}, {0, -1, 0}};
+    for (Index i = 0; i <= n; ++i) positions.push_back({double(i) / n, 0, 0});
+    std::vector<Triangle> faces;
+    for (Index i = 2; i < n + 2; ++i) {
+        faces.push_back({i, i + 1, 0});
+        faces.push_back({i + 1, i, 1});
+    }
+    double bump = 0, waves = 20;
+    SECTION("in a plane") {}
+    SECTION("on a bent sheet") { bump = 0.01; }
+    SECTION("far below a hill") { bump = 2, waves = 3; }
+    for (Vec3& p : positions) p[2] = bump * std::sin(waves * p[0]);
+    HandHistory hand(positions, faces);
+    Index last = 2;
+    for (Index i = 3; i < n + 2; ++i) last = hand.collapse(last, i, positions[2]);
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() == 2);
+    const SurfaceMap map(history, Mapping::projection);
+    std::size_t given_up = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        for (const Vec3& w : spread(12)) {
+            const SurfacePoint q = map.map(f, w);
+            given_up += q.step == MapStep::closest;
+            const Vec3 p = small_point(small, f, w);
+            if (p[1] != 0) CHECK(q.face % 2 == history.kept_faces[f] % 2);
+            CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
+        }
+    }
+    CHECK((given_up > 0) == (bump > 0.1));  // close by, no walk is needed
+}
+
+// Three faces on each edge: no two of them had it to themselves, but those of the sheet continue each other.
+TEST_CASE("samples stay on a sheet with a fin on every edge, and on their fin") {
+    constexpr Index n = 6;
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    std::vector<Triangle> faces = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    const Index sheet = static_cast<Index>(faces.size());
+    for (Index f = 0; f < sheet; f += 2) {  // every inner edge has one of these on one side
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index a = faces[f][c], b = faces[f][(c + 1) % 3];
+            const Vec3 &p = positions[a], &q = positions[b];
+            faces.push_back({a, b, static_cast<Index>(positions.size())});
+            positions.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, 0.2});
+        }
+    }
+    HandHistory hand(positions, faces);
+    Index last = 8;
+    for (const Index v : {9u, 10u, 17u, 16u, 15u, 22u, 23u, 24u}) last = hand.collapse(last, v, {2, 2, 0});
+    const CollapseHistory history = hand.finish();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < faces.size());
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Index original = history.kept_faces[f];
+        SurfacePoint before = map.map(f, {0.98, 0.01, 0.01});
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
+            before = map.map_near(f, w, before);
+            for (const SurfacePoint& q : {before, map.map(f, w)}) {
+                if (original >= sheet) {
+                    CHECK(q.face == original);
+                } else {
+                    CHECK(q.face < sheet);
+                    CHECK(q.step == MapStep::history);
+                    CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
+                }
+            }
+        }
+    }
+}
+
+// On flat ground most original faces in a small face have no corner that collapsed into one of its corners.
+TEST_CASE("samples that start from their neighbour's answer find where they are on flat ground") {
+    const CollapseHistory history = swallowed_grid(12);
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < 60);
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        SurfacePoint last = map.map(f, {0.98, 0.01, 0.01});
+        for (int i = 1; i < 50; ++i) {
+            const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
+            last = map.map_near(f, w, last);
+            CHECK(distance(original_point(history, last), small_point(small, f, w)) < 1e-12);
+        }
+    }
+}

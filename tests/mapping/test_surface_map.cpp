@@ -1,0 +1,310 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "support/mapped_points.hpp"
+#include "faqem/surface_map.hpp"
+#include "support/hand_history.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// 6--7--8      Collapses (4, 5) into 9 at (1.5, 1), then (9, 7) into 10 at (1.25, 1.5).
+// | /| /|
+// 3--4--5
+// | /| /|
+// 0--1--2
+CollapseHistory grid_with_two_collapses() {
+    std::vector<Vec3> positions;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
+    }
+    HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
+    const Index nine = hand.collapse(4, 5, {1.5, 1, 0});
+    hand.collapse(nine, 7, {1.25, 1.5, 0});
+    return hand.finish();
+}
+
+// Two layers of (n + 1)^2 vertices, z = +h and -h, that share their rim (z = 0): a pillow. Top faces first.
+struct Pillow {
+    Index n = 0;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> faces;
+    Index top_faces() const { return 2 * n * n; }
+    bool rim(Index i, Index j) const { return i == 0 || j == 0 || i == n || j == n; }
+    Index top(Index i, Index j) const { return (n + 1) * j + i; }
+    Index bottom(Index i, Index j) const { return rim(i, j) ? top(i, j) : (n + 1) * (n + 1) + top(i, j); }
+};
+
+Pillow pillow(Index n, double h) {
+    Pillow p{n, {}, {}};
+    for (double side : {1.0, -1.0}) {
+        for (Index j = 0; j <= n; ++j) {
+            for (Index i = 0; i <= n; ++i)
+                p.positions.push_back({double(i), double(j), p.rim(i, j) ? 0 : side * h});
+        }
+    }
+    p.faces = grid_faces(n, [&](Index i, Index j) { return p.top(i, j); });
+    for (Triangle t : grid_faces(n, [&](Index i, Index j) { return p.bottom(i, j); })) {
+        p.faces.push_back({t[0], t[2], t[1]});
+    }
+    return p;
+}
+
+// Collapses every other rim vertex and every other inner vertex into its left neighbour; the new places lie
+// beyond the other layer.
+CollapseHistory squeezed_pillow(const Pillow& p, const std::set<Index>& reversed) {
+    std::vector<Triangle> faces = p.faces;
+    for (Index f : reversed) std::swap(faces[f][1], faces[f][2]);
+    HandHistory hand(p.positions, faces);
+    for (Index j = 0; j <= p.n; ++j) {
+        for (Index i = 1; i + 1 <= p.n; i += 2) {
+            for (double side : {1.0, -1.0}) {
+                const Index a = side > 0 ? p.top(i, j) : p.bottom(i, j);
+                const Index b = side > 0 ? p.top(i + 1, j) : p.bottom(i + 1, j);
+                if (side < 0 && p.rim(i, j)) continue;
+                if (p.rim(i, j) != p.rim(i + 1, j)) continue;
+                hand.collapse(
+                    a, b, {i + 0.5, double(j), p.rim(i, j) ? 0 : -3 * side * p.positions[p.top(1, 1)][2]});
+            }
+        }
+    }
+    return hand.finish();
+}
+
+}  // namespace
+
+TEST_CASE("without collapses every point maps to itself") {
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    const CollapseHistory history = hand.finish();
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < 2; ++f) {
+        for (const Vec3& w : spread(5)) {
+            const SurfacePoint p = map.map(f, w);
+            CHECK(p.step == MapStep::history);
+            CHECK(distance(original_point(history, p), small_point(small_mesh(history), f, w)) < 1e-15);
+        }
+        CHECK(map.map(f, {0.2, 0.3, 0.5}).face == f);
+    }
+}
+
+TEST_CASE("in a plane, projection finds the very same point") {
+    const CollapseHistory history = grid_with_two_collapses();
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() == 4);
+    const SurfaceMap map(history, Mapping::projection);
+    double area = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Vec3 a = small_point(small, f, {1, 0, 0}), b = small_point(small, f, {0, 1, 0}),
+                   c = small_point(small, f, {0, 0, 1});
+        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if (twice < 0) continue;  // folded over by the arbitrary collapses
+        area += twice / 2;
+        for (const Vec3& w : spread(7)) {
+            const Vec3 p0 = small_point(small, f, w);
+            const SurfacePoint p = map.map(f, w);
+            CHECK(p.face < history.triangles.size());
+            CHECK(p.barycentric[0] + p.barycentric[1] + p.barycentric[2] == Approx(1));
+            CHECK(distance(original_point(history, p), p0) < 1e-14);
+            CHECK(p.step == MapStep::history);
+            const SurfacePoint again = map.map_near(f, w, p);
+            CHECK(distance(original_point(history, again), p0) < 1e-14);
+        }
+    }
+    CHECK(area == Approx(2.75));
+}
+
+TEST_CASE("points of faces whose edge was swapped are found where they are") {
+    //  3---2        3---2
+    //  | / |   ->   | \ |
+    //  0---1        0---1
+    HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    CollapseHistory history = hand.finish();
+    history.patch_faces = {0, 1};
+    history.patch_begin = {0, 2};
+    validate(history);
+    const TriangleMesh small = replay(history);
+    REQUIRE(small.triangles == std::vector<Triangle>{{2, 3, 1}, {0, 1, 3}});
+    for (const Mapping mapping : {Mapping::projection, Mapping::closest}) {
+        const SurfaceMap map(history, mapping);
+        for (Index f = 0; f < 2; ++f) {
+            for (const Vec3& w : spread(7)) {
+                const SurfacePoint p = map.map(f, w);
+                CHECK(distance(original_point(history, p), small_point(small, f, w)) < 1e-15);
+            }
+        }
+    }
+}
+
+TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
+    const CollapseHistory history = grid_with_two_collapses();
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::lineage);
+    const std::set<Index> merged = {4, 5, 7};
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint p = map.map(f, w);
+            const Triangle& t = history.triangles[p.face];
+            std::size_t corner = 0;
+            while (p.barycentric[corner] != 1) REQUIRE(++corner < 3);
+            for (Index g = 0; g < p.face; ++g) {  // the smallest face there
+                for (Index v : history.triangles[g]) CHECK(v != t[corner]);
+            }
+            // By hand: the closest small corner; where it is 10, go to 9 or 7, and from 9 to 4 or 5.
+            const Vec3 p0 = small_point(small, f, w);
+            Index best = small.triangles[f][0];
+            for (Index v : small.triangles[f]) {
+                if (distance(small.positions[v], p0) < distance(small.positions[best], p0)) best = v;
+            }
+            const Index version = history.kept_versions[best];
+            if (version < 9) {
+                CHECK(t[corner] == version);
+                continue;
+            }
+            const bool seven = distance(p0, history.position(7)) < distance(p0, history.position(9));
+            const bool five = distance(p0, history.position(5)) < distance(p0, history.position(4));
+            CHECK(t[corner] == (seven ? 7u : five ? 5u : 4u));
+            CHECK(merged.count(t[corner]) == 1);
+        }
+    }
+}
+
+TEST_CASE("samples of one side of a thin plate never map to the other") {
+    const Pillow p = pillow(6, 1e-3);
+    std::set<Index> reversed;
+    SECTION("wound alike") {}
+    SECTION("every fourth face wound wrongly") {
+        for (Index f = 0; f < p.faces.size(); f += 4) reversed.insert(f);
+    }
+    const CollapseHistory history = squeezed_pillow(p, reversed);
+    const TriangleMesh small = small_mesh(history);
+    REQUIRE(small.triangles.size() < p.faces.size());
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const bool top = history.kept_faces[f] < p.top_faces();
+        for (const Vec3& w : spread(6)) {
+            const SurfacePoint q = map.map(f, w);
+            CHECK((q.face < p.top_faces()) == top);
+            CHECK(distance(original_point(history, q), small_point(small, f, w)) < 0.6);
+        }
+    }
+}
+
+// A step across a grid with some roughness: where the small face cuts the corner of the step, upper, lower
+// and upright faces are about as close.
+TEST_CASE("projection ends at the closest face around that looks the right way") {
+    constexpr Index n = 8;
+    const auto vertex = [](Index i, Index j) { return (n + 1) * j + i; };
+    std::vector<Vec3> positions;
+    for (Index j = 0; j <= n; ++j) {
+        for (Index i = 0; i <= n; ++i) {
+            const double rough = 0.03 * double((7 * i + 5 * j + i * j) % 5);
+            positions.push_back({i - (i > 4 ? 0.9 : 0.0), double(j), (i > 4 ? 0.7 : 0.0) + rough});
+        }
+    }
+    const std::vector<Triangle> faces = grid_faces(n, vertex);
+    HandHistory hand(positions, faces);
+    for (Index j = 1; j < n; ++j) {
+        Index last = vertex(3, j);
+        for (const Index i : {4u, 5u}) last = hand.collapse(last, vertex(i, j), {i - 0.6, double(j), 0.2});
+    }
+    const CollapseHistory history = hand.finish();
+    std::vector<Index> last(positions.size() + history.collapses.size());
+    for (Index v = 0; v < last.size(); ++v) last[v] = v;
+    for (std::size_t k = history.collapses.size(); k-- > 0;) {
+        last[history.collapses[k].first] = last[history.collapses[k].second] = last[positions.size() + k];
+    }
+    const auto normal = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        const Vec3 cross{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        const double length = std::hypot(cross[0], cross[1], cross[2]);
+        return Vec3{cross[0] / length, cross[1] / length, cross[2] / length};
+    };
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::projection);
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        const Triangle& corners = small.triangles[f];
+        const Vec3 n0 =
+            normal(small.positions[corners[0]], small.positions[corners[1]], small.positions[corners[2]]);
+        std::set<Index> ends;
+        for (const Index v : faces[history.kept_faces[f]]) ends.insert(last[v]);
+        SurfacePoint near;
+        for (const Vec3& w : spread(5)) {
+            const Vec3 p0 = small_point(small, f, w);
+            double least = 1e300;
+            for (const Triangle& t : faces) {
+                if (ends.count(last[t[0]]) + ends.count(last[t[1]]) + ends.count(last[t[2]]) == 0) continue;
+                const Vec3 m = normal(positions[t[0]], positions[t[1]], positions[t[2]]);
+                if (n0[0] * m[0] + n0[1] * m[1] + n0[2] * m[2] < 0.17) continue;
+                for (const Vec3& v : spread(30)) {
+                    least = std::min(least,
+                                     distance(p0, mix(v, positions[t[0]], positions[t[1]], positions[t[2]])));
+                }
+            }
+            const SurfacePoint found = map.map(f, w);
+            CHECK(distance(original_point(history, found), p0) <= least + 1e-12);
+            if (near.face != no_index) {
+                CHECK(distance(original_point(history, map.map_near(f, w, near)), p0) <= least + 1e-12);
+            }
+            near = found;
+        }
+    }
+}
+
+TEST_CASE("closest finds what brute force finds, on whichever side that is") {
+    const Pillow p = pillow(6, 0.05);
+    const CollapseHistory history = squeezed_pillow(p, {});
+    const TriangleMesh small = small_mesh(history);
+    const SurfaceMap map(history, Mapping::closest);
+    std::size_t other_side = 0;
+    for (Index f = 0; f < small.triangles.size(); ++f) {
+        SurfacePoint last;
+        for (const Vec3& w : spread(5)) {
+            const Vec3 p0 = small_point(small, f, w);
+            double least = 1e300;
+            for (const Triangle& t : p.faces) {
+                // Fine enough: the grid's faces are 1 wide.
+                for (const Vec3& v : spread(40)) {
+                    least = std::min(
+                        least, distance(p0, mix(v, p.positions[t[0]], p.positions[t[1]], p.positions[t[2]])));
+                }
+            }
+            const SurfacePoint found = map.map(f, w);
+            const double d = distance(original_point(history, found), p0);
+            CHECK(d <= least + 1e-12);
+            CHECK(d >= least - 0.03);
+            CHECK(found.step == MapStep::closest);
+            other_side += (found.face < p.top_faces()) != (history.kept_faces[f] < p.top_faces());
+            if (last.face != no_index) CHECK(map.map_near(f, w, last).face == found.face);
+            last = found;
+        }
+    }
+    CHECK(other_side > 0);
+}
+
+TEST_CASE("several threads get the same answers") {
+    const CollapseHistory history = squeezed_pillow(pillow(8, 1e-3), {});
+    const SurfaceMap map(history, Mapping::projection);
+    const auto all = [&] {
+        std::vector<SurfacePoint> result;
+        for (Index f = 0; f < history.kept_faces.size(); ++f) {
+            for (const Vec3& w : spread(5)) result.push_back(map.map(f, w));
+        }
+        return result;
+    };
+    const std::vector<SurfacePoint> serial = all();
+    std::vector<SurfacePoint> other;
+    std::thread helper([&] { other = all(); });
+    const std::vector<SurfacePoint> mine = all();
+    helper.join();
+    for (std::size_t i = 0; i < serial.size(); ++i) {
+        REQUIRE(mine[i].face == serial[i].face);
+        REQUIRE(other[i].face == serial[i].face);
+        REQUIRE(mine[i].barycentric == serial[i].barycentric);
+        REQUIRE(other[i].barycentric == serial[i].barycentric);
+    }
+}

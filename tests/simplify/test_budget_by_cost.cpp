@@ -1,0 +1,115 @@
+#include "faqem/detail/simplify/budget_by_cost.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "support/meshes.hpp"
+#include "faqem/compare.hpp"
+
+using namespace faqem;
+using detail::CostCurve;
+using detail::share_by_cost;
+
+namespace {
+
+using Shares = std::vector<std::uint64_t>;
+
+CostCurve curve_of(const TriangleMesh& mesh, const Options& options = {}) {
+    return detail::cost_curve(mesh.view(), options);
+}
+
+// From 12 faces to 4 in steps of two, each at the cost given.
+CostCurve stairs(std::array<double, 4> costs, double diagonal = 1) {
+    return {{{12, costs[0]}, {10, costs[1]}, {8, costs[2]}, {6, costs[3]}}, 4, diagonal, true};
+}
+
+}  // namespace
+
+TEST_CASE("cost curve: faces descend from all to the fewest, costs ascend") {
+    const TriangleMesh mesh = test::shaken(test::torus(14, 9), 0.05, 1);
+    const CostCurve curve = curve_of(mesh);
+    REQUIRE(curve.is_complete);
+    CHECK(curve.steps.front().faces == mesh.triangles.size());
+    CHECK(curve.least <= 4);
+    for (std::size_t i = 1; i < curve.steps.size(); ++i) {
+        CHECK(curve.steps[i].faces < curve.steps[i - 1].faces);
+        CHECK(curve.steps[i].cost >= curve.steps[i - 1].cost);
+    }
+    CHECK(curve.diagonal == Approx(info(mesh.view()).diagonal));
+}
+
+TEST_CASE("cost curve: what is flat costs nothing, whatever the model's size") {
+    const CostCurve flat = curve_of(test::scaled(test::grid(8), 1e6));
+    REQUIRE(!flat.steps.empty());
+    CHECK(flat.steps[flat.steps.size() / 2].cost < 1e-20);
+    const CostCurve bumpy = curve_of(test::shaken(test::grid(8), 0.3, 1));
+    CHECK(bumpy.steps[bumpy.steps.size() / 2].cost > 1e-8);
+}
+
+TEST_CASE("cost curve: locked vertices end it") {
+    Options options;
+    options.topology.border = Border::locked;
+    // A fan of six triangles whose hub alone may go.
+    const CostCurve curve = curve_of(test::fan(6), options);
+    CHECK(curve.steps.size() <= 1);
+    CHECK(curve.least >= 4);
+}
+
+TEST_CASE("cost curve: cancelling is told") {
+    Options options;
+    options.progress = [](Phase, double) { return Continue::cancel; };
+    CHECK_FALSE(curve_of(test::icosphere(4), options).is_complete);
+}
+
+TEST_CASE("shares: the cheapest steps are taken, whoever's they are") {
+    const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
+    const std::vector<double> weights = {1, 1};
+    CHECK(share_by_cost(curves, weights, 24) == Shares{12, 12});
+    CHECK(share_by_cost(curves, weights, 20) == Shares{8, 12});
+    CHECK(share_by_cost(curves, weights, 16) == Shares{8, 8});
+    CHECK(share_by_cost(curves, weights, 14) == Shares{6, 8});
+    CHECK(share_by_cost(curves, weights, 10) == Shares{6, 4});
+}
+
+TEST_CASE("shares: no face of the goal is given away") {
+    const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
+    const std::vector<double> weights = {1, 1};
+    for (std::uint64_t goal = 8; goal <= 24; ++goal) {
+        const Shares share = share_by_cost(curves, weights, goal);
+        CHECK(share[0] + share[1] == goal);
+    }
+    CHECK(share_by_cost(curves, weights, 100) == Shares{12, 12});
+}
+
+TEST_CASE("shares: below four faces each nothing is taken") {
+    std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
+    curves[0].least = 2;
+    curves.push_back({{}, 2, 1, true});  // has two to begin with
+    const std::vector<double> weights = {1, 1, 1};
+    CHECK(share_by_cost(curves, weights, 0) == Shares{4, 4, 2});
+}
+
+TEST_CASE("shares: costs count by the fourth power of the size, times the weight") {
+    // The second is twice as large: its first step costs 16 times as much as the first's.
+    const std::vector<double> weights = {1, 1};
+    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights, 22) ==
+          Shares{10, 12});
+    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights, 20) ==
+          Shares{10, 10});
+    const std::vector<double> seen_twice = {1, 1.0 / 32};
+    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, seen_twice, 22) ==
+          Shares{12, 10});
+}
+
+TEST_CASE("shares: sizes far from 1 neither overflow nor vanish") {
+    const std::vector<double> weights = {1, 1};
+    for (const double unit : {1e-150, 1.0, 1e150}) {
+        CHECK(share_by_cost(std::vector{stairs({1, 2, 5, 9}, unit), stairs({3, 4, 6, 7}, unit)}, weights,
+                            14) == Shares{6, 8});
+    }
+}
+
+TEST_CASE("shares: there may be nothing to share") {
+    CHECK(share_by_cost({}, {}, 10).empty());
+    CHECK(share_by_cost(std::vector<CostCurve>(2), std::vector<double>{1, 1}, 10) == Shares{0, 0});
+}

@@ -1,0 +1,193 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
+#include "support/meshes.hpp"
+#include "faqem/levels.hpp"
+#include "faqem/simplify.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/detail/mapping/replay.hpp"
+#include "faqem/detail/mapping/surface_patches.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/fitting/vertex_fitting.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
+
+using namespace faqem;
+using detail::Poll;
+using detail::Workers;
+using engine::Asker;
+using engine::Cancelled;
+
+namespace {
+
+// How often somebody was asked.
+template <class Work>
+std::size_t questions(Work&& work) {
+    std::size_t count = 0;
+    Asker asker([&] { return ++count, Continue::yes; });
+    work(Poll(asker));
+    return count;
+}
+
+Options with(Preset preset, Target target) {
+    Options options;
+    options.preset = preset;
+    options.target = target;
+    options.threads = 3;
+    return options;
+}
+
+using Door = std::function<Report(const Options&)>;
+
+// Cancels at every question, or throws: whatever is being done then, nothing is asked after it.
+// On one thread: who waits for others asks every few milliseconds, as often as that takes.
+// \param times  spread over the whole work
+void stop_anywhere(Options options, std::size_t times, const Door& door) {
+    options.threads = 1;
+    std::size_t all = 0;
+    options.progress = [&](Phase, double) { return ++all, Continue::yes; };
+    CHECK(door(options).stop != StopReason::cancelled);
+    REQUIRE(all > 4);
+    for (std::size_t stop = 1; stop <= all; stop += 1 + all / times) {
+        std::size_t calls = 0;
+        options.progress = [&](Phase, double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
+        CHECK(door(options).stop == StopReason::cancelled);
+        CHECK(calls == stop);
+        calls = 0;
+        options.progress = [&](Phase, double) {
+            if (++calls == stop) throw std::runtime_error("of the user's");
+            return Continue::yes;
+        };
+        CHECK_THROWS_WITH(door(options), "of the user's");
+        CHECK(calls == stop);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("every phase asks once for each few thousand operations") {
+    const TriangleMesh mesh = test::icosphere(6), light = test::icosphere(3);
+    const std::size_t faces = mesh.triangles.size(), enough = faces / Asker::interval;
+    const detail::Settings settings = detail::settings({});
+    CHECK(questions([&](Poll poll) { detail::prepare(mesh.view(), settings, poll); }) >= 5 * enough);
+    const detail::Prepared prepared = detail::prepare(mesh.view(), settings);
+    CHECK(questions([&](Poll poll) { detail::arrange(prepared, poll); }) >= 3 * enough);
+    CHECK(questions([&](Poll poll) { detail::sorted_sides(mesh.triangles, poll); }) >= 3 * 16 * enough);
+    CHECK(questions([&](Poll poll) { detail::Bvh(mesh.positions, mesh.triangles, poll); }) >= 16 * enough);
+    CHECK(questions([&](Poll poll) { detail::surface_of(mesh.view(), poll); }) >= 8 * enough);
+    CHECK(questions([&](Poll poll) { detail::find_sheets(mesh.positions, mesh.triangles, {}, poll); }) >=
+          16 * enough);
+    Options options = with(Preset::fast, ratio(0.1));
+    options.history = Recording::on;
+    const SimplifyResult small = simplify(mesh.view(), options);
+    const std::vector<Index> one_sheet(faces, 0);
+    detail::Replay replay;
+    CHECK(questions([&](Poll poll) { replay = detail::replay_patches(small.history, poll); }) >= 3 * enough);
+    CHECK(questions([&](Poll poll) {
+              detail::describe_patches(small.history, one_sheet, {1, poll}, replay);
+          }) >= 2 * enough);
+
+    const detail::Surface from = detail::surface_of(mesh.view()), to = detail::surface_of(light.view());
+    const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);
+    for (const std::uint32_t threads : {1u, 3u}) {
+        CHECK(questions([&](Poll poll) {
+                  detail::farthest_both_ways(from, tree_from, to, tree_to, {.workers = {threads, poll}});
+              }) >= (threads == 1 ? enough : 1));
+        const std::vector<engine::Vector3> original = test::vectors(mesh), positions = test::vectors(light);
+        const std::vector<std::uint8_t> fixed(positions.size(), 0);
+        CHECK(questions([&](Poll poll) {
+                  detail::relax_and_swap({original, mesh.triangles}, {positions, light.triangles}, fixed, {},
+                                         0.3, {threads, poll});
+              }) >= 50 * enough);
+    }
+}
+
+TEST_CASE("whoever cancels or throws is heard in every phase, and once") {
+    const TriangleMesh sphere = test::shaken(test::icosphere(4), 0.003, 1);
+    const TriangleMesh before = sphere;
+    const auto simplified = [&](const Options& options) { return simplify(sphere.view(), options).report; };
+    stop_anywhere(with(Preset::qem, ratio(0.05)), 7, simplified);
+    stop_anywhere(with(Preset::balanced, ratio(0.05)), 7, simplified);
+    stop_anywhere(with(Preset::best, ratio(0.05)), 3, simplified);
+    Options within = with(Preset::fast, {});
+    within.max_error = of_diagonal(0.01);
+    stop_anywhere(within, 5, simplified);
+    stop_anywhere(with(Preset::fast, {}), 5, [&](const Options& options) {
+        return simplify_levels(sphere.view(), {ratio(0.3), of_diagonal(0.02), faces(60)}, options)
+            .back()
+            .result.report;
+    });
+    CHECK(sphere.positions == before.positions);
+    CHECK(sphere.triangles == before.triangles);
+}
+
+TEST_CASE("cancelling before the first collapse leaves an empty mesh, and says so") {
+    const TriangleMesh mesh = test::icosphere(5);
+    Options options = with(Preset::best, ratio(0.1));
+    options.progress = [](Phase phase, double) {
+        CHECK(phase == Phase::weld);
+        return Continue::cancel;
+    };
+    const SimplifyResult result = simplify(mesh.view(), options);
+    CHECK(result.report.stop == StopReason::cancelled);
+    CHECK(result.mesh.triangles.empty());
+    CHECK(result.report.faces_in == mesh.triangles.size());
+}
+
+TEST_CASE("threads that help hear that the calling one has been told to stop") {
+    std::atomic<int> stopped{0};
+    int calls = 0;
+    Asker asker([&] { return ++calls == 3 ? Continue::cancel : Continue::yes; });
+    // Blocks without an end of their own.
+    const auto forever = [&](std::size_t, std::size_t, Poll poll) {
+        struct Leaving {
+            std::atomic<int>& count;
+            ~Leaving() { ++count; }
+        } leaving{stopped};
+        while (true) poll();
+    };
+    CHECK_THROWS_AS(detail::parallel_blocks(3, 1, Workers(3, Poll(asker)), forever), Cancelled);
+    CHECK(stopped >= 1);
+    CHECK(stopped <= 3);
+    CHECK(calls == 3);
+}
+
+TEST_CASE("who waits for threads that help is asked meanwhile") {
+    const std::thread::id here = std::this_thread::get_id();
+    Asker asker([&] {
+        CHECK(std::this_thread::get_id() == here);
+        return Continue::cancel;
+    });
+    std::atomic<bool> is_helped{false};
+    CHECK_THROWS_AS(detail::parallel_blocks(2, 1, Workers(2, Poll(asker)),
+                                            [&](std::size_t, std::size_t, Poll poll) {
+                                                if (std::this_thread::get_id() != here) {
+                                                    is_helped = true;
+                                                    while (true) poll();
+                                                }
+                                                while (!is_helped) std::this_thread::yield();
+                                            }),
+                    Cancelled);
+}
+
+TEST_CASE("what the calling thread throws counts, whatever the others have thrown") {
+    std::atomic<bool> has_begun{false}, has_thrown{false};
+    const std::thread::id here = std::this_thread::get_id();
+    CHECK_THROWS_WITH(detail::parallel_blocks(2, 1, 2,
+                                              [&](std::size_t, std::size_t) {
+                                                  if (std::this_thread::get_id() != here) {
+                                                      while (!has_begun) std::this_thread::yield();
+                                                      has_thrown = true;
+                                                      throw std::runtime_error("helper");
+                                                  }
+                                                  has_begun = true;
+                                                  while (!has_thrown) std::this_thread::yield();
+                                                  throw std::runtime_error("caller");
+                                              }),
+                      "caller");
+}

@@ -1,0 +1,244 @@
+#include "faqem/detail/simplify/error_bound_search.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "support/brute_force.hpp"
+#include "support/meshes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
+
+using namespace faqem;
+
+namespace {
+
+Options within(MaxError error, Preset preset = Preset::balanced) {
+    Options options;
+    options.max_error = error;
+    options.preset = preset;
+    return options;
+}
+
+/// A flat square of side 1 with 2 n^2 faces; its middle vertex stands out by `height`.
+TriangleMesh bump(Index n, double height) {
+    TriangleMesh mesh = test::square(n, 1, 0);
+    mesh.positions[n / 2 + (n + 1) * (n / 2)][2] = height;
+    return mesh;
+}
+
+double top(const TriangleMesh& mesh) {
+    double z = 0;
+    for (const Vec3& p : mesh.positions) z = std::max(z, p[2]);
+    return z;
+}
+
+bool same(const TriangleMesh& a, const TriangleMesh& b) {
+    return a.positions == b.positions && a.triangles == b.triangles;
+}
+
+bool warned(const Report& report, const std::string& beginning) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(),
+                       [&](const std::string& w) { return w.rfind(beginning, 0) == 0; });
+}
+
+}  // namespace
+
+TEST_CASE("a bump stays as high as the error asks for, and its surroundings lose their faces") {
+    const double height = 0.05;
+    const TriangleMesh mesh = bump(20, height);
+    // Four faces over the whole square would be off by at least h / 2: below that it takes more.
+    const SimplifyResult close = simplify(mesh.view(), within(model_units(0.3 * height)));
+    const SimplifyResult below = simplify(mesh.view(), within(model_units(0.98 * height)));
+    const SimplifyResult above = simplify(mesh.view(), within(model_units(1.02 * height)));
+    CHECK(top(close.mesh) >= 0.7 * height);
+    CHECK(close.mesh.triangles.size() >= 5);
+    CHECK(close.mesh.triangles.size() <= 40);
+    CHECK(top(below.mesh) >= 0.02 * height);
+    CHECK(above.mesh.triangles.size() <= 4);
+    for (const SimplifyResult* result : {&close, &below, &above}) {
+        const Report& report = result->report;
+        CHECK(report.stop == StopReason::reached_max_error);
+        REQUIRE(report.max_error);
+        CHECK(report.max_error->within());
+        CHECK(report.max_error->value <= report.max_error->bound);
+        CHECK(report.max_error->bound <= report.max_error->value * 1.01 + 1e-8);
+        CHECK(report.max_error->runs <= detail::FaceCountSearch::most_runs);
+        CHECK(report.target_faces == report.faces_out);
+        CHECK(report.faces_out == result->mesh.triangles.size());
+    }
+}
+
+TEST_CASE("no point of the result of any preset is farther than the error allows") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(3), 0.004, 5);
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), within(model_units(0.04), preset));
+        REQUIRE(result.report.max_error);
+        const MeasuredError& error = *result.report.max_error;
+        CHECK(error.allowed == 0.04);
+        CHECK(error.within());
+        CHECK(std::max(test::sampled_distance(mesh, result.mesh, 4),
+                       test::sampled_distance(result.mesh, mesh, 12)) <= error.bound + 1e-12);
+        // A sphere with n faces is off by about 2 / n at best: 1280 faces come down to some hundreds.
+        CHECK(error.value >= 0.02);
+        CHECK(result.mesh.triangles.size() <= 400);
+        CHECK(result.mesh.triangles.size() >= 50);
+    }
+}
+
+TEST_CASE("no count well below the one found is within the error") {
+    const TriangleMesh mesh = test::icosphere(3);
+    const SimplifyResult result = simplify(mesh.view(), within(model_units(0.02)));
+    const auto found = static_cast<double>(result.mesh.triangles.size());
+    for (const double share : {0.93, 0.85, 0.7, 0.5}) {
+        Options options;
+        options.target = faces(static_cast<std::uint64_t>(share * found));
+        CHECK(hausdorff(mesh.view(), simplify(mesh.view(), options).mesh.view()).bound > 0.02);
+    }
+}
+
+TEST_CASE("an error as a share of the diagonal is the same as in model units") {
+    const TriangleMesh mesh = test::scaled(test::torus(24, 16), 8);
+    const double diagonal = info(mesh.view()).diagonal;
+    const SimplifyResult share = simplify(mesh.view(), within(of_diagonal(0.01)));
+    const SimplifyResult units = simplify(mesh.view(), within(model_units(0.01 * diagonal)));
+    CHECK(share.mesh.triangles.size() < mesh.triangles.size() / 2);
+    CHECK(same(share.mesh, units.mesh));
+    CHECK(share.report.max_error->allowed == Approx(0.01 * diagonal));
+}
+
+TEST_CASE("a target with an error is run once and measured") {
+    const TriangleMesh mesh = test::icosphere(3);
+    const Target target = GENERATE(faces(100), ratio(0.05));
+    for (const double allowed : {1e-3, 0.5}) {
+        Options options;
+        options.target = target;
+        const SimplifyResult plain = simplify(mesh.view(), options);
+        CHECK(!plain.report.max_error);
+        options.max_error = model_units(allowed);
+        const SimplifyResult result = simplify(mesh.view(), options);
+        CHECK(same(result.mesh, plain.mesh));
+        CHECK(result.report.stop == StopReason::reached_target);
+        CHECK(result.report.target_faces == plain.report.target_faces);
+        REQUIRE(result.report.max_error);
+        const DistanceBound measured = hausdorff(mesh.view(), plain.mesh.view());
+        CHECK(result.report.max_error->value == measured.value);
+        CHECK(result.report.max_error->bound == measured.bound);
+        CHECK(result.report.max_error->within() == (allowed == 0.5));
+        CHECK(result.report.max_error->runs == 1);
+    }
+}
+
+TEST_CASE("an error too small for any collapse gives the input back") {
+    const TriangleMesh mesh = test::shaken(test::grid(6), 0.1, 2);
+    for (const double allowed : {1e-9, 1e-300}) {
+        const SimplifyResult result = simplify(mesh.view(), within(model_units(allowed)));
+        CHECK(same(result.mesh, mesh));
+        CHECK(result.report.stop == StopReason::reached_max_error);
+        CHECK(result.report.max_error->bound == 0);
+        CHECK(result.report.max_error->within());
+        CHECK(warned(result.report, "no smaller mesh within max_error was found"));
+    }
+}
+
+TEST_CASE("an error larger than the model leaves what the engine leaves at the least") {
+    const TriangleMesh mesh = test::icosphere(2);
+    const SimplifyResult result = simplify(mesh.view(), within(of_diagonal(10)));
+    CHECK(result.mesh.triangles.size() <= 4);
+    CHECK(!result.mesh.triangles.empty());
+    CHECK(result.report.max_error->runs <= 3);
+}
+
+TEST_CASE("what is locked stays, however large the error") {
+    const TriangleMesh mesh = test::cylinder(12, 8, 4);
+    Options options = within(model_units(100));
+    options.topology.border = Border::locked;
+    const SimplifyResult result = simplify(mesh.view(), options);
+    CHECK(result.mesh.triangles.size() >= 24);
+    CHECK(result.report.stop == StopReason::reached_max_error);
+    std::vector<std::uint8_t> all(mesh.positions.size(), 1);
+    MeshView view = mesh.view();
+    view.vertex_locks = all;
+    CHECK(same(simplify(view, options).mesh, mesh));
+}
+
+TEST_CASE("a weld that moves the surface by more than the error is found out") {
+    const TriangleMesh mesh = bump(8, 0.3);
+    Options options = within(model_units(1e-3));
+    options.topology.weld_distance = 0.5;
+    const SimplifyResult result = simplify(mesh.view(), options);
+    REQUIRE(result.report.max_error);
+    CHECK(!result.report.max_error->within());
+    CHECK(result.report.max_error->value > 1e-3);
+    CHECK(result.report.stop != StopReason::reached_max_error);
+    CHECK(warned(result.report, "no mesh within max_error was found"));
+}
+
+TEST_CASE("meshes without area have no distance") {
+    const Options options = within(of_diagonal(0.01));
+    const SimplifyResult empty = simplify(MeshView{}, options);
+    CHECK(empty.mesh.triangles.empty());
+    CHECK(empty.report.max_error->within());
+    TriangleMesh line = test::grid(4);
+    for (Vec3& p : line.positions) p[1] = p[2] = 0;
+    const SimplifyResult flat = simplify(line.view(), options);
+    CHECK(flat.report.max_error->bound == 0);
+    // If only the result has no area, nothing is near it.
+    SimplifyResult gone;
+    gone.report.collapses = 1;
+    const detail::Original original(test::cube().view());
+    CHECK(detail::distance(original, gone, 1, detail::Look::in_full, {}).bound ==
+          std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("bad input is refused with an error as without one") {
+    TriangleMesh mesh = test::grid(3);
+    mesh.triangles[4][1] = 99;
+    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(1))), InputError);
+    mesh = test::grid(3);
+    mesh.positions[5][0] = std::nan("");
+    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(1))), InputError);
+    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(0))), OptionError);
+}
+
+TEST_CASE("a search gives the same mesh with any number of threads, and its history fits") {
+    const TriangleMesh mesh = test::shaken(test::torus(32, 24), 0.01, 1);
+    Options options = within(of_diagonal(0.01));
+    options.history = Recording::on;
+    options.threads = 1;
+    const SimplifyResult one = simplify(mesh.view(), options);
+    CHECK(same(replay(one.history), one.mesh));
+    options.threads = 3;
+    const SimplifyResult three = simplify(mesh.view(), options);
+    CHECK(same(one.mesh, three.mesh));
+    CHECK(one.report.max_error->value == three.report.max_error->value);
+    CHECK(one.report.max_error->bound == three.report.max_error->bound);
+    CHECK(one.report.max_error->runs == three.report.max_error->runs);
+}
+
+TEST_CASE("progress rises to one over a whole search, and any call may cancel it") {
+    const TriangleMesh mesh = test::torus(48, 32);
+    Options options = within(of_diagonal(0.005));
+    options.threads = 1;  // who waits for other threads asks every few milliseconds, as often as that takes
+    std::vector<double> seen;
+    options.progress = [&](Phase phase, double done) {
+        CHECK(phase == Phase::simplify);
+        seen.push_back(done);
+        return Continue::yes;
+    };
+    simplify(mesh.view(), options);
+    REQUIRE(seen.size() > 4);
+    CHECK(std::is_sorted(seen.begin(), seen.end()));
+    CHECK(seen.front() >= 0);
+    CHECK(seen.back() == 1);
+    for (const std::size_t last : {std::size_t{0}, seen.size() / 2, seen.size() - 2, seen.size() - 1}) {
+        std::size_t calls = 0;
+        options.progress = [&](Phase, double) { return calls++ == last ? Continue::cancel : Continue::yes; };
+        const SimplifyResult result = simplify(mesh.view(), options);
+        CHECK(result.report.stop == StopReason::cancelled);
+        CHECK(!result.report.max_error);
+        CHECK(calls == last + 1);
+    }
+}

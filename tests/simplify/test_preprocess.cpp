@@ -1,0 +1,143 @@
+#include "faqem/detail/simplify/preprocess.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "support/meshes.hpp"
+#include "faqem/error.hpp"
+
+using namespace faqem;
+using detail::Prepared;
+using detail::Settings;
+
+namespace {
+
+constexpr Triangle dead = {no_index, no_index, no_index};
+
+Prepared prepare(const MeshView& mesh, double diagonal = 1, double weld = 0) {
+    Settings settings;
+    settings.diagonal = diagonal;
+    settings.weld_distance = weld;
+    return detail::prepare(mesh, settings);
+}
+
+std::string complaint(const MeshView& mesh) {
+    try {
+        prepare(mesh);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("vertices at one place become one, faces keep their index") {
+    // The two triangles of the square, not sharing vertices.
+    const TriangleMesh mesh = test::make(
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, -0.0}, {-0.0, 1, 0}, {0, 0, 0}}, {{0, 1, 2}, {5, 3, 4}});
+    const Prepared p = prepare(mesh.view());
+    CHECK(p.positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(p.vertex_origin == std::vector<Index>{0, 1, 2, 4});
+    CHECK(p.welded == std::vector<Index>{0, 1, 2, 2, 3, 0});
+    CHECK(p.dropped_faces == 0);
+}
+
+TEST_CASE("within the weld distance a face may lose a corner and is dropped") {
+    const TriangleMesh mesh =
+        test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-7, 0, 0}}, {{0, 1, 2}, {0, 3, 2}});
+    CHECK(prepare(mesh.view()).dropped_faces == 0);
+    const Prepared p = prepare(mesh.view(), 1, 1e-6);
+    CHECK(p.dropped_faces == 1);
+    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead});
+    CHECK(p.positions.size() == 3);
+}
+
+TEST_CASE("doubles of a face are dropped, back-to-back faces and those of other groups are kept") {
+    TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                   {{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}, {1, 1, 2}});
+    const Prepared p = prepare(mesh.view());
+    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead, {0, 2, 1}, dead, dead, dead});
+    CHECK(p.dropped_faces == 4);
+    mesh.face_groups = {0, 1, 0, 1, 0, 0};
+    CHECK(prepare(mesh.view()).triangles ==
+          std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, dead, dead, dead});
+}
+
+TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertices do not count") {
+    TriangleMesh mesh = test::moved(test::scaled(test::quad(), 3), {10, 20, 30});
+    mesh.positions.push_back({-1e6, 1e9, 4});
+    const Prepared p = prepare(mesh.view(), 100);
+    CHECK(p.centre == Vec3{11.5, 21.5, 30});
+    CHECK(p.scale == Approx(100 / std::sqrt(18.0)));
+    const auto q = p.engine_positions();
+    CHECK((q[2] - q[0]).norm() == Approx(100));
+    CHECK((q[2] + q[0]).norm() == Approx(0).margin(1e-12));
+    CHECK(p.to_model(q[2])[0] == Approx(13));
+    CHECK(p.to_model(q[2])[2] == 30);
+}
+
+TEST_CASE("a model without extent, and one near the largest double, have a scale") {
+    const Prepared point = prepare(test::scaled(test::cube(), 0).view());
+    CHECK(point.scale == 1);
+    CHECK(point.dropped_faces == 12);
+    const Prepared huge = prepare(test::moved(test::scaled(test::cube(), 1e308), {5e307, 0, 0}).view());
+    CHECK(huge.centre == Vec3{1e308, 5e307, 5e307});
+    CHECK(huge.scale == Approx(1 / (std::sqrt(3.0) * 1e308)));
+    // The diagonal of the largest box is above the largest double.
+    TriangleMesh largest = test::cube();
+    for (Vec3& p : largest.positions)
+        for (double& x : p)
+            x = x > 0 ? std::numeric_limits<double>::max() : -std::numeric_limits<double>::max();
+    for (const engine::Vector3& p : prepare(largest.view()).engine_positions())
+        CHECK(p.cwiseAbs().maxCoeff() == Approx(0.5 / std::sqrt(3.0)));
+    CHECK(prepare({}).positions.empty());
+}
+
+TEST_CASE("is a triangle too flat to have a normal, at any size?") {
+    using detail::has_no_area;
+    // Squares of lengths leave the range of a double beyond 1e154, their squares beyond 1e77.
+    for (const double s : {1.0, 1e-30, 1e30, 1e-70, 1e70, 1e-100, 1e100, 1e-150, 1e150, 1e-290, 1e290}) {
+        INFO("scale " << s);
+        CHECK_FALSE(has_no_area({0, 0, 0}, {s, 0, 0}, {0, s, 0}));
+        CHECK_FALSE(has_no_area({0, 0, 0}, {s, 0, 0}, {0, 1e-11 * s, 0}));
+        CHECK(has_no_area({0, 0, 0}, {s, 0, 0}, {0, 1e-13 * s, 0}));
+        CHECK(has_no_area({0, 0, 0}, {s, s, s}, {2 * s, 2 * s, 2 * s}));
+    }
+    CHECK(has_no_area({1, 2, 3}, {1, 2, 3}, {1, 2, 3}));
+    CHECK(has_no_area({1, 2, 3}, {1, 2, 3}, {4, 5, 6}));
+}
+
+TEST_CASE("what is wrong with the input is said, with the element") {
+    TriangleMesh mesh = test::quad();
+    CHECK(complaint(mesh.view()) == "accepted");
+    mesh.triangles[1][2] = 4;
+    CHECK(complaint(mesh.view()) == "face 1: vertex index out of range");
+    mesh.triangles[1][2] = no_index;
+    CHECK(complaint(mesh.view()) == "face 1: vertex index out of range");
+    mesh = test::quad();
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        mesh.positions[2][1] = bad;
+        CHECK(complaint(mesh.view()) == "vertex 2: position is not finite");
+    }
+    mesh = test::quad();
+    mesh.face_groups = {0};
+    CHECK(complaint(mesh.view()) == "face_groups: needs one entry per face or none");
+    mesh.face_groups.clear();
+    MeshView view = mesh.view();
+    const std::vector<std::uint8_t> locks(3, 0);
+    view.vertex_locks = locks;
+    CHECK(complaint(view) == "vertex_locks: needs one entry per vertex or none");
+    view.vertex_locks = {};
+    CornerAttributes uv;
+    view.attributes = &uv;
+    CHECK(complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    uv = {std::vector<float>(11), 2};
+    CHECK(complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    uv.values.resize(12);
+    CHECK(complaint(view) == "accepted");
+    uv.values[5] = std::numeric_limits<float>::quiet_NaN();
+    CHECK(complaint(view) == "attributes, corner 2: not finite");
+}

@@ -1,0 +1,277 @@
+// The nastiest shapes we know. Every preset takes them to a tenth: nothing is lost, nothing is left broken.
+
+#include <sys/mman.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/meshes.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/simplify.hpp"
+
+using namespace faqem;
+
+namespace {
+
+Options to_ratio(Preset preset, double share) {
+    Options o;
+    o.preset = preset;
+    o.target = ratio(share);
+    o.topology.weld_distance = 0;  // the paper's is in the model's own unit
+    return o;
+}
+
+/// Finite, faces with three corners in range, the count that was asked for.
+void is_sound(const SimplifyResult& result) {
+    for (const Vec3& p : result.mesh.positions)
+        for (const double x : p) REQUIRE(std::isfinite(x));
+    for (const Triangle& t : result.mesh.triangles) {
+        REQUIRE((t[0] != t[1] && t[1] != t[2] && t[2] != t[0]));
+        for (const Index v : t) REQUIRE(v < result.mesh.positions.size());
+    }
+    CHECK(result.report.faces_out == result.mesh.triangles.size());
+    CHECK((result.report.faces_out <= result.report.target_faces) ==
+          (result.report.stop == StopReason::reached_target));
+}
+
+/// Calls check(result) for every preset.
+template <class Check>
+void every_preset(const TriangleMesh& mesh, double share, Check check) {
+    for (const Preset preset : all_presets) {
+        INFO(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), to_ratio(preset, share));
+        is_sound(result);
+        check(result);
+    }
+}
+
+/// Largest distance between the surfaces as a share of the diagonal.
+double distance(const TriangleMesh& a, const TriangleMesh& b) {
+    CompareOptions options;
+    options.samples = 1000;
+    const Comparison c = compare(a.view(), b.view(), options);
+    return c.hausdorff / c.diagonal;
+}
+
+/// A strip of n by `width` quads, turned by half before its ends are joined.
+TriangleMesh moebius(Index n, Index width) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j <= width; ++j) {
+            const double a = 2 * test::pi * i / n, t = 0.4 * (2.0 * j / width - 1);
+            const double r = 1 + t * std::cos(a / 2);
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), t * std::sin(a / 2)});
+        }
+    const auto at = [&](Index i, Index j) { return i < n ? i * (width + 1) + j : width - j; };
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < width; ++j) {
+            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return mesh;
+}
+
+/// The figure-eight immersion: closed, with one side, and it passes through itself.
+TriangleMesh klein_bottle(Index m, Index n) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < m; ++i)
+        for (Index j = 0; j < n; ++j) {
+            const double u = 2 * test::pi * i / m, v = 2 * test::pi * j / n;
+            const double r = 2 + std::cos(u / 2) * std::sin(v) - std::sin(u / 2) * std::sin(2 * v);
+            mesh.positions.push_back({r * std::cos(u), r * std::sin(u),
+                                      std::sin(u / 2) * std::sin(v) + std::cos(u / 2) * std::sin(2 * v)});
+        }
+    const auto at = [&](Index i, Index j) { return i < m ? i * n + j % n : (n - j % n) % n; };
+    for (Index i = 0; i < m; ++i)
+        for (Index j = 0; j < n; ++j) {
+            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return mesh;
+}
+
+TriangleMesh some_reversed(TriangleMesh mesh, double share, std::uint32_t seed) {
+    test::Random random(seed);
+    for (Triangle& t : mesh.triangles)
+        if (random.unit() < share) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+/// Two curved sheets back to back on the same vertices.
+TriangleMesh blade(Index n) {
+    TriangleMesh sheet = test::grid(n);
+    for (Vec3& p : sheet.positions) p[2] = 0.1 * std::sin(p[0]) * n / 4;
+    TriangleMesh both = sheet;
+    for (const auto [a, b, c] : sheet.triangles) both.triangles.push_back({a, c, b});
+    return both;
+}
+
+double share_of_nonmanifold_edges(const TriangleMesh& mesh) {
+    const test::Edges edges = test::edges(mesh.triangles);
+    const auto many = std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second > 2; });
+    return static_cast<double>(many) / static_cast<double>(edges.size());
+}
+
+}  // namespace
+
+TEST_CASE("nasty: a sheet with a front and a back keeps its shape") {
+    const TriangleMesh mesh = blade(16);
+    every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
+        CHECK(result.report.stop == StopReason::reached_target);
+        const bool holds_outlines = result.report.preset >= Preset::fast;
+        CHECK(distance(mesh, result.mesh) < (holds_outlines ? 0.1 : 0.3));
+    });
+}
+
+TEST_CASE("nasty: a two-sided blade with three faces of ten reversed stays a blade") {
+    const TriangleMesh mesh = some_reversed(blade(16), 0.3, 7);
+    every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
+        CHECK(result.report.stop == StopReason::reached_target);
+        CHECK(distance(mesh, result.mesh) < 0.3);
+    });
+}
+
+TEST_CASE("nasty: a ball of mixed winding, or inside out, stays a ball") {
+    for (const TriangleMesh& mesh :
+         {some_reversed(test::icosphere(3), 0.3, 3), test::inside_out(test::icosphere(3))})
+        every_preset(mesh, 0.1,
+                     [&](const SimplifyResult& result) { CHECK(distance(mesh, result.mesh) < 0.1); });
+}
+
+TEST_CASE("nasty: surfaces with one side keep their topology under the link condition") {
+    for (const TriangleMesh& mesh : {moebius(40, 6), klein_bottle(40, 16)}) {
+        REQUIRE(test::euler(mesh.triangles) == 0);
+        every_preset(mesh, 0.2, [](const SimplifyResult&) {});
+        Options options = to_ratio(Preset::qem, 0.2);
+        options.topology.link = LinkCondition::strict;
+        const SimplifyResult result = simplify(mesh.view(), options);
+        CHECK(result.report.stop == StopReason::reached_target);
+        CHECK(test::euler(result.mesh.triangles) == 0);
+        CHECK(test::closed_manifold(result.mesh.triangles) == test::closed_manifold(mesh.triangles));
+    }
+}
+
+TEST_CASE("nasty: fins and bow-ties are no trap") {
+    TriangleMesh mesh = test::icosphere(2);
+    // A fin on every tenth edge, and a triangle that hangs on every tenth vertex.
+    for (std::size_t f = 0; f < 320; f += 10) {
+        const auto [a, b, c] = mesh.triangles[f];
+        const auto first = static_cast<Index>(mesh.positions.size());
+        for (const double r : {1.2, 1.3, 1.4}) {
+            const Vec3 p = mesh.positions[c];
+            mesh.positions.push_back({r * p[0], r * p[1], r * p[2] + 0.1 * r});
+        }
+        mesh.triangles.push_back({a, b, first});
+        mesh.triangles.push_back({c, first + 1, first + 2});
+    }
+    every_preset(mesh, 0.2, [](const SimplifyResult& result) {
+        CHECK(result.report.stop == StopReason::reached_target);
+    });
+}
+
+TEST_CASE("nasty: with 28 of 100 edges non-manifold the target is met") {
+    const TriangleMesh mesh = test::soup(5, 40, 700);
+    REQUIRE(share_of_nonmanifold_edges(mesh) > 0.28);
+    every_preset(mesh, 0.1, [](const SimplifyResult& result) {
+        CHECK(!result.mesh.triangles.empty());
+        CHECK(result.report.stop == StopReason::reached_target);
+        CHECK(result.mesh.triangles.size() <= 70);
+    });
+}
+
+TEST_CASE("nasty: the target is met with thousands of components") {
+    TriangleMesh mesh;
+    for (int i = 0; i < 2000; ++i) {
+        const double size = 1 + i % 7;
+        mesh = test::both(std::move(mesh), test::moved(test::scaled(test::tetrahedron(), size),
+                                                       {20.0 * (i % 45), 20.0 * (i / 45), 0}));
+    }
+    for (const Preset preset : all_presets) {
+        INFO(name(preset));
+        const SimplifyResult result = simplify(mesh.view(), to_ratio(preset, 0.1));
+        is_sound(result);
+        CHECK(result.report.faces_out <= 800);
+    }
+}
+
+TEST_CASE("nasty: boxes at one place, and boxes that touch, with virtual edges") {
+    TriangleMesh mesh = test::both(test::cube(), test::inside_out(test::cube()));
+    mesh = test::both(mesh, test::moved(test::cube(), {1, 0, 0}));
+    mesh = test::both(mesh, test::moved(test::cube(), {2.001, 0, 0}));
+    for (const Preset preset : all_presets) {
+        for (const Weld weld : {Weld::by_position, Weld::none}) {
+            INFO(name(preset));
+            Options options = to_ratio(preset, 0.3);
+            options.topology.weld = weld;
+            options.topology.virtual_edges = VirtualEdges::on;
+            const SimplifyResult result = simplify(mesh.view(), options);
+            is_sound(result);
+            CHECK(!result.mesh.triangles.empty());
+        }
+    }
+}
+
+TEST_CASE("nasty: one vertex at 1e38 beside others at 1 leaves nothing but finite numbers") {
+    TriangleMesh mesh = test::icosphere(2);
+    mesh.positions[5] = {1e38, -1e38, 1e38};
+    every_preset(mesh, 0.1, [](const SimplifyResult& result) { CHECK(!result.mesh.triangles.empty()); });
+}
+
+TEST_CASE("nasty: faces of no area do no harm") {
+    TriangleMesh mesh = test::shaken(test::grid(12), 0.2, 1);
+    for (Index f = 0; f < 100; f += 7) {
+        // Two needles of area 0 and 1e-16 from corner to corner.
+        const auto [a, b, c] = mesh.triangles[f];
+        const auto middle = static_cast<Index>(mesh.positions.size());
+        const Vec3 p = mesh.positions[a], q = mesh.positions[b];
+        mesh.positions.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+        mesh.positions.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2 + 1e-16});
+        mesh.triangles.push_back({a, b, middle});
+        mesh.triangles.push_back({a, b, middle + 1});
+    }
+    every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
+        // The paper divides by areas: a needle outweighs the faces around it.
+        CHECK(distance(mesh, result.mesh) < (result.report.preset == Preset::paper ? 0.5 : 0.2));
+    });
+    Options options = to_ratio(Preset::paper, 0.1);
+    options.weights.plane_area = 2;
+    is_sound(simplify(mesh.view(), options));
+}
+
+TEST_CASE("nasty: planes that are parallel but for noise send no vertex far away") {
+    // Ten lengths of the tube away, where each collapse was free to take the minimum of its quadric.
+    const TriangleMesh mesh = test::shaken(test::cylinder(10, 10, 10), 0.001, 35);
+    every_preset(mesh, 0.01, [](const SimplifyResult& result) {
+        for (const auto [x, y, z] : result.mesh.positions) {
+            CHECK(std::abs(x) < 3);
+            CHECK(std::abs(y) < 3);
+            CHECK(std::abs(z - 5) < 7);
+        }
+    });
+}
+
+TEST_CASE("nasty: points at one place give an empty mesh, and it is said") {
+    TriangleMesh mesh = test::icosphere(1);
+    for (Vec3& p : mesh.positions) p = {1, 2, 3};
+    every_preset(mesh, 0.1, [](const SimplifyResult& result) {
+        CHECK(result.mesh.triangles.empty());
+        CHECK(result.report.faces_dropped == 80);
+        REQUIRE(!result.report.warnings.empty());
+        CHECK(result.report.warnings.back() == "nothing is left: no face that remained had an area");
+    });
+}
+
+TEST_CASE("meshes too large for 32-bit indices are refused before they are read") {
+    // Only address space is taken: a read would end the test.
+    const std::size_t count = std::size_t{1} << 32, bytes = count * sizeof(Vec3f);
+    void* const memory =
+        ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    MeshView view;
+    view.positions = std::span(static_cast<const Vec3f*>(memory), count);
+    CHECK_THROWS_WITH(simplify(view), "positions: more than 2^32 - 2 vertices");
+    view.positions = {};
+    view.triangles = std::span(static_cast<const Triangle*>(memory), count);
+    CHECK_THROWS_WITH(simplify(view), Catch::StartsWith("triangles: more than "));
+    ::munmap(memory, bytes);
+}

@@ -1,0 +1,170 @@
+#include "faqem/detail/simplify/virtual_edges.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "support/meshes.hpp"
+#include "faqem/engine/mesh/components.hpp"
+
+using namespace faqem;
+using detail::virtual_edges;
+using engine::Vector3;
+
+namespace {
+
+using Edge = std::pair<Index, Index>;
+
+std::vector<Edge> between(const TriangleMesh& mesh, double distance, double least = 1e-8) {
+    return virtual_edges(test::complex_of(mesh), mesh.face_groups, distance, least);
+}
+
+// Two unit squares side by side in one plane, `gap` apart: corners 1, 2 of the first face 4 (0), 7 (3).
+TriangleMesh two_quads(double gap) {
+    return test::both(test::quad(), test::moved(test::quad(), {1 + gap, 0, 0}));
+}
+
+// By definition, over all pairs: the four nearest of other parts, both on borders, agreeing normals, a common
+// group.
+std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least) {
+    const engine::Complex complex = test::complex_of(mesh);
+    std::vector<Index> part(complex.vertex_slots(), no_index);
+    std::vector<Index> rank(complex.vertex_slots(), no_index);  // by part, face and corner: settles ties
+    Index number = 0, next_rank = 0;
+    for (const engine::Component& c : engine::components(complex)) {
+        for (const Index f : c.faces) {
+            for (const Index v : complex.triangle(f)) {
+                if (part[v] == no_index) rank[v] = next_rank++;
+                part[v] = number;
+            }
+        }
+        ++number;
+    }
+    const auto facts = [&](Index v) {
+        std::pair<Vector3, std::set<Index>> result = {Vector3::Zero(), {}};
+        for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            if (!complex.has_corner(f, v)) continue;
+            result.first += complex.area_vector(f);
+            if (!mesh.face_groups.empty()) result.second.insert(mesh.face_groups[f]);
+        }
+        return result;
+    };
+    std::set<Index> border;
+    for (const auto& [edge, faces] : test::edges(mesh.triangles)) {
+        if (faces == 1) border.insert({edge.first, edge.second});
+    }
+    std::set<std::tuple<double, Index, Index>> kept;
+    const std::ptrdiff_t unused = std::count(part.begin(), part.end(), no_index);
+    const std::size_t used = part.size() - static_cast<std::size_t>(unused);
+    for (const Index v : border) {
+        std::set<std::tuple<double, Index, Index>> near;
+        for (Index w = 0; w < part.size(); ++w) {
+            if (part[w] == no_index || part[w] == part[v]) continue;
+            const double squared = (complex.position(v) - complex.position(w)).squaredNorm();
+            if (squared <= distance * distance) near.insert({squared, rank[w], w});
+        }
+        std::size_t taken = 0;
+        for (const auto& [squared, order, w] : near) {
+            static_cast<void>(order);
+            if (++taken > 4) break;
+            const auto a = facts(v), b = facts(w);
+            bool common = mesh.face_groups.empty();
+            for (const Index group : a.second) common = common || b.second.count(group);
+            if (squared >= least * least && common && border.count(w) && a.first.dot(b.first) > 0)
+                kept.insert({squared, std::min(v, w), std::max(v, w)});
+        }
+    }
+    std::set<Edge> result;
+    for (const auto& [squared, a, b] : kept) {
+        if (result.size() < used) result.insert({a, b});
+    }
+    return {result.begin(), result.end()};
+}
+
+}  // namespace
+
+TEST_CASE("near corners of two parts are joined, each with the other's near ones") {
+    CHECK(between(two_quads(0.1), 0.2) == std::vector<Edge>{{1, 4}, {2, 7}});
+    // With the diagonals of the gap: 1-7 and 2-4 are sqrt(1.01) long.
+    CHECK(between(two_quads(0.1), 1.006) == std::vector<Edge>{{1, 4}, {1, 7}, {2, 4}, {2, 7}});
+}
+
+TEST_CASE("the limit of the distance is kept") {
+    CHECK(between(two_quads(0.1), 0.0999).empty());
+    CHECK(between(two_quads(0.25), 0.25) == std::vector<Edge>{{1, 4}, {2, 7}});
+    CHECK(between(two_quads(0.1), 0.2, 0.15).empty());
+}
+
+TEST_CASE("one part has no virtual edges, however near its vertices come") {
+    CHECK(between(test::grid(4), 3).empty());
+    CHECK(between({}, 1).empty());
+}
+
+TEST_CASE("sheets that face opposite ways are not joined") {
+    const TriangleMesh other = test::moved(test::quad(), {0, 0, 0.1});
+    CHECK(between(test::both(test::quad(), other), 0.2).size() == 4);
+    CHECK(between(test::both(test::quad(), test::inside_out(other)), 0.2).empty());
+}
+
+TEST_CASE("parts of different groups are not joined") {
+    TriangleMesh mesh = two_quads(0.1);
+    mesh.face_groups = {0, 0, 1, 1};
+    CHECK(between(mesh, 0.2).empty());
+    // Corner 1 has face 0 only, corner 2 both; 4 has both, 7 has face 3 only.
+    mesh.face_groups = {0, 5, 1, 5};
+    CHECK(between(mesh, 0.2) == std::vector<Edge>{{2, 7}});
+}
+
+TEST_CASE("only borders are joined") {
+    const TriangleMesh cube = test::cube();
+    CHECK(between(test::both(cube, test::moved(cube, {1.1, 0, 0})), 3).empty());
+    CHECK(between(test::both(cube, test::moved(test::quad(), {1.1, 0, 1})), 3).empty());
+    // A corner of the grid in the middle is nearer, but inside it.
+    const TriangleMesh above = test::moved(test::quad(), {0.5, 0.5, 0.1});
+    for (const auto& [a, b] : between(test::both(test::grid(2), above), 3)) {
+        CHECK(a != 4);
+        CHECK(b >= 9);
+    }
+}
+
+TEST_CASE("there are at most as many as vertices, the shortest ones") {
+    // Six parallel sheets, 0.1 apart: up to 4 of the 5 others at each of 24 corners, 24 allowed.
+    TriangleMesh mesh;
+    for (int i = 0; i < 6; ++i) mesh = test::both(mesh, test::moved(test::quad(), {0, 0, 0.1 * i}));
+    const auto found = between(mesh, 0.45);
+    CHECK(found.size() == 24);
+    std::size_t neighbours = 0;
+    for (const auto& [a, b] : found) neighbours += b - a == 4;
+    CHECK(neighbours == 20);
+}
+
+TEST_CASE("unused vertices take no part") {
+    TriangleMesh mesh = two_quads(0.1);
+    mesh.positions.push_back({1.05, 0, 0});
+    CHECK(between(mesh, 0.2) == std::vector<Edge>{{1, 4}, {2, 7}});
+}
+
+TEST_CASE("the tree finds what a search over all pairs finds") {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        test::Random random(seed);
+        TriangleMesh mesh;
+        for (int part = 0; part < 8; ++part) {
+            TriangleMesh patch = test::shaken(test::scaled(test::grid(3), 0.2), 0.05, 10 * seed + part);
+            if (part % 3 == 2) patch = test::inside_out(patch);
+            // On a lattice, so that equal distances occur.
+            mesh = test::both(mesh, test::moved(patch, {0.25 * random.below(4), 0.25 * random.below(4),
+                                                        0.125 * random.below(3)}));
+        }
+        if (seed % 2) {
+            for (Vec3& p : mesh.positions) {
+                for (double& x : p) x = std::round(8 * x) / 8;
+            }
+        }
+        if (seed % 4 == 0) {
+            for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+                mesh.face_groups.push_back(random.below(3));
+        }
+        INFO("seed " << seed);
+        for (const double distance : {0.05, 0.15, 0.5})
+            CHECK(between(mesh, distance) == naive(mesh, distance, 1e-8));
+    }
+}

@@ -1,0 +1,90 @@
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "support/meshes.hpp"
+#include "support/original.hpp"
+#include "step_counts/steps.hpp"
+#include "faqem/engine/engine.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
+
+using namespace faqem;
+using namespace faqem::engine;
+
+namespace {
+
+// A low cone of so many faces around one vertex.
+TriangleMesh cone(Index faces) {
+    TriangleMesh mesh = test::fan(faces);
+    mesh.positions[0][2] = 0.3;
+    return test::shaken(mesh, 0.2 / faces, 1);
+}
+
+// With a part of it gone, the hub is on the border.
+TriangleMesh open_cone(Index faces) {
+    TriangleMesh mesh = cone(faces);
+    mesh.triangles.resize(faces - faces / 4);
+    return mesh;
+}
+
+// Two cones on one rim: each hub has a fold at the other's end of every edge but none at its own.
+TriangleMesh lens(Index faces) {
+    TriangleMesh mesh = cone(faces);
+    const auto other = static_cast<Index>(mesh.positions.size());
+    mesh.positions.push_back({0, 0, -0.3});
+    for (Index f = 0; f < faces; ++f) {
+        const auto [hub, a, b] = mesh.triangles[f];
+        mesh.triangles.push_back({hub == 0 ? other : hub, b, a});
+    }
+    return mesh;
+}
+
+LoopOptions to_a_tenth(const Complex& complex) {
+    LoopOptions loop;
+    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
+    loop.target_faces = complex.face_count() / 10;
+    loop.distance_weight = complex.area() / static_cast<double>(loop.target_faces);
+    return loop;
+}
+
+template <class Metric>
+LoopResult run(Complex& complex, Metric metric) {
+    const LoopOptions loop = to_a_tenth(complex);
+    PairTable pairs(complex, {});
+    Wedges wedges;
+    std::vector<std::uint8_t> free(complex.vertex_slots(), 0);
+    NoRecorder nothing;
+    return Engine<Metric, RoundQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing).run(loop);
+}
+
+// Of simplifying to a tenth, per face.
+double steps_without_memory(const TriangleMesh& mesh) {
+    Complex complex = test::complex_of(mesh);
+    const std::uint64_t before = test::steps();
+    CHECK(run(complex, MemorylessMetric()).stop == StopReason::reached_target);
+    return static_cast<double>(test::steps() - before) / static_cast<double>(mesh.triangles.size());
+}
+
+double steps_tracked(const TriangleMesh& mesh) {
+    Complex complex = test::complex_of(mesh);
+    const test::OriginalOf original(mesh);
+    const LoopOptions loop = to_a_tenth(complex);
+    const std::uint64_t before = test::steps();
+    TrackedMetric metric({}, original.surface, original.lineage, loop.target_faces, loop.distance_weight);
+    const LoopResult result = run(complex, std::move(metric));
+    CHECK(result.stop == StopReason::reached_target);
+    return static_cast<double>(test::steps() - before) / static_cast<double>(mesh.triangles.size());
+}
+
+}  // namespace
+
+TEST_CASE("hubs: four times the faces around one vertex are hardly more work for each of them") {
+    for (const auto& [name, shape] :
+         {std::pair(std::string("cone"), &cone), std::pair(std::string("open cone"), &open_cone),
+          std::pair(std::string("lens"), &lens)}) {
+        INFO(name);
+        CHECK(steps_without_memory(shape(8000)) < 1.5 * steps_without_memory(shape(2000)));
+        CHECK(steps_tracked(shape(8000)) < 1.5 * steps_tracked(shape(2000)));
+    }
+}

@@ -1,0 +1,105 @@
+#pragma once
+/// \file
+/// Meshes as the chart atlas sees them, and an independent look at what it made of them.
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bake/atlas/chart.hpp"
+#include "support/meshes.hpp"
+
+namespace faqem::test {
+
+using Flat = std::array<detail::ChartPoint, 3>;
+
+/// Faces with their neighbours over edges of exactly two faces, wound alike. \param density  texels per
+/// length
+inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, double density) {
+    std::vector<detail::ChartFace> result(mesh.triangles.size());
+    std::map<std::pair<Index, Index>, std::vector<std::pair<Index, std::uint8_t>>> edges;
+    for (Index f = 0; f < result.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        result[f].density = density;
+        for (std::uint8_t c = 0; c < 3; ++c) {
+            result[f].corners[c] = mesh.positions[t[c]];
+            const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
+            edges[{std::min(a, b), std::max(a, b)}].push_back({f, c});
+        }
+    }
+    for (const auto& [edge, sides] : edges) {
+        if (sides.size() != 2 || sides[0].first == sides[1].first) continue;
+        const auto& [f, c] = sides[0];
+        const auto& [g, d] = sides[1];
+        if (mesh.triangles[f][(c + 1) % 3] != mesh.triangles[g][(d + 2) % 3]) continue;
+        result[f].across[c] = {g, d};
+        result[g].across[d] = {f, c};
+    }
+    return result;
+}
+
+/// A band of `around` x `across` quads with half a twist: one side only.
+inline TriangleMesh moebius(Index around, Index across) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < around; ++i) {
+        for (Index j = 0; j <= across; ++j) {
+            const double a = 2 * pi * i / around, v = 0.5 * (double(j) / across - 0.5);
+            const double r = 1 + v * std::cos(a / 2);
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), v * std::sin(a / 2)});
+        }
+    }
+    const auto vertex = [&](Index i, Index j) { return i < around ? i * (across + 1) + j : across - j; };
+    for (Index i = 0; i < around; ++i) {
+        for (Index j = 0; j < across; ++j) {
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    return mesh;
+}
+
+/// Area that two triangles share, by cutting one with the sides of the other (Sutherland and Hodgman 1974).
+inline double shared_area(const Flat& a, const Flat& b) {
+    std::vector<detail::ChartPoint> polygon(a.begin(), a.end());
+    for (std::size_t i = 0; i < 3; ++i) {
+        const detail::ChartPoint p = b[i], q = b[(i + 1) % 3];
+        std::vector<detail::ChartPoint> inside;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const auto &s = polygon[k], &e = polygon[(k + 1) % polygon.size()];
+            const double at_s = detail::turn(p, q, s), at_e = detail::turn(p, q, e);
+            if (at_s >= 0) inside.push_back(s);
+            if ((at_s > 0 && at_e < 0) || (at_s < 0 && at_e > 0)) {
+                inside.push_back(s + (e - s) * (at_s / (at_s - at_e)));
+            }
+        }
+        polygon = std::move(inside);
+    }
+    double twice = 0;
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+        twice += detail::turn(polygon[0], polygon[k - 1], polygon[k]);
+    return twice / 2;
+}
+
+/// The largest share of a triangle that lies under another one. Looks at all pairs.
+inline double worst_overlap(const std::vector<Flat>& triangles) {
+    double worst = 0;
+    const auto box = [](const Flat& t, bool high, bool up) {
+        const auto at = [&](std::size_t i) { return up ? t[i].imag() : t[i].real(); };
+        return high ? std::max({at(0), at(1), at(2)}) : std::min({at(0), at(1), at(2)});
+    };
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+            const Flat &a = triangles[i], &b = triangles[j];
+            if (box(a, true, false) < box(b, false, false) || box(b, true, false) < box(a, false, false))
+                continue;
+            if (box(a, true, true) < box(b, false, true) || box(b, true, true) < box(a, false, true))
+                continue;
+            const double least = std::min(detail::turn(a[0], a[1], a[2]), detail::turn(b[0], b[1], b[2])) / 2;
+            worst = std::max(worst, shared_area(a, b) / least);
+        }
+    }
+    return worst;
+}
+
+}  // namespace faqem::test

@@ -1,0 +1,87 @@
+#pragma once
+// Metrics that a test writes down, and the engine run with them.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "support/meshes.hpp"
+#include "faqem/engine/engine.hpp"
+
+namespace faqem::test {
+
+using namespace engine;
+
+using Ends = std::pair<Index, Index>;
+
+inline Ends ends(Index a, Index b) { return std::minmax(a, b); }
+
+inline std::uint64_t taken(const LoopResult& result, Rung rung) {
+    return result.rungs[static_cast<std::size_t>(rung)];
+}
+inline std::uint64_t refused(const LoopResult& result, Refusal why) {
+    return result.refusals[static_cast<std::size_t>(why)];
+}
+
+// A metric that offers what the test says: a point for each pair of original vertices, cost by order.
+struct Script {
+    std::map<Ends, Vector3> offers;
+
+    void initialise(const Complex&, const PairTable&) {}
+    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
+                                      Freedom freedom) const {
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        const auto at = offers.find(ends(u, v));
+        if (at == offers.end() || freedom == Freedom::nowhere) return std::nullopt;
+        const auto order = static_cast<double>(std::distance(offers.begin(), at));
+        if (freedom == Freedom::at_first) return Candidate{complex.position(u), order};
+        if (freedom == Freedom::at_second) return Candidate{complex.position(v), order};
+        return Candidate{at->second, order};
+    }
+    void collapsing(const Complex&, const PairTable&, Index, Index, const Vector3&) {}
+    void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
+    Staleness staleness(const PairTable::Change&) const { return Staleness::none; }
+};
+
+// A run of the engine over a mesh, with everything that it changed.
+template <class Metric>
+struct Play {
+    Play(const TriangleMesh& mesh, Metric m, const std::vector<Ends>& extra = {})
+        : complex(complex_of(mesh)),
+          pairs(complex, extra),
+          locked(mesh.positions.size(), 0),
+          metric(std::move(m)),
+          recorder(complex) {}
+
+    const LoopResult& run(std::size_t target, const Rules& rules, double tiny = 0,
+                          double distance_weight = 0) {
+        LoopOptions options;
+        options.target_faces = target;
+        options.rules = rules;
+        options.tiny_component = tiny;
+        options.distance_weight = distance_weight;
+        Engine<Metric, HeapQueue, HistoryRecorder> engine(complex, pairs, wedges, locked, metric, recorder);
+        return result = engine.run(options);
+    }
+
+    Complex complex;
+    PairTable pairs;
+    Wedges wedges;
+    std::vector<std::uint8_t> locked;
+    Metric metric;
+    HistoryRecorder recorder;
+    LoopResult result;
+};
+
+// Triangle 0 1 2 stays, vertex 2 is joined with 3; the new point turns it about the x axis.
+inline const TriangleMesh hinge = make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+
+inline Script turn_hinge(double degrees) {
+    const double a = degrees * pi / 180;
+    return {{{{2, 3}, {1, std::cos(a), std::sin(a)}}}};
+}
+
+}  // namespace faqem::test

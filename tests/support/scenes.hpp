@@ -1,0 +1,145 @@
+#pragma once
+/// \file
+/// Small textured scenes, and small parts that equal the source.
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "support/meshes.hpp"
+#include "faqem/bake.hpp"
+#include "support/hand_history.hpp"
+
+namespace faqem::test {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+inline Pixels paint(std::uint32_t width, std::uint32_t height,
+                    const std::function<Rgba(std::uint32_t x, std::uint32_t y)>& color) {
+    Pixels pixels{width, height, {}, false};
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::uint32_t x = 0; x < width; ++x) {
+            for (std::uint8_t c : color(x, y)) pixels.rgba.push_back(c);
+            pixels.has_alpha = pixels.has_alpha || pixels.rgba.back() != 255;
+        }
+    }
+    return pixels;
+}
+
+// A gentle ramp: red rises with x, green with y.
+inline Pixels ramp(std::uint32_t size) {
+    return paint(size, size, [&](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(60 + x * 180 / (size - 1)),
+                    static_cast<std::uint8_t>(60 + y * 180 / (size - 1)), 90, 255};
+    });
+}
+
+inline Index add_texture(Asset& asset, const Pixels& pixels) {
+    asset.images.push_back(encode_png(pixels, "image" + std::to_string(asset.images.size())));
+    return static_cast<Index>(asset.images.size() - 1);
+}
+
+// 3--2   A unit square in z = 0 with v down: vertex 3 has uv (0, 0).
+// | /|
+// 0--1
+inline Part square() {
+    Part part;
+    part.name = "square";
+    part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    part.triangles = {{0, 1, 2}, {0, 2, 3}};
+    part.uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+    part.face_material = {0, 0};
+    return part;
+}
+
+// A sheet of 2 n^2 faces: the point (x, y) of the square [0, n]^2 is at place(x, y).
+inline Part sheet(Index n, const std::function<Vec3(double x, double y)>& place) {
+    const TriangleMesh flat = grid(n);
+    Part part;
+    part.triangles = flat.triangles;
+    for (const Vec3& p : flat.positions) part.positions.push_back(place(p[0], p[1]));
+    return part;
+}
+
+inline Asset textured_square(const Pixels& pixels) {
+    Asset asset;
+    asset.materials.resize(1);
+    asset.materials[0].name = "paint";
+    asset.materials[0].metallic = 0;
+    TextureRef& use = asset.materials[0].base_color_texture;
+    use.image = add_texture(asset, pixels);
+    use.wrap_u = use.wrap_v = Wrap::clamp;
+    asset.parts = {square()};
+    return asset;
+}
+
+/// Small parts without a single collapse. Vertices are not welded.
+inline SmallParts unchanged(const Asset& asset) {
+    SmallParts small;
+    for (const Part& part : asset.parts) {
+        SimplifyResult result;
+        result.history = HandHistory(part.positions, part.triangles).finish();
+        result.mesh = small_mesh(result.history);
+        small.parts.push_back(std::move(result));
+    }
+    return small;
+}
+
+/// The same, corners at equal positions welded as simplify() does.
+inline SmallParts unchanged_welded(const Asset& asset) {
+    Asset welded = asset;
+    for (Part& part : welded.parts) {
+        for (Triangle& t : part.triangles) {
+            for (Index& v : t) {
+                Index first = 0;
+                while (part.positions[first] != part.positions[v]) ++first;
+                v = first;
+            }
+        }
+    }
+    return unchanged(welded);
+}
+
+/// Bilinear reading of an image, 0..255, as a viewer without mipmaps does it.
+inline std::array<double, 4> read(const Pixels& pixels, double u, double v) {
+    const double x = u * pixels.width - 0.5, y = v * pixels.height - 0.5;
+    const double x0 = std::floor(x), y0 = std::floor(y), s = x - x0, t = y - y0;
+    std::array<double, 4> result{};
+    for (int j = 0; j < 2; ++j) {
+        for (int i = 0; i < 2; ++i) {
+            const auto column = static_cast<std::size_t>(std::min(std::max(x0 + i, 0.0), pixels.width - 1.0));
+            const auto row = static_cast<std::size_t>(std::min(std::max(y0 + j, 0.0), pixels.height - 1.0));
+            const double weight = (i ? s : 1 - s) * (j ? t : 1 - t);
+            for (std::size_t k = 0; k < 4; ++k)
+                result[k] += weight * pixels.rgba[4 * (row * pixels.width + column) + k];
+        }
+    }
+    return result;
+}
+
+template <class V>
+auto blend(const std::vector<V>& values, const Triangle& t, const Vec3& w) {
+    std::array<double, std::tuple_size_v<V>> result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < result.size(); ++k) result[k] += w[i] * values[t[i]][k];
+    }
+    return result;
+}
+
+/// What a texture shows at a point of a face of the result.
+inline std::array<double, 4> look(const Part& part, const Pixels& pixels, std::size_t face, const Vec3& w) {
+    const auto uv = blend(part.uvs[0], part.triangles[face], w);
+    return read(pixels, uv[0], uv[1]);
+}
+
+/// Barycentrics over a triangle, borders and corners included.
+inline std::vector<Vec3> spread(int n) {
+    std::vector<Vec3> result;
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j)
+            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
+    }
+    return result;
+}
+
+}  // namespace faqem::test
