@@ -36,8 +36,8 @@ if(FAQEM_BUILD_C OR BUILD_SHARED_LIBS)
     set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}\n The shared libraries.")
     set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
     set(CPACK_COMPONENT_TOOL_DEPENDS runtime)  # for the module of images, if for nothing else
-    set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/asset
-                                                    ${PROJECT_BINARY_DIR}/src/bake ${PROJECT_BINARY_DIR}/src/c)
+    set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/faqem ${PROJECT_BINARY_DIR}/src/asset
+                                                    ${PROJECT_BINARY_DIR}/src/bake ${PROJECT_BINARY_DIR}/src/capi)
 endif()
 
 # Each package has the licence.

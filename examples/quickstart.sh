@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 build=build/release
-faqem=$build/src/tool/faqem
+faqem=$build/bin/faqem
 
 echo "== packages (installed with apt-get; sudo only when not root)"
 cmake/install-packages.sh

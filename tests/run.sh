@@ -2,13 +2,13 @@
 # Builds faqem and runs every test. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
 # CMakePresets.json; default: release. Needs Debian 12 and nothing else: packages are installed first.
 # --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak,
-# fuzzing, examples, the site), and runs each room in one process: under two minutes.
+# fuzzing, examples, the site), and runs each test program in one process: under two minutes.
 set -eu
 cd "$(dirname "$0")/.."
 quick=""
 if [ "${1:-}" = --quick ]; then
     quick="^(package|python|validator|viewer|soak|fuzz|examples)/|^docs/(commands work|the site)"
-    quick="$quick|^(core|counted|asset|bake|tool|openmesh)/"  # rooms/ has these
+    quick="$quick|^(faqem|step_counts|asset|bake|cli|openmesh)/"  # programs/ runs these
     shift
 fi
 preset=${1:-release}

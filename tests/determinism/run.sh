@@ -35,7 +35,7 @@ for model in "$work"/*.glb; do
         first=$(hash "$tool" "$model" 1 "$options")
         for threads in 1 1 2 3 16; do compare "$tool" $threads "$threads threads"; done
         for preset in release debug clang; do
-            other=$root/build/$preset/src/tool/faqem
+            other=$root/build/$preset/bin/faqem
             if [ -x "$other" ] && [ "$other" != "$tool" ]; then compare "$other" 3 "preset $preset"; fi
         done
     done

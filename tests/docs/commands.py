@@ -60,7 +60,7 @@ def main():
             folder = work / f"{page.stem}-{first}"
             shutil.copytree(seeds, folder)
             (folder / ".zfunc").mkdir()
-            for place in ["bin", "build/release/src/tool", "faqem/bin"]:
+            for place in ["bin", "build/release/bin", "faqem/bin"]:
                 (folder / place).mkdir(parents=True)
                 (folder / place / "faqem").symlink_to(tool)
             environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "HOME": str(folder)}

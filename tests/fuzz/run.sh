@@ -12,7 +12,7 @@ build=build/fuzz
 scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # files are written and read again: not on a disk
 trap 'rm -rf "$scratch"' EXIT
 export TMPDIR="$scratch"
-export LSAN_OPTIONS="suppressions=$PWD/tests/lsan-suppressions.txt:print_suppressions=0"
+export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan-suppressions.txt:print_suppressions=0"
 mkdir -p "$build/found"
 for target in "$@"; do
     mkdir -p "$build/corpus/$target"

@@ -7,7 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT INT TERM
 
-"$here/../../python/build_wheel.sh" "$library" "$version" "$work/wheels"
+"$here/../../src/python/build_wheel.sh" "$library" "$version" "$work/wheels"
 "$PYTHON" -m venv --without-pip --system-site-packages "$work/env"
 "$work/env/bin/python" -m pip install --quiet --no-index --no-deps --disable-pip-version-check "$work"/wheels/faqem-*.whl
 cp "$here"/test_*.py "$work"

@@ -24,7 +24,7 @@ REFUSED = (3, 4)  # exit codes: bad input, unsupported input
 
 def run(*words, seconds):
     """Standard output, standard error and the exit code, None where the time was up."""
-    suppressions = pathlib.Path(__file__).resolve().parent.parent / "lsan-suppressions.txt"
+    suppressions = pathlib.Path(__file__).resolve().parent.parent / "support/lsan-suppressions.txt"
     environment = {**os.environ, "LSAN_OPTIONS": f"suppressions={suppressions}:print_suppressions=0"}
     try:
         done = subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=seconds, env=environment,

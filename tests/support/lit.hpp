@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "scenes.hpp"
+#include "support/scenes.hpp"
 
 namespace faqem::test {
 
