@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "faqem/bake.hpp"
+#include <faqem/report_json.hpp>
 
 int main(int argc, char** argv) try {
     if (argc != 4) {

@@ -8,7 +8,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// Counts that describe a mesh's connectivity after welding equal positions.
 struct MeshInfo {
@@ -102,4 +102,9 @@ enum class Within { yes, no, undecided };
 /// \throws InputError   a mesh has no face with area, or an index is out of range
 FAQEM_EXPORT Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads = 0);
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/measure/compare-inl.hpp"
+#include "faqem/detail/measure/mesh_info-inl.hpp"
+#endif

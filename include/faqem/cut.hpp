@@ -12,7 +12,7 @@
 #include "faqem/history.hpp"
 #include "faqem/simplify.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// What a run had at the end of a level that was not its last one.
 struct HistoryLevel {
@@ -71,4 +71,8 @@ FAQEM_EXPORT void write(const ChainHistory& history, std::ostream& out);
 /// \throws InputError naming the section that is wrong
 FAQEM_EXPORT ChainHistory read_chain_history(std::istream& in);
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/history/truncate-inl.hpp"
+#endif

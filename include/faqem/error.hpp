@@ -10,19 +10,19 @@
 namespace faqem {
 
 /// Base of everything faqem throws.
-class FAQEM_EXPORT Error : public std::runtime_error {
+class FAQEM_EXCEPTION Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
 /// An option is out of range or contradicts another. The tool exits with 2.
-class FAQEM_EXPORT OptionError : public Error {
+class FAQEM_EXCEPTION OptionError : public Error {
 public:
     using Error::Error;
 };
 
 /// The input data is wrong. The message reads `file: element: what`. The tool exits with 3.
-class FAQEM_EXPORT InputError : public Error {
+class FAQEM_EXCEPTION InputError : public Error {
 public:
     using Error::Error;
 
@@ -34,19 +34,19 @@ public:
 };
 
 /// The input is valid, but of a kind this build cannot handle (Draco, KTX2 ...). The tool exits with 4.
-class FAQEM_EXPORT UnsupportedError : public InputError {
+class FAQEM_EXCEPTION UnsupportedError : public InputError {
 public:
     using InputError::InputError;
 };
 
 /// A file could not be read. The tool exits with 3.
-class FAQEM_EXPORT ReadError : public InputError {
+class FAQEM_EXCEPTION ReadError : public InputError {
 public:
     using InputError::InputError;
 };
 
 /// A file could not be written. The old file, if any, is untouched. The tool exits with 7.
-class FAQEM_EXPORT WriteError : public Error {
+class FAQEM_EXCEPTION WriteError : public Error {
 public:
     using Error::Error;
 };

@@ -1,12 +1,9 @@
 #pragma once
 /// \file
-/// All doors that need nothing but the standard library. faqem/openmesh.hpp is apart: it needs OpenMesh.
+/// Every public header that needs nothing but the standard library. Separate: faqem/openmesh.hpp, which needs OpenMesh.
+/// In header-only mode, the headers of textured assets and report_json.hpp are left out: they need the libraries.
 
-#include "faqem/asset.hpp"
-#include "faqem/bake.hpp"
-#include "faqem/bake_levels.hpp"
 #include "faqem/compare.hpp"
-#include "faqem/compare_colors.hpp"
 #include "faqem/cut.hpp"
 #include "faqem/error.hpp"
 #include "faqem/forward_map.hpp"
@@ -16,7 +13,15 @@
 #include "faqem/options.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
-#include "faqem/save_levels.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 #include "faqem/version.hpp"
+
+#ifndef FAQEM_HEADER_ONLY
+#include "faqem/asset.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/bake_levels.hpp"
+#include "faqem/compare_colors.hpp"
+#include "faqem/report_json.hpp"
+#include "faqem/save_levels.hpp"
+#endif

@@ -9,7 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// A place on the small mesh.
 struct SmallPoint {
@@ -52,4 +52,8 @@ private:
     std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/forward_map-inl.hpp"
+#endif

@@ -15,7 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// One collapse: versions `first` and `second` became a new one at `position` (model units).
 struct Collapse {
@@ -84,4 +84,8 @@ FAQEM_EXPORT void write(const CollapseHistory& history, std::ostream& out);
 /// \throws InputError naming the section that is wrong
 FAQEM_EXPORT CollapseHistory read_history(std::istream& in);
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/history/history-inl.hpp"
+#endif

@@ -8,7 +8,7 @@
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// What one level is to be: a number of faces (ratio(), faces()), or the smallest mesh found within a
 /// distance of the original (model_units(), of_diagonal()).
@@ -44,4 +44,8 @@ FAQEM_EXPORT std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
                                                           const std::vector<Level>& levels,
                                                           const Options& options = {});
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/lod/levels-inl.hpp"
+#endif

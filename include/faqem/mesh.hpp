@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace faqem {
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
 
 /// Index of a vertex, face or corner. Corner c of face f is 3 * f + c, always computed in 64 bits.
 using Index = std::uint32_t;
@@ -172,4 +174,4 @@ struct TriangleMesh {
     }
 };
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

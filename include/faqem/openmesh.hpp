@@ -12,10 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// Which part of an OpenMesh mesh may change.
 enum class Region {
@@ -218,4 +219,4 @@ Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = 
     return result.report;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

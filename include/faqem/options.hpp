@@ -9,7 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// How many faces are wanted. See ratio() and faces().
 struct Target {
@@ -221,4 +221,8 @@ struct Options {
 /// \throws OptionError naming the member
 FAQEM_EXPORT void validate(const Options& options);
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/options-inl.hpp"
+#endif

@@ -4,7 +4,9 @@
 
 #include <functional>
 
-namespace faqem {
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
 
 /// The phases of the work, in order.
 enum class Phase { load, weld, simplify, map, bake, save };
@@ -18,4 +20,4 @@ enum class Continue { yes, cancel };
 /// An exception thrown by the callback passes through to the caller of faqem.
 using Progress = std::function<Continue(Phase phase, double fraction)>;
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

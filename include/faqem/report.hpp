@@ -13,7 +13,7 @@
 #include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// Why the collapses ended.
 enum class StopReason {
@@ -117,7 +117,8 @@ FAQEM_EXPORT std::string_view name(Rung rung);
 /// Finds a preset by the name that name() gives. \throws OptionError if there is none
 FAQEM_EXPORT Preset preset_named(std::string_view text);
 
-/// The report as JSON, with the keys documented in docs/cli.md and the process's peak memory.
-FAQEM_EXPORT std::string to_json(const Report& report);
+FAQEM_NAMESPACE_END
 
-}  // namespace faqem
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/report-inl.hpp"
+#endif

@@ -10,7 +10,7 @@
 #include "faqem/options.hpp"
 #include "faqem/report.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// What simplify() gives back. Owns everything.
 struct SimplifyResult {
@@ -35,4 +35,8 @@ struct SimplifyResult {
 /// target up to 12 such runs, each from the original and measured; `progress` goes over all of them.
 FAQEM_EXPORT SimplifyResult simplify(const MeshView& mesh, const Options& options = {});
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/simplify-inl.hpp"
+#endif

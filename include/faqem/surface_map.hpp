@@ -9,7 +9,7 @@
 #include "faqem/history.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 class SurfaceMap;
 
@@ -73,4 +73,8 @@ private:
     std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/surface_map-inl.hpp"
+#endif

@@ -6,7 +6,7 @@
 
 #include "faqem/export.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 /// The version of these headers, as https://semver.org counts. What each number promises is in CHANGELOG.md.
 inline constexpr int version_major = 0;
@@ -16,4 +16,8 @@ inline constexpr int version_patch = 0;
 /// "MAJOR.MINOR.PATCH" of the library that runs: with a shared one it may be newer than the headers.
 FAQEM_EXPORT std::string_view version();
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/base/version-inl.hpp"
+#endif

@@ -6,7 +6,7 @@
 
 #include "faqem/faqem.h"
 #include "faqem/options.hpp"
-#include "faqem/report.hpp"
+#include "faqem/report_json.hpp"
 
 struct faqem_options {
     faqem::Options options;

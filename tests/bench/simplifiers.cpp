@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "faqem/error.hpp"
-#include "faqem/report.hpp"
+#include "faqem/report_json.hpp"
 #include "faqem/simplify.hpp"
 
 namespace faqem::bench {

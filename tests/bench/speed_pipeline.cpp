@@ -2,7 +2,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/report.hpp"
+#include "faqem/report_json.hpp"
 #include "speed.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 

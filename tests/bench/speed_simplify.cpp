@@ -11,7 +11,7 @@
 #include "allocations.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
-#include "faqem/report.hpp"
+#include "faqem/report_json.hpp"
 #include "faqem/simplify.hpp"
 #include "isosurface.hpp"
 #include "simplifier.hpp"

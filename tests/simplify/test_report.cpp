@@ -1,4 +1,4 @@
-#include "faqem/report.hpp"
+#include "faqem/report_json.hpp"
 
 #include <catch2/catch.hpp>
 #include <clocale>

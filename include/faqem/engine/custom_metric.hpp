@@ -8,9 +8,11 @@
 #include <span>
 #include <utility>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A user's say in each collapse: gets what the metric below found, and gives back the same, another point or
 /// another cost (a placement, a term), or nothing (a veto).
@@ -67,4 +69,5 @@ private:
     Adjust adjust_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

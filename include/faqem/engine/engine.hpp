@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/constraints/boundary_loops.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/components.hpp"
@@ -36,7 +37,8 @@
 #include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/report.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Collapses pairs of one complex. run() is called once, go_on() as often as wanted.
 /// \tparam Metric    what a collapse costs and where it goes
@@ -431,4 +433,5 @@ private:
     std::vector<PairTable::Change> changes_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -4,10 +4,12 @@
 
 #include <utility>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/report.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Whether the curves between groups are to be kept.
 enum class Groups { free, kept };
@@ -45,4 +47,5 @@ inline bool relax(Rules& rules, Rung rung, Groups groups) {
     return false;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

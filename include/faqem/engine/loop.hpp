@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <functional>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// What the loop does where no collapse is legal above the target.
 enum class Ladder {
@@ -47,4 +49,5 @@ struct LoopResult {
     std::uint64_t components_deleted = 0;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

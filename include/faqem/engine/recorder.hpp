@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/history.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 template <class R>
 concept CollapseRecorder = requires(R recorder, const Complex& complex, Index survivor, Index gone,
@@ -111,4 +113,5 @@ private:
 
 static_assert(CollapseRecorder<NoRecorder> && CollapseRecorder<HistoryRecorder>);
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

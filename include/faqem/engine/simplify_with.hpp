@@ -7,11 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// What simplify_with() gives back.
 struct CustomResult {
@@ -101,4 +103,5 @@ CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOption
     return result;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

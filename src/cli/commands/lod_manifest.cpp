@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include "faqem/report_json.hpp"
 
 namespace faqem::tool {
 

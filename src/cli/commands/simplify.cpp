@@ -23,6 +23,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/simplify_model.hpp"
+#include "faqem/report_json.hpp"
 
 namespace faqem::tool {
 

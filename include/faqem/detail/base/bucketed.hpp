@@ -7,7 +7,10 @@
 #include <span>
 #include <vector>
 
-namespace faqem::detail {
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Items in buckets; those of one bucket lie together, in the order in which they came.
 template <class Item>
@@ -36,4 +39,5 @@ private:
     std::vector<Item> items_;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Every third bit of the result is one of x, from the lowest on. \param x  below 2^21
 constexpr std::uint64_t spread_bits(std::uint64_t x) {
@@ -31,4 +33,5 @@ std::uint64_t morton(const engine::Vector3& unit) {
     return cell(unit.x()) << 2 | cell(unit.y()) << 1 | cell(unit.z());
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

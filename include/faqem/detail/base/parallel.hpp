@@ -16,9 +16,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Poll;
 
@@ -149,4 +151,5 @@ void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers
     queue.rethrow();
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

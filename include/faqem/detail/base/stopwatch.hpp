@@ -4,7 +4,10 @@
 
 #include <chrono>
 
-namespace faqem::detail {
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Wall-clock seconds since it was made.
 class Stopwatch {
@@ -17,4 +20,5 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

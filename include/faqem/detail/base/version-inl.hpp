@@ -1,7 +1,15 @@
+#pragma once
+
+#include <string>
+
 #include "faqem/version.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-std::string_view version() { return FAQEM_VERSION; }
+FAQEM_INLINE std::string_view version() {
+    static const std::string text = std::to_string(version_major) + "." + std::to_string(version_minor) + "." +
+                                    std::to_string(version_patch);
+    return text;
+}
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 
 #include <algorithm>
@@ -6,27 +9,26 @@
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
 /// So many points go together; the first of them is looked for without knowing one before it.
-constexpr std::size_t block = 1024;
+inline constexpr std::size_t block = 1024;
 /// Cosine. Inside of a face that looks about the same way another one that is as near would lie upon it, and
 /// have the same normal.
-constexpr double surely_alone = 0.5;
+inline constexpr double surely_alone = 0.5;
 
 /// Weight of a corner: a point with less of it lies on the side across, but for rounding.
-constexpr double at_side = 1e-9;
-constexpr std::uint8_t inside = 3;
+inline constexpr double at_side = 1e-9;
+inline constexpr std::uint8_t inside = 3;
 /// Share of the squared distance: what is nearer by less is so by chance.
-constexpr double nearer_by = 1 - 1e-12;
+inline constexpr double nearer_by = 1 - 1e-12;
 
 /// The point of a mesh closest to p.
 /// \param near  a face that is thought to be near, or no_index
-Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index near) {
+inline Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index near) {
     if (near == no_index) return tree.closest(engine::to_array(p));
     const Triangle& t = mesh.triangles[near];
     return tree.closest_from(engine::to_array(p), near, mesh.positions[t[0]], mesh.positions[t[1]],
@@ -34,7 +36,7 @@ Bvh::Hit nearest(const Bvh& tree, const Patchwork& mesh, const Vector3& p, Index
 }
 
 /// The corner nearest to a point of a face, or `inside` where the point is on no side.
-std::uint8_t corner_by(const Vec3& weight) {
+inline std::uint8_t corner_by(const Vec3& weight) {
     if (std::ranges::min(weight) > at_side) return inside;
     return static_cast<std::uint8_t>(std::ranges::max_element(weight) - weight.begin());
 }
@@ -42,7 +44,7 @@ std::uint8_t corner_by(const Vec3& weight) {
 /// The point of a mesh closest to p among the faces one comes by from `last`: on to the best of those around
 /// the corner nearest to the closest point, while the distance falls.
 /// \param corner  corner_by() of the point on `last` where one starts
-Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p, Index last,
+inline Bvh::Hit walk(const FacesAround& around, const Patchwork& mesh, const Vector3& p, Index last,
               std::uint8_t corner) {
     const auto closest_on = [&](Index face) {
         const Triangle& t = mesh.triangles[face];
@@ -87,7 +89,7 @@ void search_farthest_of(std::span<const double> squared, double share, Workers w
 }
 
 /// Of each triangle: has it a corner that is not where it was? All of them where nothing was before.
-std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, std::span<const Vector3> from,
+inline std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, std::span<const Vector3> from,
                                           std::span<const Vector3> to, Poll poll) {
     std::vector<std::uint8_t> moved(triangles.size(), 0);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -98,9 +100,7 @@ std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles, s
     return moved;
 }
 
-}  // namespace
-
-void GapsThere::move_to(std::span<const Vector3> positions, Workers workers) {
+FAQEM_INLINE void GapsThere::move_to(std::span<const Vector3> positions, Workers workers) {
     const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions, workers.poll);
     positions_.assign(positions.begin(), positions.end());
     parallel_blocks(spots_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
@@ -117,19 +117,19 @@ void GapsThere::move_to(std::span<const Vector3> positions, Workers workers) {
     });
 }
 
-void GapsThere::search_farthest(double share, Workers workers) {
+FAQEM_INLINE void GapsThere::search_farthest(double share, Workers workers) {
     search_farthest_of(
         squared_, share, workers, [&](std::size_t i) { return gaps_[i].is_found; },
         [&](std::size_t i) { search(i, gaps_[i].face); });
 }
 
-void GapsThere::search(std::size_t i, Index near) {
+FAQEM_INLINE void GapsThere::search(std::size_t i, Index near) {
     const Vector3 p = spots_[i].on(positions_, triangles_);
     set(i, p, nearest(original_.tree, original_.mesh, p, near));
     gaps_[i].is_found = true;
 }
 
-void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spot> spots) {
+FAQEM_INLINE void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spot> spots) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < spots_.size(); ++i) {
         if (faces[spots_[i].face]) continue;
@@ -145,18 +145,18 @@ void GapsThere::replace(std::span<const std::uint8_t> faces, std::span<const Spo
     squared_.resize(spots_.size());
 }
 
-void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
+FAQEM_INLINE void GapsThere::set(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
     gaps_[i] = {engine::to_eigen(hit.point) - p, hit.face, corner_by(hit.barycentric)};
     squared_[i] = gaps_[i].gap.squaredNorm();
 }
 
-Vector3 GapsThere::normal(std::size_t i) const {
+FAQEM_INLINE Vector3 GapsThere::normal(std::size_t i) const {
     return area_vector(positions_, triangles_[spots_[i].face]).normalized();
 }
 
-Pull GapsThere::pull(std::size_t i) const { return {spots_[i], gaps_[i].gap, normal(i)}; }
+FAQEM_INLINE Pull GapsThere::pull(std::size_t i) const { return {spots_[i], gaps_[i].gap, normal(i)}; }
 
-void GapsThere::measure_turns(double tolerance, Workers workers) {
+FAQEM_INLINE void GapsThere::measure_turns(double tolerance, Workers workers) {
     parallel_blocks(spots_.size(), block, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Gap& gap = gaps_[i];
@@ -176,7 +176,7 @@ void GapsThere::measure_turns(double tolerance, Workers workers) {
     });
 }
 
-void GapsBack::move_to(std::span<const Vector3> positions, Workers workers,
+FAQEM_INLINE void GapsBack::move_to(std::span<const Vector3> positions, Workers workers,
                        std::span<const std::uint8_t> swapped) {
     if (positions_.empty()) return start_at(positions, workers);
     std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions, workers.poll);
@@ -203,7 +203,7 @@ void GapsBack::move_to(std::span<const Vector3> positions, Workers workers,
     });
 }
 
-void GapsBack::start_at(std::span<const Vector3> positions, Workers workers) {
+FAQEM_INLINE void GapsBack::start_at(std::span<const Vector3> positions, Workers workers) {
     around_ = faces_around(positions.size(), triangles_, workers.poll);
     positions_.assign(positions.begin(), positions.end());
     tree_.emplace(positions_, triangles_, workers.poll);
@@ -212,21 +212,22 @@ void GapsBack::start_at(std::span<const Vector3> positions, Workers workers) {
     });
 }
 
-void GapsBack::search_farthest(double share, Workers workers) {
+FAQEM_INLINE void GapsBack::search_farthest(double share, Workers workers) {
     if (std::exchange(tree_is_behind_, false)) tree_->refit(positions_, triangles_, workers.poll);
     search_farthest_of(
         squared_, share, workers, [&](std::size_t i) { return gaps_[i].is_found; },
         [&](std::size_t i) { search(i, gaps_[i].spot.face); });
 }
 
-void GapsBack::search(std::size_t i, Index near) {
+FAQEM_INLINE void GapsBack::search(std::size_t i, Index near) {
     set(i, nearest(*tree_, {positions_, triangles_}, points_[i].position, near));
     gaps_[i].is_found = true;
 }
 
-void GapsBack::set(std::size_t i, const Bvh::Hit& hit) {
+FAQEM_INLINE void GapsBack::set(std::size_t i, const Bvh::Hit& hit) {
     gaps_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point), false};
     squared_[i] = gaps_[i].gap.squaredNorm();
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

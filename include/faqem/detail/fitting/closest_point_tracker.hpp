@@ -10,13 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A surface that stays, with what is asked of it again and again. Refers to its arguments.
 struct StillSurface {
@@ -150,4 +152,9 @@ private:
     bool tree_is_behind_ = false;  ///< the triangles have moved since
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/closest_point_tracker-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 
 #include <algorithm>
@@ -11,22 +14,21 @@
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
 /// As much of the sum must be left at most.
-constexpr double least_gain = 0.98;
+inline constexpr double least_gain = 0.98;
 /// The farthest point of the quadrilateral may come this near to the farthest of all, as a share of squares.
-constexpr double far_share = 0.5;
+inline constexpr double far_share = 0.5;
 /// Of the area of the quadrilateral that each new face must have.
-constexpr double least_area = 1e-3;
+inline constexpr double least_area = 1e-3;
 /// Cosines: of new faces to the mean of the old ones, between the new faces, and to the faces around.
-constexpr double least_turn = 0.2, least_bend = -0.2, least_fold = -0.9;
+inline constexpr double min_flip_normal_cosine = 0.2, min_flip_dihedral_cosine = -0.2, min_flip_fold_cosine = -0.9;
 /// Barycentric weights of points that are spread over a face.
-constexpr std::array<Vec3, 10> pattern = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+inline constexpr std::array<Vec3, 10> pattern = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                            {0.2, 0.6, 0.2},
                                            {0.2, 0.2, 0.6},
                                            {0.6, 0.2, 0.2},
@@ -144,10 +146,10 @@ private:
         const Vector3 s = area_vector(q.first_swapped()), t = area_vector(q.second_swapped());
         const double before = area_vector(q.first()).norm() + area_vector(q.second()).norm();
         for (const Vector3& n : {s, t}) {
-            if (!(n.norm() > least_area * before) || !(n.dot(old) > least_turn * n.norm() * old.norm()))
+            if (!(n.norm() > least_area * before) || !(n.dot(old) > min_flip_normal_cosine * n.norm() * old.norm()))
                 return false;
         }
-        if (!(s.dot(t) > least_bend * s.norm() * t.norm())) return false;
+        if (!(s.dot(t) > min_flip_dihedral_cosine * s.norm() * t.norm())) return false;
         return !folds(q.c, q.a, s) && !folds(q.a, q.d, s) && !folds(q.d, q.b, t) && !folds(q.b, q.c, t);
     }
 
@@ -156,7 +158,7 @@ private:
         bool any = false;
         for_each_face_on(v, w, [&](const Side& side) {
             const Vector3 n = area_vector(light_.triangles[side.face]);
-            any |= n.dot(area) < least_fold * n.norm() * area.norm();
+            any |= n.dot(area) < min_flip_fold_cosine * n.norm() * area.norm();
         });
         return any;
     }
@@ -281,11 +283,10 @@ private:
     std::vector<Error> from_face_;  // of faces of candidates
 };
 
-}  // namespace
-
-std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
+FAQEM_INLINE std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
                                    const GapsBack& corners, double area, Workers workers) {
     return EdgeSearch(light, original, even, corners, area, workers)();
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

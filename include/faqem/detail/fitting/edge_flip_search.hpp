@@ -7,9 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A light mesh on its way to the original. Borrows.
 struct LightMesh {
@@ -38,4 +40,9 @@ using EdgeSwap = std::array<Index, 2>;
 std::vector<EdgeSwap> better_edges(const LightMesh& light, const StillSurface& original, const GapsBack& even,
                                    const GapsBack& corners, double area, Workers workers);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/edge_flip_search-inl.hpp"
+#endif

@@ -1,10 +1,14 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/fold_guard.hpp"
 
 #include "faqem/detail/geometry/halfedges.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-FoldGuard::FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll)
+FAQEM_INLINE FoldGuard::FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll)
     : triangles_(mesh.triangles), least_fold_(least_fold) {
     const std::vector<engine::Vector3> normals = unit_normals(mesh, poll);
     for_each_edge(sorted_sides(triangles_, poll), [&](std::span<const Side> on) {
@@ -15,4 +19,5 @@ FoldGuard::FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll
     });
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

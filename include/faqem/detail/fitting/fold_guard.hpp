@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The edges between two faces of a mesh that are no folds: the faces do not look away from each other,
 /// as seen from the side that the winding of the first one gives.
@@ -48,4 +50,9 @@ private:
     std::vector<Edge> edges_;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/fold_guard-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
 
 #include <Eigen/LU>
@@ -7,23 +10,22 @@
 #include "faqem/detail/base/bucketed.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 using Matrix3 = Eigen::Matrix3d;
 
-constexpr double along_normal = 0.9;
+inline constexpr double along_normal = 0.9;
 /// Distances below this share of the mean weigh as if they were that: what fits holds the vertex too.
-constexpr double least_distance = 0.1;
+inline constexpr double least_distance = 0.1;
 /// Share of its own weight by which a vertex is held.
-constexpr double damping = 0.02;
+inline constexpr double damping = 0.02;
 /// The same, as a share of the mean weight: for vertices that hardly a pull tells about.
-constexpr double mean_damping = 2e-4;
+inline constexpr double mean_damping = 2e-4;
 /// Of conjugate gradients: at most so many iterations, until the residual is this share of the right side.
-constexpr int most_iterations = 60;
-constexpr double least_residual = 1e-3;
+inline constexpr int most_iterations = 60;
+inline constexpr double least_residual = 1e-3;
 
 /// A symmetric matrix.
 struct Symmetric3 {
@@ -46,7 +48,7 @@ struct Symmetric3 {
 };
 
 /// Of one pull: how much its gap counts in each direction.
-Symmetric3 metric_along(const Vector3& n, double weight) {
+inline Symmetric3 metric_along(const Vector3& n, double weight) {
     const double a = weight * along_normal, b = weight * (1 - along_normal);
     return {a * n[0] * n[0] + b, a * n[0] * n[1], a * n[0] * n[2],
             a * n[1] * n[1] + b, a * n[1] * n[2], a * n[2] * n[2] + b};
@@ -60,9 +62,9 @@ struct FaceSystem {
 };
 
 /// Of the power asked for most std::pow took 5% of all the time of `best`.
-double raised(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
+inline double raised(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
 
-void add(const Pull& pull, double weight, FaceSystem& face) {
+inline void add(const Pull& pull, double weight, FaceSystem& face) {
     const Symmetric3 metric = metric_along(pull.normal, weight);
     const Vector3 wanted = metric * pull.gap;
     const Vec3& share = pull.spot.weight;
@@ -73,7 +75,7 @@ void add(const Pull& pull, double weight, FaceSystem& face) {
     }
 }
 
-std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power,
+inline std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power,
                                      Workers workers) {
     double mean = 0;
     for (const Pull& pull : pulls) {
@@ -175,15 +177,13 @@ private:
     Poll poll_;
 };
 
-double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
+inline double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
     double sum = 0;
     for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
     return sum;
 }
 
-}  // namespace
-
-std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
+FAQEM_INLINE std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
                                   std::span<const std::uint8_t> fixed, double power, Workers workers) {
     const System system(triangles, pulls, fixed, power, workers);
     const std::size_t size = fixed.size();
@@ -208,4 +208,5 @@ std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span
     return x;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

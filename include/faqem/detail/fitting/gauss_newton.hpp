@@ -7,12 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A point of the mesh, and where another surface wants it.
 struct Pull {
@@ -33,4 +35,9 @@ struct Pull {
 std::vector<engine::Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
                                           std::span<const std::uint8_t> fixed, double power, Workers workers);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/gauss_newton-inl.hpp"
+#endif

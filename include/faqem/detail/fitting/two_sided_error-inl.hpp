@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/two_sided_error.hpp"
 
 #include <algorithm>
@@ -8,29 +11,28 @@
 
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
-constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
+inline constexpr std::size_t points_per_face = 10, least_points = 5000, most_points = 2'000'000;
 /// The original has more that could be missed: so many times as many points there.
-constexpr std::size_t more_back = 2;
+inline constexpr std::size_t more_back = 2;
 /// Distances beyond this share of the longest are searched for, the others are followed.
-constexpr double far_share = 0.9;
+inline constexpr double sample_far_share = 0.9;
 /// Where the original has so many times as many faces or more, what is followed gets lost more often. All are
 /// searched for there, as long as the points are the fewest there are: that costs little.
-constexpr std::size_t coarse = 33;
+inline constexpr std::size_t coarse = 33;
 /// Added to each point's distance between the normals: a fraction of a degree does not matter.
-constexpr double least_turn_counted = 0.005;
+inline constexpr double least_turn_counted = 0.005;
 /// Original faces whose distances differ by less are tied.
-constexpr double tie_tolerance = 1e-9;
+inline constexpr double tie_tolerance = 1e-9;
 
 /// The original's vertices: the last of the kinds of gaps.
-constexpr std::size_t corner_kind = 3;
+inline constexpr std::size_t corner_kind = 3;
 
-std::size_t face_count(std::span<const Triangle> triangles) {
+inline std::size_t face_count(std::span<const Triangle> triangles) {
     return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
                                                   [](const Triangle& t) { return t[0] != no_index; }));
 }
@@ -42,9 +44,7 @@ void move(Gaps& gaps, std::span<const Vector3> positions, double searched_share,
     if (searched_share < 1) gaps.search_farthest(searched_share, workers);
 }
 
-}  // namespace
-
-double area(const Patchwork& mesh) {
+FAQEM_INLINE double area(const Patchwork& mesh) {
     double twice = 0;
     for (const Triangle& t : mesh.triangles) {
         if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
@@ -52,7 +52,7 @@ double area(const Patchwork& mesh) {
     return twice / 2;
 }
 
-TwoSidedGaps::TwoSidedGaps(const StillSurface& original, std::span<const Triangle> triangles,
+FAQEM_INLINE TwoSidedGaps::TwoSidedGaps(const StillSurface& original, std::span<const Triangle> triangles,
                            std::span<const Vector3> positions, Workers workers)
     : original_(original),
       triangles_(triangles),
@@ -64,11 +64,11 @@ TwoSidedGaps::TwoSidedGaps(const StillSurface& original, std::span<const Triangl
       back_(even_points(), triangles),
       corners_(oriented_vertices(original.mesh, workers.poll), triangles) {}
 
-std::size_t TwoSidedGaps::point_count() const {
+FAQEM_INLINE std::size_t TwoSidedGaps::point_count() const {
     return std::clamp(points_per_face * faces_, least_points, most_points);
 }
 
-std::vector<OrientedPoint> TwoSidedGaps::even_points() const {
+FAQEM_INLINE std::vector<OrientedPoint> TwoSidedGaps::even_points() const {
     const Patchwork& mesh = original_.mesh;
     std::vector<OrientedPoint> points;
     for (const Spot& spot : evenly_spread(mesh, more_back * point_count(), workers_.poll)) {
@@ -94,24 +94,24 @@ void TwoSidedGaps::side_by_side(Visit&& visit) {
     });
 }
 
-void TwoSidedGaps::measure_pulls(std::span<const Vector3> positions) {
+FAQEM_INLINE void TwoSidedGaps::measure_pulls(std::span<const Vector3> positions) {
     for_each_kind([&](auto& gaps, std::size_t kind) {
         if (kind != corner_kind) move(gaps, positions, is_coarse_ ? 0 : 1, workers_);
     });
 }
 
-std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions) {
+FAQEM_INLINE std::vector<Fit> TwoSidedGaps::measure(std::span<const Vector3> positions) {
     for_each_kind(
-        [&](auto& gaps, std::size_t) { move(gaps, positions, is_coarse_ ? 0 : far_share, workers_); });
+        [&](auto& gaps, std::size_t) { move(gaps, positions, is_coarse_ ? 0 : sample_far_share, workers_); });
     return fits();
 }
 
-std::vector<Fit> TwoSidedGaps::measure_again(std::span<const Vector3> positions) {
-    side_by_side([&](auto& gaps, std::size_t, Poll poll) { move(gaps, positions, far_share, {1, poll}); });
+FAQEM_INLINE std::vector<Fit> TwoSidedGaps::measure_again(std::span<const Vector3> positions) {
+    side_by_side([&](auto& gaps, std::size_t, Poll poll) { move(gaps, positions, sample_far_share, {1, poll}); });
     return fits();
 }
 
-std::vector<Fit> TwoSidedGaps::fits() {
+FAQEM_INLINE std::vector<Fit> TwoSidedGaps::fits() {
     for (GapsThere* there : {&there_, &*ends_}) there->measure_turns(tie_tolerance, workers_);
     std::array<std::vector<Fit>, 4> of_kind;
     side_by_side([&](const auto& gaps, std::size_t kind, Poll poll) {
@@ -130,7 +130,7 @@ std::vector<Fit> TwoSidedGaps::fits() {
     return std::move(of_kind[0]);
 }
 
-std::span<const Pull> TwoSidedGaps::pulls() {
+FAQEM_INLINE std::span<const Pull> TwoSidedGaps::pulls() {
     const std::size_t count = there_.size() + ends_->size() + back_.size();
     if (count > pulls_.capacity()) {
         std::vector<Pull>().swap(pulls_);    // they need not be copied,
@@ -148,7 +148,7 @@ std::span<const Pull> TwoSidedGaps::pulls() {
     return pulls_;
 }
 
-std::vector<Pull> TwoSidedGaps::pulls_at(std::span<const std::uint8_t> faces) const {
+FAQEM_INLINE std::vector<Pull> TwoSidedGaps::pulls_at(std::span<const std::uint8_t> faces) const {
     std::vector<Pull> all;
     const auto add = [&](const auto& gaps) {
         for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -160,7 +160,7 @@ std::vector<Pull> TwoSidedGaps::pulls_at(std::span<const std::uint8_t> faces) co
     return all;
 }
 
-void TwoSidedGaps::swap(std::span<const Vector3> positions, std::span<const std::uint8_t> swapped) {
+FAQEM_INLINE void TwoSidedGaps::swap(std::span<const Vector3> positions, std::span<const std::uint8_t> swapped) {
     std::vector<Triangle> those(triangles_.begin(), triangles_.end());
     for (std::size_t f = 0; f < those.size(); ++f) {
         if (!swapped[f]) those[f].fill(no_index);
@@ -174,4 +174,5 @@ void TwoSidedGaps::swap(std::span<const Vector3> positions, std::span<const std:
     corners_.move_to(positions, workers_, swapped);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

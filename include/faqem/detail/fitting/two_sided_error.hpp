@@ -8,11 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// How well faces fit.
 struct Fit {
@@ -89,4 +91,9 @@ private:
     std::vector<Pull> pulls_;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/two_sided_error-inl.hpp"
+#endif

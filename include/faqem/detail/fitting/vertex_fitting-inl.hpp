@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/vertex_fitting.hpp"
 
 #include <algorithm>
@@ -13,35 +16,34 @@
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/detail/fitting/two_sided_error.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
 /// Times that edges are swapped, with fewer steps after each.
-constexpr int swaps = 2;
-constexpr int first_steps = 4, later_steps = 2;
+inline constexpr int swaps = 2;
+inline constexpr int first_steps = 4, later_steps = 2;
 /// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
-constexpr double power = 0.5;
+inline constexpr double power = 0.5;
 /// Points that end farther away than this share of the farthest at the start go back.
-constexpr double put_back_from = 0.9;
+inline constexpr double put_back_from = 0.9;
 /// A face may not shrink below this share of its area.
-constexpr double least_area = 0.05;
+inline constexpr double min_fitted_area = 0.05;
 /// The relaxation may not fold the surface at an edge: cosine between the normals.
-constexpr double least_fold = -0.9;
+inline constexpr double min_fitted_fold = -0.9;
 /// Times that a step is halved where faces turn too far, before it is left out there.
-constexpr int halvings = 6;
+inline constexpr int halvings = 6;
 /// Times that far points are put back before all of them are.
-constexpr int most_rounds = 6;
+inline constexpr int most_rounds = 6;
 /// Times that the farthest points are drawn in; they are those beyond this share of the farthest one; the
 /// power of their distance by which they count; the squared distance that counts as nearer; and how much of a
 /// factor gained there the sums may lose, as a power of it.
-constexpr int most_draws = 40;
-constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange = 0.15;
+inline constexpr int most_draws = 40;
+inline constexpr double draw_from = 0.9, draw_power = 4, least_draw = 0.998, exchange = 0.15;
 
 /// Vertices on edges with one face.
-std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices, Poll poll) {
+inline std::vector<std::uint8_t> on_border(std::span<const Triangle> triangles, std::size_t vertices, Poll poll) {
     std::vector<std::uint8_t> border(vertices, 0);
     for_each_edge(sorted_sides(triangles, poll), [&](std::span<const Side> on) {
         if (on.size() == 1) border[on[0].low] = border[on[0].high] = 1;
@@ -66,7 +68,7 @@ public:
     /// Moves the vertices, by steps on all of them.
     void settle(int steps) {
         start_ = positions_;
-        guard_.emplace(Patchwork{start_, triangles_}, least_fold, workers_.poll);
+        guard_.emplace(Patchwork{start_, triangles_}, min_fitted_fold, workers_.poll);
         if (gaps_.empty()) return;
         fits_ = gaps_.measure(positions_);
         const std::vector<Fit> first = fits_;
@@ -198,7 +200,7 @@ private:
     bool keeps_its_side(const Triangle& t, std::span<const Vector3> positions) const {
         const Vector3 before = area_vector(start_, t), after = area_vector(positions, t);
         const double old_norm = before.norm(), new_norm = after.norm();
-        return new_norm >= least_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
+        return new_norm >= min_fitted_area * old_norm && before.dot(after) >= least_turn_ * old_norm * new_norm;
     }
 
     /// False, and all is as it was: neither the step nor its half or quarter helps.
@@ -260,9 +262,7 @@ private:
     std::vector<Fit> fits_;  // of the faces of the light mesh
 };
 
-}  // namespace
-
-std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
+FAQEM_INLINE std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
                            std::span<const std::uint8_t> fixed, double least_turn, Workers workers) {
     Relaxation relaxation(original, light, fixed, least_turn, workers);
     relaxation.settle(first_steps);
@@ -270,7 +270,7 @@ std::vector<Vector3> relax(const Patchwork& original, const Patchwork& light,
     return relaxation.take_positions();
 }
 
-Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
+FAQEM_INLINE Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
                        std::span<const Index> groups, double least_turn, Workers workers) {
     Relaxation relaxation(original, light, fixed, least_turn, workers);
     Relaxed result;
@@ -286,4 +286,5 @@ Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::s
     return result;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

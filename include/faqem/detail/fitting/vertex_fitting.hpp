@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Fits the light mesh to the original: Gauss-Newton steps on points spread over both, each with its closest
 /// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
@@ -40,4 +42,9 @@ struct Relaxed {
 Relaxed relax_and_swap(const Patchwork& original, const Patchwork& light, std::span<const std::uint8_t> fixed,
                        std::span<const Index> groups, double least_turn, Workers workers);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/fitting/vertex_fitting-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 
 #include <algorithm>
@@ -5,18 +8,17 @@
 #include <cmath>
 #include <utility>
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Poll;
 using engine::Vector3;
 
-constexpr int bins = 16;
+inline constexpr int bins = 16;
 /// Ranges up to this long are halved, so that the last nodes are full.
-constexpr std::uint32_t short_range = 16;
+inline constexpr std::uint32_t short_range = 16;
 /// Beyond that lengths in the frame would overflow, or their squares would be lost.
-constexpr double largest_scale = 1e90;
+inline constexpr double largest_scale = 1e90;
 
 struct Box {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
@@ -37,8 +39,6 @@ struct Box {
         return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
     }
 };
-
-}  // namespace
 
 /// The state of one construction.
 struct Bvh::Build {
@@ -168,24 +168,20 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
     return all;
 }
 
-Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, Poll poll)
+FAQEM_INLINE Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, Poll poll)
     : Bvh(corners(positions, triangles, poll), poll) {}
 
-Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll)
+FAQEM_INLINE Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll)
     : Bvh(corners(positions, triangles, poll), poll) {}
 
-namespace {
-
-float below(double x) {
+inline float below(double x) {
     const auto rounded = static_cast<float>(x);
     return rounded > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
 }
 
-float above(double x) { return -below(-x); }
+inline float above(double x) { return -below(-x); }
 
-}  // namespace
-
-Bvh::Query::Query(const Vector3& p, const Frame& frame) {
+FAQEM_INLINE Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     const Vector3 local = frame(p);
     for (int i = 0; i < 3; ++i) {
         const auto x = static_cast<float>(local[i]);
@@ -196,7 +192,7 @@ Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     }
 }
 
-Bvh::Ray::Ray(const Query& from, const Vector3& direction) : origin(from) {
+FAQEM_INLINE Bvh::Ray::Ray(const Query& from, const Vector3& direction) : origin(from) {
     for (int i = 0; i < 3; ++i) {
         const auto x = static_cast<float>(direction[i]);
         constexpr float least = 1e-18f;
@@ -204,12 +200,12 @@ Bvh::Ray::Ray(const Query& from, const Vector3& direction) : origin(from) {
     }
 }
 
-float Bvh::limit_in_frame(double distance_squared) const {
+FAQEM_INLINE float Bvh::limit_in_frame(double distance_squared) const {
     return static_cast<float>(distance_squared * frame_.scale * frame_.scale * (1 + 1e-6)) +
            std::numeric_limits<float>::min();
 }
 
-Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
+FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
     if (triangles.empty()) return;
     assert(triangles.size() < leaf_bit);
     Build build{{}, poll};
@@ -249,7 +245,7 @@ Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
     fit_boxes(poll);
 }
 
-void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll) {
+FAQEM_INLINE void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll) {
     for (Corners& t : triangles_) {
         poll();
         const auto [a, b, c] = triangles[t.face];
@@ -258,7 +254,7 @@ void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> tr
     fit_boxes(poll);
 }
 
-void Bvh::fit_boxes(Poll poll) {
+FAQEM_INLINE void Bvh::fit_boxes(Poll poll) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
         poll();
@@ -284,4 +280,5 @@ void Bvh::fit_boxes(Poll poll) {
     }
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

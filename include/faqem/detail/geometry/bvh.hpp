@@ -16,7 +16,8 @@
 #include "faqem/mesh.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Tree of axis-aligned boxes over triangles, four children to a node. The boxes are in single precision and
 /// only ever too large; distances are in double, so that answers are exact but for double's rounding. Queries
@@ -286,4 +287,9 @@ bool Bvh::meets(const Vec3& origin, const Vec3& direction, Counts&& counts) cons
     return false;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/bvh-inl.hpp"
+#endif

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <optional>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The corners of triangles (a, b, c) and (b, a, d).
 struct Quadrilateral {
@@ -42,4 +44,5 @@ inline bool swap_edge(Triangle& s, Triangle& t) {
     return true;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -1,10 +1,14 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
 #include <algorithm>
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll poll) {
+FAQEM_INLINE std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll poll) {
     std::vector<Side> sides;
     sides.reserve(3 * triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -24,4 +28,5 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll
     return sides;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A side of a face.
 struct Side {
@@ -58,4 +60,9 @@ void for_each_pair(std::size_t count, Surface&& surface, Join&& join) {
     }
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/halfedges-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 
 #include <algorithm>
@@ -5,19 +8,16 @@
 
 #include "faqem/engine/util/hash.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A number in [0, 1) that depends on its arguments only.
-double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
+inline double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
     const auto mix = [](std::uint64_t x) { return engine::scrambled(x + 0x9e3779b97f4a7c15u); };
     return static_cast<double>(mix(mix(mix(seed) + dimension) + sample) >> 11) * 0x1p-53;
 }
 
-}  // namespace
-
-SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed) {
+FAQEM_INLINE SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed) {
     const double place =
         (static_cast<double>(i) + uniform(seed, i, 0)) / static_cast<double>(n) * s.area_up_to.back();
     const auto found = std::lower_bound(s.area_up_to.begin(), s.area_up_to.end(), place);
@@ -29,4 +29,5 @@ SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::ui
     return {face, w, engine::to_array(p)};
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

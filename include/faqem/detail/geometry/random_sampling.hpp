@@ -7,7 +7,8 @@
 #include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A point of a surface.
 struct SurfaceSample {
@@ -23,4 +24,9 @@ struct SurfaceSample {
 /// \param seed  another seed, other places
 FAQEM_EXPORT SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/random_sampling-inl.hpp"
+#endif

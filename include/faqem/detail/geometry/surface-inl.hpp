@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
 #include <algorithm>
@@ -6,16 +9,15 @@
 
 #include "faqem/error.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
 /// Faces lower than this share of their longest edge have no normal worth comparing.
-constexpr double least_height = 1e-12;
+inline constexpr double least_height = 1e-12;
 
-void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
+inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
     for (const Index v : t) {
         if (v >= vertices) {
             throw InputError({}, "face " + std::to_string(f),
@@ -25,7 +27,7 @@ void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
 }
 
 /// Keeps the used positions, each once, and makes the triangles refer to them.
-void weld(Surface& s, engine::Poll poll) {
+inline void weld(Surface& s, engine::Poll poll) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;
     for (const Triangle& t : s.triangles) {
         poll();
@@ -53,9 +55,7 @@ void weld(Surface& s, engine::Poll poll) {
     s.positions = std::move(kept);
 }
 
-}  // namespace
-
-Surface surface_of(const MeshView& mesh, engine::Poll poll) {
+FAQEM_INLINE Surface surface_of(const MeshView& mesh, engine::Poll poll) {
     Surface s;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
@@ -87,13 +87,13 @@ Surface surface_of(const MeshView& mesh, engine::Poll poll) {
     return s;
 }
 
-Surface make_surface(const MeshView& mesh, const char* name) {
+FAQEM_INLINE Surface make_surface(const MeshView& mesh, const char* name) {
     Surface s = surface_of(mesh);
     if (s.triangles.empty()) throw InputError({}, name, "has no face with area");
     return s;
 }
 
-double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p, const Bvh::Hit& hit,
+FAQEM_INLINE double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p, const Bvh::Hit& hit,
                    const Vector3& normal, double tolerance) {
     double best = normal.dot(normals[hit.face]);
     const double reach = std::sqrt(hit.distance_squared) + tolerance;
@@ -103,4 +103,5 @@ double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3
     return std::min(best, 1.0);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

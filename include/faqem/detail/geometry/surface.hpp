@@ -11,7 +11,8 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The faces with area of a mesh.
 struct Surface {
@@ -79,4 +80,9 @@ private:
     Index last_ = 0;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/surface-inl.hpp"
+#endif

@@ -1,17 +1,19 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
 /// The k-th point of a sequence that fills the triangle evenly.
-Vec3 even_weight(std::size_t k) {
+inline Vec3 even_weight(std::size_t k) {
     const auto fraction = [&](double step) {
         const double x = 0.5 + step * static_cast<double>(k);
         return x - std::floor(x);
@@ -21,9 +23,7 @@ Vec3 even_weight(std::size_t k) {
     return {1 - v - w, v, w};
 }
 
-}  // namespace
-
-std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
+FAQEM_INLINE std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
@@ -34,7 +34,7 @@ std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
     return normals;
 }
 
-std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll) {
+FAQEM_INLINE std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll) {
     std::vector<double> area_up_to;
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
@@ -54,7 +54,7 @@ std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine
     return spots;
 }
 
-std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll) {
+FAQEM_INLINE std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll) {
     std::vector<Spot> spots;
     std::vector<std::uint8_t> seen;
     for (Index f = 0; f < triangles.size(); ++f) {
@@ -73,7 +73,7 @@ std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engin
     return spots;
 }
 
-std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll) {
+FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll) {
     std::vector<Vector3> normal(mesh.positions.size(), Vector3::Zero());
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : mesh.triangles) {
@@ -90,4 +90,5 @@ std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll
     return points;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Positions and the triangles that refer to them; a triangle with no_index corners is none. Borrowed.
 struct Patchwork {
@@ -55,4 +57,9 @@ std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engin
 /// O(faces)
 std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/surface_samples-inl.hpp"
+#endif

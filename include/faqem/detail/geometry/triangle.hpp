@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The point of a triangle that is closest to a query point.
 struct ClosestPoint {
@@ -103,4 +105,5 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
     return inside.distance_squared < edge.distance_squared ? inside : edge;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <span>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/base/bucketed.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The faces around each vertex, in their order.
 using FacesAround = Buckets<Index>;
@@ -29,4 +31,5 @@ inline FacesAround faces_around(std::size_t vertices, std::span<const Triangle> 
     });
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/error.hpp"
 #include "faqem/history.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 static_assert(std::endian::native == std::endian::little, "the history format is written byte for byte");
 static_assert(sizeof(Vec3) == 24 && sizeof(Triangle) == 12);
@@ -71,4 +73,5 @@ std::vector<T> get_array(std::istream& in, const char* section) {
 /// What follows the magic of a history; it is validated.
 CollapseHistory read_history_body(std::istream& in);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -6,9 +6,11 @@
 #include <numeric>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The latest version that each version became.
 /// \pre every collapse joins two older versions.
@@ -24,4 +26,5 @@ inline std::vector<Index> final_versions(const CollapseHistory& history) {
     return last;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
 #include <algorithm>
@@ -8,9 +11,9 @@
 #include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/history/binary_io.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
 using detail::get_array;
 using detail::put_array;
@@ -31,17 +34,17 @@ void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values[i];
 }
 
-std::string numbered(const char* what, std::size_t i) {
+inline std::string numbered(const char* what, std::size_t i) {
     return std::string(what) + "[" + std::to_string(i) + "]";
 }
 
-void check_position(const Vec3& position, const char* section, std::size_t i) {
+inline void check_position(const Vec3& position, const char* section, std::size_t i) {
     for (const double x : position) {
         if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "a position that is not finite");
     }
 }
 
-void check_positions(const CollapseHistory& h) {
+inline void check_positions(const CollapseHistory& h) {
     for (std::size_t i = 0; i < h.positions.size(); ++i) check_position(h.positions[i], "positions", i);
     for (std::size_t k = 0; k < h.collapses.size(); ++k)
         check_position(h.collapses[k].position, "collapses", k);
@@ -49,7 +52,7 @@ void check_positions(const CollapseHistory& h) {
         check_position(h.kept_positions[i], "kept_positions", i);
 }
 
-void check_faces(const CollapseHistory& h) {
+inline void check_faces(const CollapseHistory& h) {
     for (std::size_t f = 0; f < h.triangles.size(); ++f) {
         const Triangle& t = h.triangles[f];
         const bool dropped = t[0] == no_index && t[1] == no_index && t[2] == no_index;
@@ -63,7 +66,7 @@ void check_faces(const CollapseHistory& h) {
 }
 
 // Marks the versions that collapses use up; each is used once, after it was made.
-std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
+inline std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
     const std::size_t versions = h.positions.size() + h.collapses.size();
     if (versions >= no_index) detail::fail_history("collapses", "too many");
     std::vector<std::uint8_t> used(versions, 0);
@@ -79,7 +82,7 @@ std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
     return used;
 }
 
-void check_patches(const CollapseHistory& h) {
+inline void check_patches(const CollapseHistory& h) {
     if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
         h.patch_begin.back() != h.patch_faces.size() ||
         !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end())) {
@@ -103,7 +106,7 @@ void check_patches(const CollapseHistory& h) {
 }
 
 // Vertex of the small mesh for each version that is kept.
-std::vector<Index> kept_vertex(const CollapseHistory& h) {
+inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
     std::vector<Index> vertex(h.positions.size() + h.collapses.size(), no_index);
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i)
         vertex[h.kept_versions[i]] = static_cast<Index>(i);
@@ -111,7 +114,7 @@ std::vector<Index> kept_vertex(const CollapseHistory& h) {
 }
 
 // All faces over the vertices of the small mesh after the last swap; what was not kept has no_index corners.
-std::vector<Triangle> small_faces(const CollapseHistory& h) {
+inline std::vector<Triangle> small_faces(const CollapseHistory& h) {
     const std::vector<Index> vertex = kept_vertex(h);
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
@@ -132,7 +135,7 @@ std::vector<Triangle> small_faces(const CollapseHistory& h) {
     return faces;
 }
 
-void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
+inline void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i) {
         const Index v = h.kept_versions[i];
         if (!(v < used.size()) || used[v])
@@ -149,28 +152,28 @@ void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used)
     small_faces(h);
 }
 
-}  // namespace
+}  // namespace detail
 
-void validate(const CollapseHistory& history) {
+FAQEM_INLINE void validate(const CollapseHistory& history) {
     const CollapseHistory& h = history;
     const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
                          h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
                          h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty() &&
                          h.kept_positions.empty();
     if (nothing) return;
-    check_positions(history);
-    check_faces(history);
-    const std::vector<std::uint8_t> used = check_collapses(history);
-    check_patches(history);
-    check_kept(history, used);
+    detail::check_positions(history);
+    detail::check_faces(history);
+    const std::vector<std::uint8_t> used = detail::check_collapses(history);
+    detail::check_patches(history);
+    detail::check_kept(history, used);
 }
 
-TriangleMesh replay(const CollapseHistory& history) {
+FAQEM_INLINE TriangleMesh replay(const CollapseHistory& history) {
     TriangleMesh mesh;
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         mesh.positions.push_back(history.kept_position(i));
     }
-    const std::vector<Triangle> faces = small_faces(history);
+    const std::vector<Triangle> faces = detail::small_faces(history);
     for (const Index f : history.kept_faces) {
         mesh.triangles.push_back(faces[f]);
         if (!history.face_groups.empty()) mesh.face_groups.push_back(history.face_groups[f]);
@@ -178,52 +181,52 @@ TriangleMesh replay(const CollapseHistory& history) {
     return mesh;
 }
 
-void write(const CollapseHistory& h, std::ostream& out) {
+FAQEM_INLINE void write(const CollapseHistory& h, std::ostream& out) {
     detail::put(out, detail::history_magic);
-    put_array(out, h.positions);
-    put_array(out, h.triangles);
-    put_array(out, h.face_groups);
-    put_array(out, column(h.collapses, &Collapse::first));
-    put_array(out, column(h.collapses, &Collapse::second));
-    put_array(out, column(h.collapses, &Collapse::position));
-    put_array(out, h.patch_begin);
-    put_array(out, h.patch_faces);
-    put_array(out, h.kept_positions);
-    put_array(out, column(h.deleted_faces, &DeletedFace::time));
-    put_array(out, column(h.deleted_faces, &DeletedFace::face));
-    put_array(out, h.kept_versions);
-    put_array(out, h.kept_faces);
+    detail::put_array(out, h.positions);
+    detail::put_array(out, h.triangles);
+    detail::put_array(out, h.face_groups);
+    detail::put_array(out, detail::column(h.collapses, &Collapse::first));
+    detail::put_array(out, detail::column(h.collapses, &Collapse::second));
+    detail::put_array(out, detail::column(h.collapses, &Collapse::position));
+    detail::put_array(out, h.patch_begin);
+    detail::put_array(out, h.patch_faces);
+    detail::put_array(out, h.kept_positions);
+    detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::time));
+    detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::face));
+    detail::put_array(out, h.kept_versions);
+    detail::put_array(out, h.kept_faces);
     out.flush();
     if (!out) throw WriteError("the history could not be written");
 }
 
-CollapseHistory read_history(std::istream& in) {
+FAQEM_INLINE CollapseHistory read_history(std::istream& in) {
     if (detail::get<detail::HistoryMagic>(in, "header") != detail::history_magic)
         detail::fail_history("header", "not a collapse history of this version");
     return detail::read_history_body(in);
 }
 
-CollapseHistory detail::read_history_body(std::istream& in) {
+FAQEM_INLINE CollapseHistory detail::read_history_body(std::istream& in) {
     CollapseHistory h;
-    h.positions = get_array<Vec3>(in, "positions");
-    h.triangles = get_array<Triangle>(in, "triangles");
-    h.face_groups = get_array<Index>(in, "face_groups");
-    const auto firsts = get_array<Index>(in, "collapses");
+    h.positions = detail::get_array<Vec3>(in, "positions");
+    h.triangles = detail::get_array<Triangle>(in, "triangles");
+    h.face_groups = detail::get_array<Index>(in, "face_groups");
+    const auto firsts = detail::get_array<Index>(in, "collapses");
     h.collapses.resize(firsts.size());
-    fill_column(h.collapses, &Collapse::first, firsts, "collapses");
-    fill_column(h.collapses, &Collapse::second, get_array<Index>(in, "collapses"), "collapses");
-    fill_column(h.collapses, &Collapse::position, get_array<Vec3>(in, "collapses"), "collapses");
-    h.patch_begin = get_array<std::uint64_t>(in, "patch_begin");
-    h.patch_faces = get_array<Index>(in, "patch_faces");
-    h.kept_positions = get_array<Vec3>(in, "kept_positions");
-    const auto times = get_array<std::uint64_t>(in, "deleted_faces");
+    detail::fill_column(h.collapses, &Collapse::first, firsts, "collapses");
+    detail::fill_column(h.collapses, &Collapse::second, detail::get_array<Index>(in, "collapses"), "collapses");
+    detail::fill_column(h.collapses, &Collapse::position, detail::get_array<Vec3>(in, "collapses"), "collapses");
+    h.patch_begin = detail::get_array<std::uint64_t>(in, "patch_begin");
+    h.patch_faces = detail::get_array<Index>(in, "patch_faces");
+    h.kept_positions = detail::get_array<Vec3>(in, "kept_positions");
+    const auto times = detail::get_array<std::uint64_t>(in, "deleted_faces");
     h.deleted_faces.resize(times.size());
-    fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
-    fill_column(h.deleted_faces, &DeletedFace::face, get_array<Index>(in, "deleted_faces"), "deleted_faces");
-    h.kept_versions = get_array<Index>(in, "kept_versions");
-    h.kept_faces = get_array<Index>(in, "kept_faces");
+    detail::fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
+    detail::fill_column(h.deleted_faces, &DeletedFace::face, detail::get_array<Index>(in, "deleted_faces"), "deleted_faces");
+    h.kept_versions = detail::get_array<Index>(in, "kept_versions");
+    h.kept_faces = detail::get_array<Index>(in, "kept_faces");
     validate(h);
     return h;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/cut.hpp"
 
 #include <algorithm>
@@ -10,22 +13,21 @@
 #include "faqem/detail/history/binary_io.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
-using detail::fail_history;
 
-std::string numbered(std::size_t level) { return "level " + std::to_string(level); }
+inline std::string numbered(std::size_t level) { return "level " + std::to_string(level); }
 
-bool is_same(const Collapse& a, const Collapse& b) {
+inline bool is_same(const Collapse& a, const Collapse& b) {
     return a.first == b.first && a.second == b.second && a.position == b.position;
 }
 
-bool is_same(const DeletedFace& a, const DeletedFace& b) { return a.time == b.time && a.face == b.face; }
+inline bool is_same(const DeletedFace& a, const DeletedFace& b) { return a.time == b.time && a.face == b.face; }
 
 // Does a run that had done `part` go on to `whole`?
-bool goes_on_to(const CollapseHistory& part, const CollapseHistory& whole) {
+inline bool goes_on_to(const CollapseHistory& part, const CollapseHistory& whole) {
     const auto begins = [](const auto& a, const auto& b, auto&& same) {
         return a.size() <= b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
     };
@@ -37,7 +39,7 @@ bool goes_on_to(const CollapseHistory& part, const CollapseHistory& whole) {
                   [](const DeletedFace& a, const DeletedFace& b) { return is_same(a, b); });
 }
 
-HistoryLevel level_of(const CollapseHistory& history) {
+inline HistoryLevel level_of(const CollapseHistory& history) {
     HistoryLevel level;
     level.collapses = history.collapses.size();
     level.deleted = history.deleted_faces.size();
@@ -50,7 +52,7 @@ HistoryLevel level_of(const CollapseHistory& history) {
 }
 
 // The first collapses and deletions.
-CollapseHistory beginning(const CollapseHistory& whole, std::size_t collapses, std::size_t deleted) {
+inline CollapseHistory beginning(const CollapseHistory& whole, std::size_t collapses, std::size_t deleted) {
     CollapseHistory h;
     if (whole.patch_begin.empty()) return h;  // of nothing
     h.positions = whole.positions;
@@ -72,21 +74,21 @@ struct Moment {
     bool operator==(const Moment&) const = default;
 };
 
-Moment end_of_level(const ChainHistory& history, std::size_t level) {
+inline Moment end_of_level(const ChainHistory& history, std::size_t level) {
     if (level == history.before.size())
         return {history.last.collapses.size(), history.last.deleted_faces.size()};
     return {static_cast<std::size_t>(history.before[level].collapses),
             static_cast<std::size_t>(history.before[level].deleted)};
 }
 
-std::size_t faces_at_level(const ChainHistory& history, std::size_t level) {
+inline std::size_t faces_at_level(const ChainHistory& history, std::size_t level) {
     return level == history.before.size() ? history.last.kept_faces.size()
                                           : history.before[level].kept_faces.size();
 }
 
 // Where a run to so many faces would have stopped, as an engine counts: what has lost its area counts too.
 // What is deleted between two collapses goes together.
-Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
+inline Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
     const Index made = static_cast<Index>(h.positions.size());
     std::vector<Triangle> corners = h.triangles;
     std::size_t left = static_cast<std::size_t>(
@@ -122,7 +124,7 @@ Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
 
 // Fills what is kept as a run would that ended there: vertices and faces in the order of the input, none
 // without area.
-void keep_what_is_left(CollapseHistory& h) {
+inline void keep_what_is_left(CollapseHistory& h) {
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
     for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
@@ -146,32 +148,32 @@ void keep_what_is_left(CollapseHistory& h) {
     }
 }
 
-void check_same_count(std::span<const ChainHistory> parts) {
+inline void check_same_count(std::span<const ChainHistory> parts) {
     for (const ChainHistory& part : parts) {
         if (part.level_count() != parts.front().level_count())
             throw InputError("history", "levels", "the parts have not the same number of them");
     }
 }
 
-}  // namespace
+}  // namespace detail
 
-ChainHistory join(std::span<const CollapseHistory> levels) {
+FAQEM_INLINE ChainHistory join(std::span<const CollapseHistory> levels) {
     if (levels.empty()) throw InputError("history", "levels", "there are none");
     ChainHistory result;
     result.last = levels.back();
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
-        if (!goes_on_to(levels[i], levels[i + 1]))
-            fail_history(numbered(i), "the next one is of another run");
-        result.before.push_back(level_of(levels[i]));
+        if (!detail::goes_on_to(levels[i], levels[i + 1]))
+            detail::fail_history(detail::numbered(i), "the next one is of another run");
+        result.before.push_back(detail::level_of(levels[i]));
     }
     return result;
 }
 
-CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level) {
+FAQEM_INLINE CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level) {
     if (level == history.before.size()) return history.last;
     const HistoryLevel& end = history.before[level];
-    const Moment moment = end_of_level(history, level);
-    CollapseHistory h = beginning(history.last, moment.collapses, moment.deleted);
+    const detail::Moment moment = detail::end_of_level(history, level);
+    CollapseHistory h = detail::beginning(history.last, moment.collapses, moment.deleted);
     for (const auto& [s, t] : end.swaps) {
         h.patch_faces.insert(h.patch_faces.end(), {s, t});
         h.patch_begin.push_back(h.patch_faces.size());
@@ -182,27 +184,27 @@ CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level) {
     return h;
 }
 
-CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces) {
+FAQEM_INLINE CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces) {
     const std::size_t levels = history.level_count();
     for (std::size_t i = 0; i < levels; ++i) {
-        if (faces_at_level(history, i) == faces) return cut_at_level(history, i);
+        if (detail::faces_at_level(history, i) == faces) return cut_at_level(history, i);
     }
-    const Moment moment = moment_of(history.last, faces);
+    const detail::Moment moment = detail::moment_of(history.last, faces);
     for (std::size_t i = 0; i < levels; ++i) {
-        if (end_of_level(history, i) == moment) return cut_at_level(history, i);
+        if (detail::end_of_level(history, i) == moment) return cut_at_level(history, i);
     }
-    CollapseHistory h = beginning(history.last, moment.collapses, moment.deleted);
-    keep_what_is_left(h);
+    CollapseHistory h = detail::beginning(history.last, moment.collapses, moment.deleted);
+    detail::keep_what_is_left(h);
     return h;
 }
 
-std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces) {
+FAQEM_INLINE std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces) {
     std::vector<CollapseHistory> result;
     if (parts.empty()) return result;
-    check_same_count(parts);
+    detail::check_same_count(parts);
     // Of each level, the first of them the original.
     const auto faces_of = [](const ChainHistory& part, std::size_t level) -> std::uint64_t {
-        if (level > 0) return faces_at_level(part, level - 1);
+        if (level > 0) return detail::faces_at_level(part, level - 1);
         return static_cast<std::uint64_t>(std::count_if(part.last.triangles.begin(),
                                                         part.last.triangles.end(),
                                                         [](const Triangle& t) { return t[0] != no_index; }));
@@ -235,7 +237,7 @@ std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::ui
     return result;
 }
 
-SimplifyResult restore(CollapseHistory history) {
+FAQEM_INLINE SimplifyResult restore(CollapseHistory history) {
     SimplifyResult result;
     result.mesh = replay(history);
     Report& report = result.report;
@@ -249,7 +251,7 @@ SimplifyResult restore(CollapseHistory history) {
     return result;
 }
 
-void write(const ChainHistory& history, std::ostream& out) {
+FAQEM_INLINE void write(const ChainHistory& history, std::ostream& out) {
     detail::put(out, detail::chain_magic);
     write(history.last, out);
     detail::put(out, static_cast<std::uint64_t>(history.before.size()));
@@ -265,17 +267,17 @@ void write(const ChainHistory& history, std::ostream& out) {
     if (!out) throw WriteError("the history could not be written");
 }
 
-ChainHistory read_chain_history(std::istream& in) {
+FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
     ChainHistory history;
     const auto magic = detail::get<detail::HistoryMagic>(in, "header");
     if (magic == detail::history_magic) {
         history.last = detail::read_history_body(in);
         return history;
     }
-    if (magic != detail::chain_magic) fail_history("header", "not a collapse history of this version");
+    if (magic != detail::chain_magic) detail::fail_history("header", "not a collapse history of this version");
     history.last = read_history(in);
     const auto count = detail::get<std::uint64_t>(in, "levels");
-    Moment latest;
+    detail::Moment latest;
     for (std::uint64_t i = 0; i < count; ++i) {
         HistoryLevel& level = history.before.emplace_back();
         level.collapses = detail::get<std::uint64_t>(in, "levels");
@@ -288,11 +290,11 @@ ChainHistory read_chain_history(std::istream& in) {
                            level.collapses <= history.last.collapses.size() &&
                            level.deleted <= history.last.deleted_faces.size();
         if (!rises)
-            fail_history(numbered(i), "goes not as far as the one before it, or farther than the last");
-        latest = end_of_level(history, static_cast<std::size_t>(i));
+            detail::fail_history(detail::numbered(i), "goes not as far as the one before it, or farther than the last");
+        latest = detail::end_of_level(history, static_cast<std::size_t>(i));
         validate(cut_at_level(history, static_cast<std::size_t>(i)));
     }
     return history;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

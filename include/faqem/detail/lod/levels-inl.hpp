@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/levels.hpp"
 
 #include <cmath>
@@ -7,15 +10,15 @@
 #include "faqem/error.hpp"
 #include "faqem/detail/simplify/run.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
-[[noreturn]] void fail(std::size_t level, const char* what) {
+[[noreturn]] inline void fail(std::size_t level, const char* what) {
     throw OptionError("level " + std::to_string(level) + ": " + what);
 }
 
-detail::Goal goal(const Level& level, std::size_t number, double faces, double diagonal) {
+inline detail::Goal goal(const Level& level, std::size_t number, double faces, double diagonal) {
     if (const MaxError* error = std::get_if<MaxError>(&level)) {
         if (!(error->value > 0 && std::isfinite(error->value)))
             fail(number, "a distance must be finite and > 0");
@@ -36,28 +39,28 @@ detail::Goal goal(const Level& level, std::size_t number, double faces, double d
     return {std::max(detail::smallest_target, detail::faces_wanted(target, faces))};
 }
 
-}  // namespace
+}  // namespace detail
 
-std::vector<detail::Goal> detail::goals(const std::vector<Level>& levels, const Options& options,
+FAQEM_INLINE std::vector<detail::Goal> detail::goals(const std::vector<Level>& levels, const Options& options,
                                         double faces, double diagonal) {
     if (options.target.kind != Target::Kind::unset || options.max_error)
         throw OptionError("target and max_error: of a chain the levels say them");
     std::vector<Goal> goals;
     Goal last{std::numeric_limits<std::uint64_t>::max(), 0};
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const Goal& next = goals.emplace_back(goal(levels[i], i, faces, diagonal));
+        const Goal& next = goals.emplace_back(detail::goal(levels[i], i, faces, diagonal));
         if (next.faces) {
-            if (*next.faces > *last.faces) fail(i, "more faces than a level before it");
+            if (*next.faces > *last.faces) detail::fail(i, "more faces than a level before it");
             last.faces = next.faces;
         } else {
-            if (next.allowed < last.allowed) fail(i, "a smaller distance than a level before it");
+            if (next.allowed < last.allowed) detail::fail(i, "a smaller distance than a level before it");
             last.allowed = next.allowed;
         }
     }
     return goals;
 }
 
-std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::vector<Level>& levels,
+FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::vector<Level>& levels,
                                              const Options& options) try {
     validate(options);
     const detail::AskMeanwhile meanwhile(options, 0);
@@ -81,4 +84,4 @@ std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::ve
     return none;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

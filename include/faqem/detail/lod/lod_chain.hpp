@@ -15,7 +15,8 @@
 #include "faqem/levels.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A level in numbers.
 struct Goal {
@@ -131,4 +132,5 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
     return out;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

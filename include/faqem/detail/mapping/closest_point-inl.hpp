@@ -1,26 +1,30 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/mapping/closest_point.hpp"
 
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::to_eigen;
 
-ClosestPoints::ClosestPoints(const CollapseHistory& history, engine::Poll poll)
+FAQEM_INLINE ClosestPoints::ClosestPoints(const CollapseHistory& history, engine::Poll poll)
     : history_(history),
       replay_(replay_vertices(history, poll)),
       tree_(history.positions, history.triangles, poll) {}
 
-SurfacePoint ClosestPoints::found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint ClosestPoints::found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const {
     if (hit.face == no_index) return {history_.kept_faces[face], barycentric, MapStep::closest};
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
-SurfacePoint ClosestPoints::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint ClosestPoints::map(Index face, const Vec3& barycentric) const {
     return found(tree_.closest(engine::to_array(replay_.place(face, barycentric))), face, barycentric);
 }
 
-SurfacePoint ClosestPoints::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
+FAQEM_INLINE SurfacePoint ClosestPoints::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     const Triangle& t = history_.triangles[near.face];
     if (t[0] == no_index) return map(face, barycentric);
     const auto& positions = history_.positions;
@@ -30,4 +34,5 @@ SurfacePoint ClosestPoints::map_near(Index face, const Vec3& barycentric, const 
         face, barycentric);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

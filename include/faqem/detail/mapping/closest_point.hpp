@@ -2,12 +2,14 @@
 /// \file
 /// From the small surface to the original by closest points: what a baker without history does.
 
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The closest point of the whole original, with no regard to sides, sheets or groups. On thin walls that is
 /// the wrong side as often as not.
@@ -30,4 +32,9 @@ private:
     Bvh tree_;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/closest_point-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/forward_map.hpp"
 
 #include <array>
@@ -10,16 +13,16 @@
 #include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
 using engine::to_eigen;
 using engine::Vector3;
 
-}  // namespace
+}  // namespace detail
 
-std::vector<Index> small_vertices(const CollapseHistory& history) {
+FAQEM_INLINE std::vector<Index> small_vertices(const CollapseHistory& history) {
     const std::vector<Index> last = detail::final_versions(history);
     std::vector<Index> number(last.size(), no_index);
     for (Index v = 0; v < history.kept_versions.size(); ++v) number[history.kept_versions[v]] = v;
@@ -35,7 +38,7 @@ struct ForwardMap::Impl {
         Index face = no_index;
         bool looks_away = true;
         double distance_squared = std::numeric_limits<double>::infinity();
-        Vector3 barycentric = Vector3::Zero();
+        engine::Vector3 barycentric = engine::Vector3::Zero();
     };
 
     explicit Impl(const CollapseHistory& h)
@@ -44,16 +47,16 @@ struct ForwardMap::Impl {
           vertex(small_vertices(h)),
           around(detail::faces_around(small.positions.size(), small.triangles)) {}
 
-    Vector3 corner(Index face, std::size_t k) const {
-        return to_eigen(small.positions[small.triangles[face][k]]);
+    engine::Vector3 corner(Index face, std::size_t k) const {
+        return engine::to_eigen(small.positions[small.triangles[face][k]]);
     }
 
     // A face that looks the other way is the back of a thin wall, and taken only where there is no other. Of
     // faces at the same distance it is the one with the smallest index, whichever way led to it.
-    void look_around(Index v, const Vector3& p, const Vector3& normal, Best& best) const {
+    void look_around(Index v, const engine::Vector3& p, const engine::Vector3& normal, Best& best) const {
         for (const Index f : around[v]) {
-            const Vector3 a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
-            const Vector3 own = engine::area_vector(a, b, c);
+            const engine::Vector3 a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
+            const engine::Vector3 own = engine::area_vector(a, b, c);
             const bool looks_away = own.dot(normal) < -0.5 * own.norm();
             const detail::ClosestPoint at = detail::closest_point_on_triangle(p, a, b, c);
             if (std::tie(looks_away, at.distance_squared, f) <
@@ -68,19 +71,19 @@ struct ForwardMap::Impl {
     detail::FacesAround around;
 };
 
-ForwardMap::ForwardMap(const CollapseHistory& history) : impl_(std::make_unique<const Impl>(history)) {}
-ForwardMap::~ForwardMap() = default;
-ForwardMap::ForwardMap(ForwardMap&&) noexcept = default;
-ForwardMap& ForwardMap::operator=(ForwardMap&&) noexcept = default;
+FAQEM_INLINE ForwardMap::ForwardMap(const CollapseHistory& history) : impl_(std::make_unique<const Impl>(history)) {}
+FAQEM_INLINE ForwardMap::~ForwardMap() = default;
+FAQEM_INLINE ForwardMap::ForwardMap(ForwardMap&&) noexcept = default;
+FAQEM_INLINE ForwardMap& ForwardMap::operator=(ForwardMap&&) noexcept = default;
 
-SmallPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SmallPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
     assert(face < impl_->history.triangles.size());
     const Triangle& corners = impl_->history.triangles[face];
     if (corners[0] == no_index) return {};
-    std::array<Vector3, 3> at;
-    for (std::size_t k = 0; k < 3; ++k) at[k] = to_eigen(impl_->history.positions[corners[k]]);
-    const Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
-    const Vector3 normal = engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
+    std::array<engine::Vector3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = engine::to_eigen(impl_->history.positions[corners[k]]);
+    const engine::Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
+    const engine::Vector3 normal = engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
     Impl::Best best;
     for (const Index v : corners) {
         if (impl_->vertex[v] != no_index) impl_->look_around(impl_->vertex[v], p, normal, best);
@@ -94,4 +97,4 @@ SmallPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
     return {best.face, engine::to_array(best.barycentric)};
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

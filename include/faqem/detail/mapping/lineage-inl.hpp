@@ -1,13 +1,17 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/mapping/lineage.hpp"
 
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::to_eigen;
 using engine::Vector3;
 
-LineageWalk::LineageWalk(const CollapseHistory& history, engine::Poll poll)
+FAQEM_INLINE LineageWalk::LineageWalk(const CollapseHistory& history, engine::Poll poll)
     : history_(history),
       replay_(replay_vertices(history, poll)),
       first_face_(history.positions.size() + 1, 0) {
@@ -26,7 +30,7 @@ LineageWalk::LineageWalk(const CollapseHistory& history, engine::Poll poll)
     }
 }
 
-SurfacePoint LineageWalk::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint LineageWalk::map(Index face, const Vec3& barycentric) const {
     const Triangle& corners = replay_.kept_corners[face];
     const Vector3 p0 = replay_.place(face, barycentric);
     const auto distance = [&](Index v) { return (to_eigen(replay_.positions[v]) - p0).squaredNorm(); };
@@ -52,4 +56,5 @@ SurfacePoint LineageWalk::map(Index face, const Vec3& barycentric) const {
     return {best, {t[0] == at ? 1.0 : 0.0, t[1] == at ? 1.0 : 0.0, t[2] == at ? 1.0 : 0.0}, MapStep::history};
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -4,11 +4,13 @@
 
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// FA-QEM, "Successive Mapping Process": a point belongs to the closest corner of its small face, goes at
 /// every un-collapse to the closer of the two parents, and ends at a vertex of the original.
@@ -28,4 +30,9 @@ private:
     std::vector<Index> faces_;               ///< by vertex, ascending
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/lineage-inl.hpp"
+#endif

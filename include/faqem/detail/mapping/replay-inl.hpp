@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 
 #include <algorithm>
@@ -9,9 +12,8 @@
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
-namespace faqem::detail {
-namespace {
-
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 struct PatchEdge {
     std::uint64_t key;
     std::size_t entry;  // within the patch
@@ -59,12 +61,12 @@ struct Labeller {
     }
 };
 
-double distance(const Vec3& a, const Vec3& b) {
+inline double distance(const Vec3& a, const Vec3& b) {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
     return std::sqrt(x * x + y * y + z * z);
 }
 
-float mean_edge_length(const std::vector<Vec3>& positions, std::span<const Triangle> corners) {
+inline float mean_edge_length(const std::vector<Vec3>& positions, std::span<const Triangle> corners) {
     double sum = 0;
     for (const Triangle& t : corners) {
         for (int c = 0; c < 3; ++c) sum += distance(positions[t[c]], positions[t[(c + 1) % 3]]);
@@ -72,14 +74,14 @@ float mean_edge_length(const std::vector<Vec3>& positions, std::span<const Trian
     return corners.empty() ? 0.0f : static_cast<float>(sum / (3.0 * static_cast<double>(corners.size())));
 }
 
-std::vector<Vec3> version_positions(const CollapseHistory& history) {
+inline std::vector<Vec3> version_positions(const CollapseHistory& history) {
     std::vector<Vec3> result = history.positions;
     result.reserve(result.size() + history.collapses.size());
     for (const Collapse& c : history.collapses) result.push_back(c.position);
     return result;
 }
 
-Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
+inline Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const Vec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
     Bound bound;
@@ -122,7 +124,7 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, engine::Pol
 }
 
 // The faces of the small mesh: their corners' versions, and where those are in the end.
-void keep(const CollapseHistory& history, const std::vector<Triangle>& last, engine::Poll poll,
+inline void keep(const CollapseHistory& history, const std::vector<Triangle>& last, engine::Poll poll,
           Replay& result) {
     std::vector<Vec3> in_the_end = result.positions;
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
@@ -136,9 +138,7 @@ void keep(const CollapseHistory& history, const std::vector<Triangle>& last, eng
     }
 }
 
-}  // namespace
-
-Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
+FAQEM_INLINE Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
     Replay result;
     result.positions = version_positions(history);
     const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
@@ -146,7 +146,7 @@ Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
     return result;
 }
 
-Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
+FAQEM_INLINE Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
     const std::size_t entries = history.patch_faces.size();
     Replay result;
     result.positions = version_positions(history);
@@ -166,7 +166,7 @@ Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
     return result;
 }
 
-void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
+FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
                       Replay& replay) {
     replay.bounds.resize(replay.corners.size());
     replay.umbrella.resize(replay.corners.size());
@@ -186,4 +186,5 @@ void describe_patches(const CollapseHistory& history, std::span<const Index> she
     });
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -7,11 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/history.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A sphere around a triangle: tells from 16 bytes whether a look at its corners is worth while.
 struct Bound {
@@ -59,4 +61,9 @@ Replay replay_patches(const CollapseHistory& history, engine::Poll poll = {});
 void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
                       Replay& replay);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/replay-inl.hpp"
+#endif

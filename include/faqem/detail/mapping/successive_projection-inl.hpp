@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/mapping/successive_projection.hpp"
 
 #include <algorithm>
@@ -6,37 +9,34 @@
 #include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::to_array;
 using engine::to_eigen;
 using engine::Vector3;
 
-namespace {
-
-constexpr double least_cosine = 0.17;
-constexpr double umbrella_penalty = 0.3;
-constexpr double sheet_penalty = 1.0;
+inline constexpr double least_cosine = 0.17;
+inline constexpr double umbrella_penalty = 0.3;
+inline constexpr double sheet_penalty = 1.0;
 // Of faces that the settling looks at in vain: where others lie between a point and its sheet, it would go
 // through all of them for every sample.
-constexpr std::size_t most_refused = 512;
+inline constexpr std::size_t most_refused = 512;
 // Of faces, of a sheet that is searched face by face: fins are sheets of one face each, with hundreds of others
 // closer by.
-constexpr std::size_t small_sheet = 32;
+inline constexpr std::size_t small_sheet = 32;
 // Of faces that a walk looks at, about ten times what is usual: a vertex that swallowed a whole plain, one
 // vertex after the other, was in a patch for each of them.
-constexpr std::uint64_t most_walked = 2048;
+inline constexpr std::uint64_t most_walked = 2048;
 // Of the mean edge of a patch: so close a point lies on the face at hand.
-constexpr double on_it = 1e-6;
+inline constexpr double on_it = 1e-6;
 // Of a small face's longest edge: so close to it the closest face around is beyond doubt.
-constexpr double close_by = 0.25;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double close_by = 0.25;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double distance_squared(const Vector3& p, const Bound& bound) {
+inline double distance_squared(const Vector3& p, const Bound& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
 }
-
-}  // namespace
 
 struct ProjectionWalk::Query {
     Vector3 p0, n0;  // n0 zero: no side to look to
@@ -63,7 +63,7 @@ struct ProjectionWalk::Patch {
     Best best, best_away;
 };
 
-ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
+FAQEM_INLINE ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
                                Workers workers)
     : history_(history),
       tree_(history.positions, history.triangles, workers.poll),
@@ -73,7 +73,7 @@ ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const T
     describe_patches(history, sheets_.sheet, workers, replay_);
 }
 
-ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
     Query query;
     query.corners = replay_.kept_corners[face];
     const std::array<Vec3, 3>& places = replay_.kept_positions[face];
@@ -91,7 +91,7 @@ ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric)
     return query;
 }
 
-bool ProjectionWalk::faces_away(Index candidate, const Vector3& area_vector, const Query& query) const {
+FAQEM_INLINE bool ProjectionWalk::faces_away(Index candidate, const Vector3& area_vector, const Query& query) const {
     if (query.n0.isZero(0)) return false;
     const double d = query.sign * sheets_.sign[candidate] * area_vector.dot(query.n0);
     return !(d > 0 && d * d >= least_cosine * least_cosine * area_vector.squaredNorm());
@@ -99,7 +99,7 @@ bool ProjectionWalk::faces_away(Index candidate, const Vector3& area_vector, con
 
 // The least score wins, then the smaller face, in whatever order the faces come: so the one that looks
 // closest comes first, and spheres rule out most of the others.
-ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, const Query& query,
+FAQEM_INLINE ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, const Query& query,
                                                    std::uint64_t& walked) const {
     const std::uint64_t begin = history_.patch_begin[collapse], end = history_.patch_begin[collapse + 1];
     std::uint64_t own = begin, first = begin;
@@ -122,7 +122,7 @@ ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, c
     return patch.best.face != no_index ? patch.best : patch.best_away;
 }
 
-void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const {
+FAQEM_INLINE void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const {
     const Query& query = patch.query;
     const Bound& bound = replay_.bounds[e];
     const double limit = patch.best.face != no_index ? patch.best.score : infinity;
@@ -145,14 +145,14 @@ void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const {
     }
 }
 
-ClosestPoint ProjectionWalk::on_original(Index face, const Vector3& p0) const {
+FAQEM_INLINE ClosestPoint ProjectionWalk::on_original(Index face, const Vector3& p0) const {
     const Triangle& t = history_.triangles[face];
     if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, infinity};
     return closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]),
                                      to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
 }
 
-bool ProjectionWalk::passes(Index f, const Query& query) const {
+FAQEM_INLINE bool ProjectionWalk::passes(Index f, const Query& query) const {
     if (sheets_.sheet[f] != query.sheet || group(f) != query.group) return false;
     const Triangle& t = history_.triangles[f];
     return !faces_away(
@@ -163,7 +163,7 @@ bool ProjectionWalk::passes(Index f, const Query& query) const {
 }
 
 // Has a corner that collapsed into one of the small face's.
-bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
+FAQEM_INLINE bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
     const Triangle& t = history_.triangles[original_face];
     return std::any_of(t.begin(), t.end(), [&](Index v) {
         const Index last = last_[v];
@@ -192,17 +192,17 @@ Bvh::Hit ProjectionWalk::closest_that(const Query& query, double distance_square
     return best;
 }
 
-Bvh::Hit ProjectionWalk::closest_passing(const Query& query, double distance_squared) const {
+FAQEM_INLINE Bvh::Hit ProjectionWalk::closest_passing(const Query& query, double distance_squared) const {
     return closest_that(query, distance_squared, [](Index) { return true; });
 }
 
-SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
+FAQEM_INLINE SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
     const Bvh::Hit hit = closest_that(query, distance_squared, [&](Index f) { return is_around(f, query); });
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
 // The closest face around that passes the tests, or `face` where none is as close.
-SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step) const {
+FAQEM_INLINE SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step) const {
     const ClosestPoint here = on_original(face, query.p0);
     SurfacePoint result = closest_around(query, here.distance_squared);
     if (result.face == no_index) result = {face, to_array(here.barycentric), step};
@@ -210,7 +210,7 @@ SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step
     return result;
 }
 
-ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const {
+FAQEM_INLINE ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const {
     Best at{query.original, 0, false, infinity};
     bool relaxed = false;
     std::uint64_t walked = 0;
@@ -231,7 +231,7 @@ ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const 
     return at;
 }
 
-SurfacePoint ProjectionWalk::by_walk(Index face, const Query& query) const {
+FAQEM_INLINE SurfacePoint ProjectionWalk::by_walk(Index face, const Query& query) const {
     const Best end = walk(face, query);
     if (!end.given_up && passes(end.face, query)) {
         return settle(query, end.face, end.relaxed ? MapStep::relaxed : MapStep::history);
@@ -249,7 +249,7 @@ SurfacePoint ProjectionWalk::by_walk(Index face, const Query& query) const {
 
 // Wherever a walk ends, settling takes the closest face that passes if it is around and no farther than the
 // longest edge: most samples need no walk.
-SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     const Query query = start(face, barycentric);
     const double close = close_by * query.longest_edge;
     const Bvh::Hit hit = closest_passing(query, close * close);
@@ -257,7 +257,7 @@ SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
     return {hit.face, hit.barycentric, MapStep::history};
 }
 
-SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
+FAQEM_INLINE SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     const Query query = start(face, barycentric);
     if (!passes(near.face, query)) return map(face, barycentric);
     const ClosestPoint here = on_original(near.face, query.p0);
@@ -268,4 +268,5 @@ SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const
                                       : by_walk(face, query);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

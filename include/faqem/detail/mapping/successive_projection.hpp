@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/history.hpp"
@@ -13,7 +14,8 @@
 #include "faqem/detail/mapping/surface_patches.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// After Liu et al. 2024 (arXiv 2409.15458), with rules that keep a sample on its side of thin walls.
 ///
@@ -74,4 +76,9 @@ private:
     std::vector<Index> last_;  ///< by version: what became of it in the end
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/successive_projection-inl.hpp"
+#endif

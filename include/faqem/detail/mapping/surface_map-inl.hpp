@@ -1,10 +1,13 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/surface_map.hpp"
 
 #include "faqem/detail/mapping/closest_point.hpp"
 #include "faqem/detail/mapping/lineage.hpp"
 #include "faqem/detail/mapping/successive_projection.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
 struct SurfaceMap::Impl {
     std::unique_ptr<const detail::ProjectionWalk> projection;  // one of the three
@@ -12,12 +15,12 @@ struct SurfaceMap::Impl {
     std::unique_ptr<const detail::ClosestPoints> closest;
 };
 
-SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded)
+FAQEM_INLINE SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded)
     : SurfaceMap(detail::polled_map(history, mapping, unwelded, {})) {}
 
-SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+FAQEM_INLINE SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
+FAQEM_INLINE SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
                               std::span<const Triangle> unwelded, const Workers& workers) {
     auto impl = std::make_unique<SurfaceMap::Impl>();
     switch (mapping) {
@@ -34,19 +37,19 @@ SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
     return SurfaceMap(std::move(impl));
 }
 
-SurfaceMap::~SurfaceMap() = default;
-SurfaceMap::SurfaceMap(SurfaceMap&&) noexcept = default;
-SurfaceMap& SurfaceMap::operator=(SurfaceMap&&) noexcept = default;
+FAQEM_INLINE SurfaceMap::~SurfaceMap() = default;
+FAQEM_INLINE SurfaceMap::SurfaceMap(SurfaceMap&&) noexcept = default;
+FAQEM_INLINE SurfaceMap& SurfaceMap::operator=(SurfaceMap&&) noexcept = default;
 
-SurfacePoint SurfaceMap::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint SurfaceMap::map(Index face, const Vec3& barycentric) const {
     if (impl_->projection) return impl_->projection->map(face, barycentric);
     return impl_->lineage ? impl_->lineage->map(face, barycentric) : impl_->closest->map(face, barycentric);
 }
 
-SurfacePoint SurfaceMap::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
+FAQEM_INLINE SurfacePoint SurfaceMap::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
     if (impl_->projection) return impl_->projection->map_near(face, barycentric, near);
     return impl_->lineage ? impl_->lineage->map(face, barycentric)
                           : impl_->closest->map_near(face, barycentric, near);
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

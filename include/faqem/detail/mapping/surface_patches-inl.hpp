@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/mapping/surface_patches.hpp"
 
 #include <algorithm>
@@ -6,9 +9,8 @@
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
-namespace faqem::detail {
-namespace {
-
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 using engine::to_eigen;
 using engine::Vector3;
 
@@ -18,7 +20,7 @@ struct Neighbour {
 };
 
 // Of the angle between two faces at an edge: -1 where one continues the other.
-constexpr double continues = -0.87, turns_off = -0.5;
+inline constexpr double continues = -0.87, turns_off = -0.5;
 
 // The two of three or more faces on an edge where one continues the other, and no third face continues either.
 // Calls join(i, j), i < j, for each such pair. open(i): side i has no neighbour yet
@@ -51,7 +53,7 @@ void for_each_continued(std::span<const Vec3> positions, std::span<const Triangl
 }
 
 // Neighbours over the three edges of each face.
-std::vector<Neighbour> neighbours(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+inline std::vector<Neighbour> neighbours(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                   std::span<const Triangle> unwelded, engine::Poll poll) {
     std::vector<Neighbour> result(3 * triangles.size());
     for_each_edge(sorted_sides(triangles, poll), [&](std::span<const Side> on) {
@@ -77,15 +79,13 @@ std::vector<Neighbour> neighbours(std::span<const Vec3> positions, std::span<con
     return result;
 }
 
-double area(std::span<const Vec3> positions, const Triangle& t) {
+inline double area(std::span<const Vec3> positions, const Triangle& t) {
     return engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]),
                                to_eigen(positions[t[2]]))
         .norm();
 }
 
-}  // namespace
-
-Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+FAQEM_INLINE Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                    std::span<const Triangle> unwelded, engine::Poll poll) {
     const std::vector<Neighbour> next = neighbours(positions, triangles, unwelded, poll);
     Sheets result;
@@ -126,4 +126,5 @@ Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> tr
     return result;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Components over edges with exactly two faces. Edges with more faces divide sheets, so that the two sides
 /// of a thin wall that touch in a fin stay apart. But two faces stay together that had such an edge to
@@ -36,4 +38,9 @@ struct Sheets {
 Sheets find_sheets(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                    std::span<const Triangle> unwelded = {}, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/surface_patches-inl.hpp"
+#endif

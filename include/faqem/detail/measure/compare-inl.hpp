@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/compare.hpp"
 
 #include <algorithm>
@@ -10,20 +13,17 @@
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
-using detail::Bvh;
-using detail::CoherentQuery;
-using detail::Surface;
 using engine::Vector3;
 
-constexpr std::size_t block = 4096;
-constexpr double degrees_per_radian = 57.295779513082320877;
+inline constexpr std::size_t comparison_block = 4096;
+inline constexpr double degrees_per_radian = 57.295779513082320877;
 
 /// Neighbouring faces whose distances differ by less than this share of the diagonal are tied.
-constexpr double tie_tolerance = 1e-9;
+inline constexpr double normal_tie_tolerance = 1e-9;
 
 struct Sums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
@@ -32,14 +32,14 @@ struct Sums {
 /// Calls work(sums, begin, end) for blocks of [0, size) and returns the blocks' sums in order.
 template <class Work>
 std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
-    std::vector<Sums> sums((size + block - 1) / block);
-    detail::parallel_blocks(size, block, threads, [&](std::size_t begin, std::size_t end) {
-        work(sums[begin / block], begin, end);
+    std::vector<Sums> sums((size + comparison_block - 1) / comparison_block);
+    detail::parallel_blocks(size, comparison_block, threads, [&](std::size_t begin, std::size_t end) {
+        work(sums[begin / comparison_block], begin, end);
     });
     return sums;
 }
 
-detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
+inline detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
     if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
     return {.tolerance = tolerance,
             .floor = detail::gap_floor * diagonal,
@@ -47,7 +47,7 @@ detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint3
             .workers = threads};
 }
 
-OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, const CompareOptions& options,
+inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, const CompareOptions& options,
                    std::uint64_t seed, double tie, const detail::SearchLimits& limits) {
     const std::vector<Sums> sums =
         sum_blocks(options.samples, options.threads, [&](Sums& sum, std::size_t begin, std::size_t end) {
@@ -81,17 +81,17 @@ OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, cons
             .mean_normal_degrees = total.degrees / n};
 }
 
-}  // namespace
+}  // namespace detail
 
-Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options) {
-    const Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+FAQEM_INLINE Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options) {
+    const detail::Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
     Comparison result;
     result.diagonal = sa.diagonal();
-    const detail::SearchLimits limits = search_limits(options.tolerance, result.diagonal, options.threads);
-    const Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
-    const double tie = tie_tolerance * result.diagonal;
-    result.a_to_b = one_sided(sa, sb, tb, options, 2 * options.seed, tie, limits);
-    result.b_to_a = one_sided(sb, sa, ta, options, 2 * options.seed + 1, tie, limits);
+    const detail::SearchLimits limits = detail::search_limits(options.tolerance, result.diagonal, options.threads);
+    const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
+    const double tie = detail::normal_tie_tolerance * result.diagonal;
+    result.a_to_b = detail::one_sided(sa, sb, tb, options, 2 * options.seed, tie, limits);
+    result.b_to_a = detail::one_sided(sb, sa, ta, options, 2 * options.seed + 1, tie, limits);
     result.hausdorff = std::max(result.a_to_b.max, result.b_to_a.max);
     result.hausdorff_bound = std::max(result.a_to_b.max_bound, result.b_to_a.max_bound);
     result.chamfer = result.a_to_b.mean_squared + result.b_to_a.mean_squared;
@@ -99,22 +99,22 @@ Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& o
     return result;
 }
 
-DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options) {
-    const Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
-    detail::SearchLimits limits = search_limits(options.tolerance, sa.diagonal(), options.threads);
+FAQEM_INLINE DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options) {
+    const detail::Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+    detail::SearchLimits limits = detail::search_limits(options.tolerance, sa.diagonal(), options.threads);
     limits.stop_above = options.stop_above;
     limits.stop_below = options.stop_below;
     limits.max_pieces = options.max_pieces;
-    const Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
+    const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
     const detail::Farthest most = detail::farthest_both_ways(sa, ta, sb, tb, limits);
     return {most.value, most.bound, most.pieces};
 }
 
-Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads) {
+FAQEM_INLINE Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads) {
     const DistanceBound found =
         hausdorff(a, b, {.tolerance = 0, .threads = threads, .stop_above = distance, .stop_below = distance});
     if (found.bound <= distance) return Within::yes;
     return found.value > distance ? Within::no : Within::undecided;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/measure/hausdorff.hpp"
 
 #include <algorithm>
@@ -6,16 +9,15 @@
 
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
-constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128;
+inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128;
 /// Pieces taken at once: a multiple of the block, so that several threads have work.
-constexpr std::size_t batch_size = 16 * piece_block;
-constexpr std::size_t stop_interval = 16 * vertex_block;
+inline constexpr std::size_t batch_size = 16 * piece_block;
+inline constexpr std::size_t stop_interval = 16 * vertex_block;
 
 /// Part of a face, with faces of the other surface that may be near all of it.
 struct Piece {
@@ -43,7 +45,7 @@ struct Candidates {
 /// Squared distances of a point to candidates.
 using Distances = std::array<double, 8>;
 
-Distances distances(const Surface& to, const Vector3& p, const Candidates& candidates) {
+inline Distances distances(const Surface& to, const Vector3& p, const Candidates& candidates) {
     Distances result;
     for (std::size_t i = 0; i < candidates.size; ++i) {
         result[i] = to.distance_squared(p, candidates.face[i]);
@@ -54,7 +56,7 @@ Distances distances(const Surface& to, const Vector3& p, const Candidates& candi
 /// Bound of a piece whose corners are nearer to f or to g: the polygon on f's side is bounded by its corners'
 /// distances to f, that on g's side by theirs to g. The cut is where parallel surfaces that meet in a
 /// straight edge would have it; any cut gives a bound.
-double bound_by_two(const Surface& to, const Piece& piece, Index f, Index g,
+inline double bound_by_two(const Surface& to, const Piece& piece, Index f, Index g,
                     const std::array<double, 3>& to_f, const std::array<double, 3>& to_g) {
     double bound = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -75,7 +77,7 @@ double bound_by_two(const Surface& to, const Piece& piece, Index f, Index g,
 /// Lowers the bound of a piece by what the candidates prove.
 /// \param at      the corners' distances to the candidates
 /// \param enough  a bound as low as this need not be lowered
-void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
+inline void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
              const std::array<const Distances*, 3>& at, double enough) {
     for (std::size_t i = 0; i < candidates.size; ++i) {
         const double bound = std::max({(*at[0])[i], (*at[1])[i], (*at[2])[i]});
@@ -101,7 +103,7 @@ void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
 }
 
 /// Squared distance below which a bound is good enough while `value_squared` is the largest found.
-double enough_squared(double value_squared, const SearchLimits& limits) {
+inline double enough_squared(double value_squared, const SearchLimits& limits) {
     const double enough =
         std::max(std::sqrt(value_squared) * (1 + limits.tolerance) + limits.floor, limits.stop_below);
     return enough * enough;
@@ -125,7 +127,7 @@ struct Found {
 /// Bounds whole faces.
 /// \param refine  keep those whose bound is not low enough; else they are bounded as well as their corners
 ///                allow
-void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
+inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
                  const std::vector<Nearest>& at_vertices, double enough, bool refine, std::size_t begin,
                  std::size_t end, Poll poll, Found& found) {
     CoherentQuery query(to, tree);
@@ -159,7 +161,7 @@ void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
 }
 
 /// Splits a piece at the middle of its longest edge.
-void split(const Surface& to, CoherentQuery& query, const Piece& piece, double enough, Found& found) {
+inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, double enough, Found& found) {
     std::size_t longest = 0;
     double length = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -232,9 +234,7 @@ private:
     std::uint64_t count_ = 0;
 };
 
-}  // namespace
-
-std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
+FAQEM_INLINE std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
                                          Workers workers, double stop_above) {
     const std::size_t size = from.positions.size();
     std::vector<Nearest> result;
@@ -258,7 +258,7 @@ std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to,
     return result;
 }
 
-Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
+FAQEM_INLINE Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
                   const std::vector<Nearest>& at_vertices, double known, const SearchLimits& limits) {
     double value_squared = known * known, closed_squared = 0;
     for (const Nearest& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
@@ -311,7 +311,7 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
     return result;
 }
 
-Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
+FAQEM_INLINE Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
                             const SearchLimits& limits) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const auto largest = [](const std::vector<Nearest>& nearest, double value) {
@@ -332,4 +332,5 @@ Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& 
     return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

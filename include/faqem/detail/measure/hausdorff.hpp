@@ -6,10 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The nearest face of the other surface.
 struct Nearest {
@@ -60,4 +62,9 @@ Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
 Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
                             const SearchLimits& limits);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/measure/hausdorff-inl.hpp"
+#endif

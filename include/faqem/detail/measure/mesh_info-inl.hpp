@@ -1,22 +1,25 @@
+#pragma once
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
 using engine::Vector3;
 
 /// For each vertex the smallest vertex at the same position; -0 equals 0.
-std::vector<Index> weld_equal(const MeshView& mesh) {
+inline std::vector<Index> weld_equal(const MeshView& mesh) {
     struct Key {
         std::array<std::uint64_t, 3> bits;  // bits, because an order of doubles breaks at the first NaN
         Index vertex;
@@ -40,7 +43,7 @@ std::vector<Index> weld_equal(const MeshView& mesh) {
 }
 
 /// The faces with three different corners, over welded vertices; counts the others.
-std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
+inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
     const std::vector<Index> first = weld_equal(mesh);
     std::vector<Triangle> faces;
     faces.reserve(mesh.triangles.size());
@@ -64,7 +67,7 @@ std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
     return faces;
 }
 
-std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) {
+inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) {
     std::vector<std::uint64_t> edges;
     edges.reserve(3 * faces.size());
     for (const Triangle& t : faces) {
@@ -83,7 +86,7 @@ std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) 
     return count;
 }
 
-std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
+inline std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
     engine::DisjointSets joined(used.size());
     for (const Triangle& t : faces) {
         for (const Index v : {t[1], t[2]}) joined.join(t[0], v);
@@ -93,15 +96,15 @@ std::uint64_t count_components(const std::vector<Triangle>& faces, const std::ve
     return count;
 }
 
-}  // namespace
+}  // namespace detail
 
-MeshInfo info(const MeshView& mesh) {
+FAQEM_INLINE MeshInfo info(const MeshView& mesh) {
     MeshInfo result;
-    const std::vector<Triangle> faces = welded_faces(mesh, result);
+    const std::vector<Triangle> faces = detail::welded_faces(mesh, result);
     if (faces.empty()) return result;
     std::vector<bool> used(mesh.positions.size());
     const auto position = [&](Index v) { return engine::to_eigen(mesh.positions[v]); };
-    Vector3 low = position(faces[0][0]), high = low;
+    engine::Vector3 low = position(faces[0][0]), high = low;
     for (const Triangle& t : faces) {
         for (const Index v : t) {
             used[v] = true;
@@ -111,8 +114,8 @@ MeshInfo info(const MeshView& mesh) {
         result.area += engine::area_vector(position(t[0]), position(t[1]), position(t[2])).norm() / 2;
     }
     result.vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
-    const std::uint64_t edges = count_edges(faces, result);
-    result.components = count_components(faces, used);
+    const std::uint64_t edges = detail::count_edges(faces, result);
+    result.components = detail::count_components(faces, used);
     result.euler = static_cast<std::int64_t>(result.vertices) - static_cast<std::int64_t>(edges) +
                    static_cast<std::int64_t>(result.faces);
     result.box_min = engine::to_array(low);
@@ -121,4 +124,4 @@ MeshInfo info(const MeshView& mesh) {
     return result;
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

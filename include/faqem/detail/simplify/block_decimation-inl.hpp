@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 
 #include <algorithm>
@@ -14,9 +17,8 @@
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Complex;
 using engine::Poll;
@@ -24,7 +26,7 @@ using engine::Vector3;
 
 // Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
 // more.
-constexpr double local_share = 0.8;
+inline constexpr double local_share = 0.8;
 
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
@@ -59,7 +61,7 @@ struct Blocks {
 };
 
 /// Number of faces with a vertex that must stay because it has faces in several blocks.
-std::size_t count_waiting(const BlockInput& input) {
+inline std::size_t count_waiting(const BlockInput& input) {
     std::vector<std::uint8_t> waits(input.positions.size(), 0);
     for (const Triangle& t : input.triangles) {
         if (!input.is_between_blocks(t)) continue;
@@ -226,7 +228,7 @@ private:
 };
 
 /// Of each original vertex: nonzero is looked after.
-std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
+inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
     const bool all = tracking.watched == Watched::borders_and_surface;
     std::vector<std::uint8_t> watched(tracking.into.size(), all);
     for (const auto& edge : tracking.original.open_edges()) {
@@ -323,7 +325,7 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
 }
 
 /// Keeps as many steps as remove no more than `most` faces. The cost at the cut is one that some blocks have.
-Cut cut(const std::vector<Done>& blocks, std::size_t most) {
+inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
     // Doubles >= 0 are in the order of their bits.
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
     const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
@@ -338,7 +340,7 @@ Cut cut(const std::vector<Done>& blocks, std::size_t most) {
 }
 
 /// Appends the first steps of a block, and what was counted.
-void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& to) {
+inline void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& to) {
     to.steps.insert(to.steps.end(), block.steps.begin(),
                     block.steps.begin() + static_cast<std::ptrdiff_t>(steps));
     for (std::size_t i = 0; i < refusal_kinds; ++i) {
@@ -353,16 +355,14 @@ void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& t
                           block.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-}  // namespace
-
-std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
+FAQEM_INLINE std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
     if (vertices <= few) return vertices;
     constexpr std::size_t most = 4 * most_vertices_per_block;
     const std::size_t blocks = 4 * ((vertices + most - 1) / most);
     return (vertices + blocks - 1) / blocks;
 }
 
-engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
+FAQEM_INLINE engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
                                   double share) {
     engine::LoopOptions options = loop;
     options.ladder = engine::Ladder::stay;
@@ -371,7 +371,7 @@ engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t f
     return options;
 }
 
-BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
+FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, Workers workers) {
     BlockSteps result;
     if (input.positions.size() <= 2 * input.per_block) return result;
@@ -416,7 +416,7 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
     return result;
 }
 
-Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll poll) {
+FAQEM_INLINE Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll poll) {
     SlotTrace trace(input.positions.size());
     std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
     for (const auto& [survivor, gone, to] : steps) {
@@ -437,4 +437,5 @@ Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll p
     return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

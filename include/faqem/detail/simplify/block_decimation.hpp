@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/loop.hpp"
 #include "faqem/engine/tracking/reference_surface.hpp"
 #include "faqem/engine/util/cancellation.hpp"
@@ -15,7 +16,8 @@
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A collapse in a block, in slots of the whole.
 struct BlockStep {
@@ -100,4 +102,9 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
 /// O(n)
 Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/block_decimation-inl.hpp"
+#endif

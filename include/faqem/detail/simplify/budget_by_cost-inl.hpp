@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 
 #include <algorithm>
@@ -5,9 +8,10 @@
 
 #include "faqem/detail/simplify/target.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves, std::span<const double> weights,
+FAQEM_INLINE std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves, std::span<const double> weights,
                                          std::uint64_t goal) {
     // Costs of a mesh grow with the fourth power of its size. The largest is 1: nothing overflows.
     std::vector<double> size;
@@ -51,4 +55,5 @@ std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves, std:
     return share;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

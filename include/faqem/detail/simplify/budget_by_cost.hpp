@@ -10,7 +10,8 @@
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The way of one mesh from all its faces to the fewest, and what each step costs.
 struct CostCurve {
@@ -39,4 +40,9 @@ FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 FAQEM_EXPORT std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves,
                                                       std::span<const double> weights, std::uint64_t goal);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/budget_by_cost-inl.hpp"
+#endif

@@ -1,12 +1,16 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
 
 #include <numeric>
 #include <string>
 #include <utility>
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
+FAQEM_INLINE std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
                            const engine::Complex& complex, const engine::Wedges& wedges,
                            std::span<const Index> places, engine::Poll poll, SimplifyResult& result) {
     std::vector<Index> slots;
@@ -59,7 +63,7 @@ std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const
 
 // What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
 // whichever level of a chain comes first to ask.
-void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
+FAQEM_INLINE void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
     std::vector<engine::Vector3> at = prepared.engine_positions(poll);
     std::vector<Index> place(at.size());
     std::iota(place.begin(), place.end(), Index{0});
@@ -79,7 +83,7 @@ void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Col
     }
 }
 
-void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
+FAQEM_INLINE void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
                     std::vector<Triangle> triangles, SimplifyResult& result) {
     CollapseHistory& history = result.history;
     history.positions = std::move(positions);
@@ -95,7 +99,7 @@ void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3
     history.kept_faces = result.face_origin;
 }
 
-bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now) {
+FAQEM_INLINE bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now) {
     while (true) {
         bool is_good = true, is_changed = false;
         for (const Triangle& t : triangles) {
@@ -110,7 +114,7 @@ bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles
     }
 }
 
-void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
+FAQEM_INLINE void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
     CollapseHistory& history = result.history;
     if (result.report.vertices_relaxed > 0) history.kept_positions = result.mesh.positions;
     for (const auto& [s, t] : swaps) {
@@ -119,14 +123,14 @@ void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
     }
 }
 
-void count(const engine::LoopResult& looped, Report& report) {
+FAQEM_INLINE void count(const engine::LoopResult& looped, Report& report) {
     report.collapses += looped.collapses;
     for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
     for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
     report.components_deleted += looped.components_deleted;
 }
 
-void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
+FAQEM_INLINE void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
                    SimplifyResult& result) {
     Report& report = result.report;
     const Weights& w = options.weights;
@@ -156,4 +160,5 @@ void finish_report(const Options& options, const Settings& settings, const Prepa
         report.warnings.push_back("nothing is left: no face that remained had an area");
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
@@ -14,7 +15,8 @@
 #include "faqem/simplify.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Fills the mesh of the result, and whose its vertices and faces were: both in input order; what has no area
 /// is left out and counted.
@@ -57,4 +59,9 @@ void count(const engine::LoopResult& looped, Report& report);
 void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
                    SimplifyResult& result);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/build_result-inl.hpp"
+#endif

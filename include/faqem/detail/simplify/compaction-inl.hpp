@@ -1,25 +1,29 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
 
 #include <numeric>
 #include <utility>
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Vector3;
 
-SlotTrace::SlotTrace(std::size_t slots) : next_(slots) {
+FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots) : next_(slots) {
     std::iota(next_.begin(), next_.end(), Index{0});
     places_ = next_;
 }
 
-Index SlotTrace::root(Index slot) {
+FAQEM_INLINE Index SlotTrace::root(Index slot) {
     Index end = slot;
     while (next_[end] != end) end = next_[end];
     while (next_[slot] != end) slot = std::exchange(next_[slot], end);
     return end;
 }
 
-Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::span<const Vector3> positions,
+FAQEM_INLINE Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::span<const Vector3> positions,
                 SlotTrace& trace, engine::Poll poll) {
     Reduced out;
     out.faces = std::move(faces);
@@ -48,7 +52,7 @@ Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::
     return out;
 }
 
-Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll) {
+FAQEM_INLINE Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll) {
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < complex.face_slots(); ++f) {
@@ -63,4 +67,5 @@ Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll p
     return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

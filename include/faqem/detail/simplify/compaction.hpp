@@ -5,10 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// What is left after some steps.
 struct Reduced {
@@ -57,4 +59,9 @@ Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles,
 /// O(n)
 Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/compaction-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 
 #include <limits>
@@ -8,13 +11,14 @@
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-Original::Original(const MeshView& mesh, const Options& options, Poll poll)
+FAQEM_INLINE Original::Original(const MeshView& mesh, const Options& options, Poll poll)
     : surface_(surface_of({mesh.positions, triangles_left(mesh, options, poll)}, poll)),
       tree_(surface_.positions, surface_.triangles, poll) {}
 
-Distance Original::distance(const MeshView& result, double allowed, Look look, Workers workers) const {
+FAQEM_INLINE Distance Original::distance(const MeshView& result, double allowed, Look look, Workers workers) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (surface_.triangles.empty()) return {};
     const Surface small = surface_of(result, workers.poll);
@@ -40,7 +44,7 @@ Distance Original::distance(const MeshView& result, double allowed, Look look, W
     return found;
 }
 
-Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
+FAQEM_INLINE Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
                   const Options& options, Poll poll) {
     const Report& report = result.report;
     const Settings exact = settings(options);
@@ -52,11 +56,11 @@ Distance distance(const Original& original, const SimplifyResult& result, double
     return original.distance(result.mesh.view(), allowed, look, {options.threads, poll});
 }
 
-double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original, Poll poll) {
+FAQEM_INLINE double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original, Poll poll) {
     return options.topology.prune ? surface_of(mesh, poll).diagonal() : original.surface().diagonal();
 }
 
-SimplifyResult simplify_within(const MeshView& mesh, const Options& options) try {
+FAQEM_INLINE SimplifyResult simplify_within(const MeshView& mesh, const Options& options) try {
     const AskMeanwhile meanwhile(options, 0);
     const Original original(mesh, options, meanwhile.poll());
     const MaxError& error = *options.max_error;
@@ -72,7 +76,7 @@ SimplifyResult simplify_within(const MeshView& mesh, const Options& options) try
     return cancelled<SimplifyResult>();
 }
 
-void finish_search(Report& report, std::uint64_t unsettled) {
+FAQEM_INLINE void finish_search(Report& report, std::uint64_t unsettled) {
     report.target_faces = report.faces_out;  // no count was asked for, so that none was missed
     if (!report.max_error->within()) {
         report.warnings.push_back(
@@ -91,4 +95,5 @@ void finish_search(Report& report, std::uint64_t unsettled) {
     }
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

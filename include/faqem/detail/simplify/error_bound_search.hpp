@@ -15,7 +15,8 @@
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// value <= true distance <= bound, up to rounding.
 struct Distance {
@@ -168,4 +169,9 @@ Result run_within(const Options& options, std::uint64_t faces, double allowed, R
     return std::move(*best);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/error_bound_search-inl.hpp"
+#endif

@@ -1,35 +1,35 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/face_count_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-namespace {
-
-constexpr double first_share = 0.1;
-constexpr double narrow_enough = 1.02;
+inline constexpr double first_share = 0.1;
+inline constexpr double narrow_enough = 1.02;
 
 /// A guess from one point alone goes this much beyond it, so that the next point is more often on the other
 /// side.
-constexpr double beyond = 1.1;
+inline constexpr double beyond = 1.1;
 
 /// Share of the bracket that guesses stay away from its ends; more where both are measured.
-constexpr double margin = 0.05, measured_margin = 0.1;
+inline constexpr double margin = 0.05, measured_margin = 0.1;
 
-}  // namespace
-
-FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
+FAQEM_INLINE FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
     : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{smallest_target - 1} {}
 
-bool FaceCountSearch::bracketing() const {
+FAQEM_INLINE bool FaceCountSearch::bracketing() const {
     return step_ == 0 && runs_ < bracket_runs && good_.faces > bad_.faces * narrow_enough &&
            good_.faces - bad_.faces > 1;
 }
 
 // The error of a smooth surface falls like 1 / faces. With both ends measured: regula falsi, or the middle
 // where the last guess did not halve the bracket. All in logarithms.
-double FaceCountSearch::guess() const {
+FAQEM_INLINE double FaceCountSearch::guess() const {
     const double low = std::log(bad_.faces), high = std::log(good_.faces);
     // How far an error is above what is allowed; perfect, infinite and unknown ones have a say too.
     const auto excess = [&](double error) {
@@ -53,7 +53,7 @@ double FaceCountSearch::guess() const {
     return std::exp(at > low + space ? std::min(at, high - space) : low + space);
 }
 
-std::optional<std::uint64_t> FaceCountSearch::next() {
+FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
     if (bracketing()) {
         ++runs_;
         // Between the ends: there is a whole number.
@@ -71,7 +71,7 @@ std::optional<std::uint64_t> FaceCountSearch::next() {
     return std::nullopt;
 }
 
-void FaceCountSearch::tell(std::uint64_t faces, double error, bool within) {
+FAQEM_INLINE void FaceCountSearch::tell(std::uint64_t faces, double error, bool within) {
     const auto count = static_cast<double>(faces), target = static_cast<double>(target_);
     if (count > target) reachable_ = std::max(reachable_, std::min(count, good_.faces));
     if (within && count < good_.faces) {
@@ -83,4 +83,5 @@ void FaceCountSearch::tell(std::uint64_t faces, double error, bool within) {
     if (bad_.faces < reachable_ - 1) bad_ = {reachable_ - 1, std::nullopt};
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

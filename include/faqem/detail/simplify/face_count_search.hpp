@@ -10,7 +10,8 @@
 #include "faqem/export.hpp"
 #include "faqem/detail/simplify/target.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A search over targets where neither the error nor the face count follows the target exactly: the error is
 /// not monotone, and a run may end above its target or far below. First a bracket in the logarithms of count
@@ -54,4 +55,9 @@ private:
     std::size_t step_ = 0;    ///< into `below`
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/face_count_search-inl.hpp"
+#endif

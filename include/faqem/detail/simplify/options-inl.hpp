@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 #include <bit>
@@ -6,62 +9,62 @@
 
 #include "faqem/error.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
-void require(bool good, const char* what) {
+inline void require(bool good, const char* what) {
     if (!good) throw OptionError(what);
 }
 
-void require_weight(const std::optional<double>& weight, const char* name) {
+inline void require_weight(const std::optional<double>& weight, const char* name) {
     if (weight && !(*weight >= 0 && std::isfinite(*weight))) {
         throw OptionError(std::string("weights.") + name + " must be finite and >= 0");
     }
 }
 
-}  // namespace
+}  // namespace detail
 
-void validate(const Options& options) {
+FAQEM_INLINE void validate(const Options& options) {
     const Target& target = options.target;
     if (target.kind == Target::Kind::faces) {
-        require(target.value >= 1 && std::isfinite(target.value), "target face count must be >= 1");
+        detail::require(target.value >= 1 && std::isfinite(target.value), "target face count must be >= 1");
     } else {
-        require(target.value > 0 && target.value <= 1, "target ratio must be in (0, 1]");
+        detail::require(target.value > 0 && target.value <= 1, "target ratio must be in (0, 1]");
     }
     if (options.max_error) {
-        require(options.max_error->value > 0 && std::isfinite(options.max_error->value),
+        detail::require(options.max_error->value > 0 && std::isfinite(options.max_error->value),
                 "max_error must be finite and > 0");
     }
-    require(options.visibility == Visibility::ignored || !options.max_error ||
+    detail::require(options.visibility == Visibility::ignored || !options.max_error ||
                 options.target.kind != Target::Kind::unset,
             "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
-    require_weight(options.weights.area, "area");
-    require_weight(options.weights.boundary, "boundary");
-    require_weight(options.weights.normal, "normal");
-    require_weight(options.weights.uv, "uv");
-    require_weight(options.weights.plane_area, "plane_area");
+    detail::require_weight(options.weights.area, "area");
+    detail::require_weight(options.weights.boundary, "boundary");
+    detail::require_weight(options.weights.normal, "normal");
+    detail::require_weight(options.weights.uv, "uv");
+    detail::require_weight(options.weights.plane_area, "plane_area");
     const Topology& topology = options.topology;
     if (topology.weld_distance) {
-        require(*topology.weld_distance >= 0 && std::isfinite(*topology.weld_distance),
+        detail::require(*topology.weld_distance >= 0 && std::isfinite(*topology.weld_distance),
                 "weld_distance must be finite and >= 0");
     }
-    require(topology.virtual_edge_distance > 0 && topology.virtual_edge_distance <= 1,
+    detail::require(topology.virtual_edge_distance > 0 && topology.virtual_edge_distance <= 1,
             "virtual_edge_distance must be in (0, 1]");
     if (topology.prune) {
-        require(topology.prune->value > 0 && std::isfinite(topology.prune->value),
+        detail::require(topology.prune->value > 0 && std::isfinite(topology.prune->value),
                 "prune must be finite and > 0");
     }
     const BakeOptions& bake = options.bake;
-    require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
+    detail::require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
             "texture_size must be a power of two in [64, 16384]");
-    require(!bake.texel_density || (*bake.texel_density >= 0.125 && *bake.texel_density <= 8),
+    detail::require(!bake.texel_density || (*bake.texel_density >= 0.125 && *bake.texel_density <= 8),
             "texel_density must be in [0.125, 8]");
-    require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
-    require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
-    require(bake.normals != Normals::none || bake.kind == Bake::none,
+    detail::require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
+    detail::require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
+    detail::require(bake.normals != Normals::none || bake.kind == Bake::none,
             "normals can be left out only where nothing is baked: bake must be none");
-    require(bake.crease_angle >= 0 && bake.crease_angle <= 180, "crease_angle must be in [0, 180] degrees");
+    detail::require(bake.crease_angle >= 0 && bake.crease_angle <= 180, "crease_angle must be in [0, 180] degrees");
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 
 #include <algorithm>
@@ -10,22 +13,21 @@
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Poll;
 using engine::Vector3;
 
-constexpr Triangle dropped = {no_index, no_index, no_index};
+inline constexpr Triangle dropped = {no_index, no_index, no_index};
 
-bool is_dropped(const Triangle& t) { return t[0] == no_index; }
+inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 
-[[noreturn]] void fail(const std::string& element, const std::string& what) {
+[[noreturn]] inline void fail(const std::string& element, const std::string& what) {
     throw InputError("", element, what);
 }
 
-void check_sizes(const MeshView& mesh, Poll poll) {
+inline void check_sizes(const MeshView& mesh, Poll poll) {
     if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
     if (mesh.triangles.size() > engine::max_faces) {
         fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
@@ -59,7 +61,7 @@ void check_sizes(const MeshView& mesh, Poll poll) {
     }
 }
 
-std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) {
+inline std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) {
     std::vector<Vec3> positions(view.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
         poll();
@@ -72,7 +74,7 @@ std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) {
 }
 
 // Vertices that no face uses stay apart: they must not pull others to their place.
-std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
+inline std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
                                    const Settings& settings, Poll poll) {
     std::vector<Index> result(positions.size());
     std::iota(result.begin(), result.end(), Index{0});
@@ -94,13 +96,13 @@ std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>
 }
 
 // A locked vertex stays where it is: what was welded to it comes to it.
-void keep_locked_places(const MeshView& mesh, const std::vector<Vec3>& positions, Prepared& out) {
+inline void keep_locked_places(const MeshView& mesh, const std::vector<Vec3>& positions, Prepared& out) {
     for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
         if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
     }
 }
 
-void check_triangles(const MeshView& mesh, Poll poll) {
+inline void check_triangles(const MeshView& mesh, Poll poll) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         poll();
         for (const Index v : mesh.triangles[f]) {
@@ -112,7 +114,7 @@ void check_triangles(const MeshView& mesh, Poll poll) {
 }
 
 // Numbers the representatives in input order and takes the triangles to them.
-void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
+inline void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
                  const std::vector<Index>& representative, Poll poll, Prepared& out) {
     std::vector<Index>& welded = out.welded;
     welded.assign(positions.size(), no_index);
@@ -132,7 +134,7 @@ void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
     }
 }
 
-void drop_collapsed(Prepared& out) {
+inline void drop_collapsed(Prepared& out) {
     for (Triangle& t : out.triangles) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped, ++out.dropped_faces;
     }
@@ -140,7 +142,7 @@ void drop_collapsed(Prepared& out) {
 
 // A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
 // back stay.
-void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
+inline void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
     struct Rest {
         Index second, third, group, face;               // of a face whose smallest corner is known
         auto operator<=>(const Rest&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -176,7 +178,7 @@ void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
 
 // Box of the used vertices; quarters are taken first, so that not even the diagonal of the largest box
 // overflows.
-void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
+inline void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
@@ -201,9 +203,7 @@ void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
 
-}  // namespace
-
-std::vector<Vector3> Prepared::engine_positions(Poll poll) const {
+FAQEM_INLINE std::vector<Vector3> Prepared::engine_positions(Poll poll) const {
     std::vector<Vector3> result;
     result.reserve(positions.size());
     const Vector3 c = engine::to_eigen(centre);
@@ -214,11 +214,11 @@ std::vector<Vector3> Prepared::engine_positions(Poll poll) const {
     return result;
 }
 
-Vec3 Prepared::to_model(const Vector3& p) const {
+FAQEM_INLINE Vec3 Prepared::to_model(const Vector3& p) const {
     return engine::to_array(Vector3(p / scale + engine::to_eigen(centre)));
 }
 
-Prepared prepare(const MeshView& mesh, const Settings& settings, Poll poll) {
+FAQEM_INLINE Prepared prepare(const MeshView& mesh, const Settings& settings, Poll poll) {
     check_sizes(mesh, poll);
     check_triangles(mesh, poll);
     const std::vector<Vec3> positions = checked_positions(mesh.positions, poll);
@@ -235,7 +235,7 @@ Prepared prepare(const MeshView& mesh, const Settings& settings, Poll poll) {
     return out;
 }
 
-std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, Poll poll) {
+FAQEM_INLINE std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, Poll poll) {
     std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
     if (options.topology.prune) {
         for (const PrunedFace& pruned : prepare(mesh, settings(options), poll).pruned.faces)
@@ -248,7 +248,7 @@ std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& option
     return left;
 }
 
-std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
+FAQEM_INLINE std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
                                           std::size_t vertices) {
     std::vector<std::uint8_t> locked(vertices, 0);
     for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
@@ -257,7 +257,7 @@ std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const 
     return locked;
 }
 
-bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+FAQEM_INLINE bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
     const Vector3 p = 0.5 * engine::to_eigen(a);
     const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
@@ -268,4 +268,5 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return !(u.cross(v).norm() > 1e-12 * longest);
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -11,7 +11,8 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A mesh made ready for the engine. Vertices are the welded ones, faces keep their input index.
 struct Prepared {
@@ -48,4 +49,9 @@ std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const 
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 FAQEM_EXPORT bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/preprocess-inl.hpp"
+#endif

@@ -1,15 +1,17 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::AreaTerm;
 using engine::BaseWeight;
 
 // The paper's Table 1. Its terms have different units and only act together at a certain model size; it was
 // tuned on Thingi10K, in millimetres with diagonals near 100.
-Settings paper() {
+inline Settings paper() {
     Settings s;
     s.weights.base = BaseWeight::inverse_area;
     s.weights.plane_area = 1;
@@ -22,14 +24,14 @@ Settings paper() {
     return s;
 }
 
-Settings qem() {
+inline Settings qem() {
     Settings s;
     s.link = LinkCondition::on;
     return s;
 }
 
 // Both terms are areas squared, so that they add up at any scale.
-Settings stmw() {
+inline Settings stmw() {
     Settings s;
     s.weights.base = BaseWeight::area;
     s.weights.area = 1;
@@ -39,7 +41,7 @@ Settings stmw() {
 
 // Memoryless costs are measured on the surface as it is, so small turns are no longer paid for later: the
 // veto is stricter than the paper's.
-Settings fast() {
+inline Settings fast() {
     Settings s;
     s.carry = Settings::Carry::memoryless;
     s.link = LinkCondition::by_size;
@@ -48,19 +50,19 @@ Settings fast() {
     return s;
 }
 
-Settings balanced() {
+inline Settings balanced() {
     Settings s = fast();
     s.carry = Settings::Carry::tracked;
     return s;
 }
 
-Settings best() {
+inline Settings best() {
     Settings s = balanced();
     s.relax = true;
     return s;
 }
 
-Settings named(Preset preset) {
+inline Settings named(Preset preset) {
     switch (preset) {
         case Preset::qem:
             return qem();
@@ -78,9 +80,7 @@ Settings named(Preset preset) {
     return best();
 }
 
-}  // namespace
-
-Settings settings(const Options& options) {
+FAQEM_INLINE Settings settings(const Options& options) {
     Settings s = named(options.preset);
     const Weights& w = options.weights;
     if (w.plane_area) {
@@ -102,4 +102,5 @@ Settings settings(const Options& options) {
     return s;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

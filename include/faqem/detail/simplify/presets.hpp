@@ -2,10 +2,12 @@
 /// \file
 /// The table of presets: what each name stands for.
 
+#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A preset with the user's weights and rules put in.
 struct Settings {
@@ -27,4 +29,9 @@ struct Settings {
 /// \pre options are valid
 Settings settings(const Options& options);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/presets-inl.hpp"
+#endif

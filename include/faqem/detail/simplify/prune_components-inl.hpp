@@ -1,25 +1,25 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
-namespace {
+inline constexpr Triangle no_face = {no_index, no_index, no_index};
 
-constexpr Triangle no_face = {no_index, no_index, no_index};
-
-using Box = Eigen::AlignedBox3d;
+using AlignedBox = Eigen::AlignedBox3d;
 
 // Halves are taken first, so that 1e308 does not overflow. \pre not empty
-double half_diagonal(const Box& box) { return (0.5 * box.max() - 0.5 * box.min()).stableNorm(); }
+inline double half_diagonal(const AlignedBox& box) { return (0.5 * box.max() - 0.5 * box.min()).stableNorm(); }
 
-}  // namespace
-
-Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
+FAQEM_INLINE Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
              std::vector<Triangle>& triangles, engine::Poll poll) {
     engine::DisjointSets joined(positions.size());
-    Box all;
+    AlignedBox all;
     for (const Triangle& t : triangles) {
         poll();
         if (t == no_face) continue;
@@ -28,7 +28,7 @@ Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> lock
         for (const Index v : t) all.extend(engine::to_eigen(positions[v]));
     }
     // By root, those that have faces.
-    std::vector<Box> box(positions.size());
+    std::vector<AlignedBox> box(positions.size());
     std::vector<std::uint8_t> stays(positions.size(), 0);
     for (const Triangle& t : triangles) {
         poll();
@@ -63,4 +63,5 @@ Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> lock
     return pruned;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

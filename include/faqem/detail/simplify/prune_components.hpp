@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// A face that was taken out.
 struct PrunedFace {
@@ -34,4 +36,9 @@ struct Pruned {
 Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
              std::vector<Triangle>& triangles, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/prune_components-inl.hpp"
+#endif

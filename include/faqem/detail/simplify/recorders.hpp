@@ -7,12 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Passes everything on, and remembers where slots went and whose place they still have, so that what did not
 /// move comes out to the last bit.
@@ -51,4 +53,5 @@ private:
     double cost_ = 0;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

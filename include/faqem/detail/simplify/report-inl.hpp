@@ -1,108 +1,43 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-#include <sys/resource.h>
-
-#include <nlohmann/json.hpp>
+#include <array>
+#include <string>
+#include <string_view>
 
 #include "faqem/error.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
 // Names by enumerator; the order is the enums'.
-constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
+inline constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
                                                                            "fast", "balanced", "best"};
-constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
+inline constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
                                                         "reached_max_error", "cancelled"};
-constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
+inline constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
-constexpr std::array<std::string_view, rung_kinds> rung_names = {
+inline constexpr std::array<std::string_view, rung_kinds> rung_names = {
     "reseed",    "double_faces", "tiny_components", "without_link", "fold",
     "flip_zero", "flip_half",    "flip_any",        "any_component"};
 
-std::uint64_t peak_rss_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
+}  // namespace detail
 
-template <std::size_t n>
-nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
-                              const std::array<std::string_view, n>& names) {
-    auto json = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < n; ++i) json[std::string(names[i])] = values[i];
-    return json;
-}
+FAQEM_INLINE std::string_view name(Preset preset) { return detail::preset_names[static_cast<std::size_t>(preset)]; }
+FAQEM_INLINE std::string_view name(StopReason reason) { return detail::stop_names[static_cast<std::size_t>(reason)]; }
+FAQEM_INLINE std::string_view name(Refusal refusal) { return detail::refusal_names[static_cast<std::size_t>(refusal)]; }
+FAQEM_INLINE std::string_view name(Rung rung) { return detail::rung_names[static_cast<std::size_t>(rung)]; }
 
-}  // namespace
-
-std::string_view name(Preset preset) { return preset_names[static_cast<std::size_t>(preset)]; }
-std::string_view name(StopReason reason) { return stop_names[static_cast<std::size_t>(reason)]; }
-std::string_view name(Refusal refusal) { return refusal_names[static_cast<std::size_t>(refusal)]; }
-std::string_view name(Rung rung) { return rung_names[static_cast<std::size_t>(rung)]; }
-
-Preset preset_named(std::string_view text) {
+FAQEM_INLINE Preset preset_named(std::string_view text) {
     for (const Preset preset : all_presets) {
         if (name(preset) == text) return preset;
     }
     std::string known;
-    for (const std::string_view one : preset_names) known += (known.empty() ? "" : ", ") + std::string(one);
+    for (const std::string_view one : detail::preset_names) known += (known.empty() ? "" : ", ") + std::string(one);
     throw OptionError("unknown preset '" + std::string(text) + "' (known: " + known + ")");
 }
 
-std::string to_json(const Report& report) {
-    nlohmann::ordered_json json;
-    json["preset"] = name(report.preset);
-    json["faces_in"] = report.faces_in;
-    json["faces_out"] = report.faces_out;
-    json["vertices_in"] = report.vertices_in;
-    json["vertices_out"] = report.vertices_out;
-    json["target_faces"] = report.target_faces;
-    json["stop_reason"] = name(report.stop);
-    if (report.max_error) {
-        const MeasuredError& e = *report.max_error;
-        json["max_error"] = {{"allowed", e.allowed},
-                             {"value", e.value},
-                             {"bound", e.bound},
-                             {"runs", e.runs},
-                             {"within", e.within()}};
-    }
-    json["collapses"] = report.collapses;
-    json["refusals"] = counts(report.refusals, refusal_names);
-    json["rungs"] = counts(report.rungs, rung_names);
-    json["faces_dropped"] = report.faces_dropped;
-    json["components_deleted"] = report.components_deleted;
-    json["components_pruned"] = report.components_pruned;
-    json["faces_pruned"] = report.faces_pruned;
-    json["vertices_hidden"] = report.vertices_hidden;
-    json["vertices_relaxed"] = report.vertices_relaxed;
-    json["edges_swapped"] = report.edges_swapped;
-    json["virtual_edges"] = report.virtual_edges;
-    json["pages"] = nlohmann::ordered_json::array();
-    for (const BakedPage& page : report.pages) {
-        json["pages"].push_back(
-            {{"material", page.material},
-             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
-             {"width", page.width},
-             {"height", page.height},
-             {"faces", page.faces},
-             {"charts", page.charts},
-             {"faces_alone", page.faces_alone},
-             {"fill", page.fill},
-             {"density", page.density},
-             {"stretch", page.stretch},
-             {"samples",
-              {{"history", page.samples[0]}, {"relaxed", page.samples[1]}, {"closest", page.samples[2]}}},
-             {"uncertain_texels", page.uncertain_texels}});
-    }
-    json["warnings"] = report.warnings;
-    const PhaseSeconds& s = report.seconds;
-    json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
-                       {"bake", s.bake}, {"save", s.save}, {"total", s.total}};
-    json["peak_rss_bytes"] = peak_rss_bytes();
-    // File names need not be UTF-8: what is not is shown as U+FFFD.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-}  // namespace faqem
+FAQEM_NAMESPACE_END

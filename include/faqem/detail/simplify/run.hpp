@@ -9,7 +9,8 @@
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// Simplifies to one target after the other, each from where the one before it ended. What the result of a
 /// target gets in the end (relaxation) is not passed on to the next one. Counts in the reports are since the
@@ -24,4 +25,5 @@ namespace faqem::detail {
 FAQEM_EXPORT std::vector<SimplifyResult> run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
                                                 const Options& options);
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

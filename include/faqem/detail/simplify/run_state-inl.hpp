@@ -1,11 +1,13 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
 
 #include <cassert>
 #include <utility>
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 // Of some slots; no_index where there is none.
 template <class T>
@@ -16,9 +18,7 @@ std::vector<T> taken(const std::vector<T>& of, const std::vector<Index>& slots) 
     return result;
 }
 
-}  // namespace
-
-Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
+FAQEM_INLINE Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
                engine::Poll poll)
     : now_(arrange(prepared, poll)), places_(now_.vertex), locked_(taken(locked, now_.vertex)) {
     if (border != Border::locked) return;
@@ -26,7 +26,7 @@ Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked
         locked_[a] = locked_[b] = 1;
 }
 
-void Ground::take(Reduced&& reduced) {
+FAQEM_INLINE void Ground::take(Reduced&& reduced) {
     places_ = taken(places_, reduced.places);
     into_ = taken(reduced.into, into_);
     locked_ = taken(locked_, reduced.vertices);
@@ -38,15 +38,15 @@ void Ground::take(Reduced&& reduced) {
     whole_triangles_ = std::move(less.triangles);
 }
 
-std::vector<Index> Ground::places_of(const std::vector<Index>& slots) const { return taken(places_, slots); }
+FAQEM_INLINE std::vector<Index> Ground::places_of(const std::vector<Index>& slots) const { return taken(places_, slots); }
 
-Patchwork Ground::whole() const {
+FAQEM_INLINE Patchwork Ground::whole() const {
     assert(keeps_whole_);
     if (whole_positions_.empty()) return {now_.positions, now_.triangles};
     return {whole_positions_, whole_triangles_};
 }
 
-double Ground::area() const {
+FAQEM_INLINE double Ground::area() const {
     double sum = 0;
     for (const Triangle& t : now_.triangles)
         sum += 0.5 *
@@ -54,4 +54,5 @@ double Ground::area() const {
     return sum;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -7,12 +7,14 @@
 #include <optional>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/engine/tracking/reference_surface.hpp"
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// What the next engine begins with, and whose it was.
 class Ground {
@@ -64,4 +66,9 @@ private:
     std::vector<std::uint8_t> locked_;
 };
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/run_state-inl.hpp"
+#endif

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
@@ -25,12 +28,12 @@
 #include "faqem/detail/simplify/virtual_edges.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 
-namespace faqem {
+FAQEM_NAMESPACE_BEGIN
 
-namespace {
+namespace detail {
 
 // Up to which the queue is exact.
-constexpr std::size_t few_pairs = 1 << 17;
+inline constexpr std::size_t few_pairs = 1 << 17;
 
 using engine::Complex;
 using engine::Poll;
@@ -51,7 +54,7 @@ struct Work {
 };
 
 // Of vertices at one place the largest weight counts.
-std::vector<double> importance(const MeshView& mesh, const detail::Prepared& prepared,
+inline std::vector<double> importance(const MeshView& mesh, const detail::Prepared& prepared,
                                const detail::Arranged& arranged) {
     std::vector<double> at_vertex(prepared.positions.size(), 0), result;
     if (mesh.vertex_weights.empty()) return result;
@@ -413,9 +416,9 @@ private:
     std::vector<SimplifyResult> results_;
 };
 
-}  // namespace
+}  // namespace detail
 
-SimplifyResult simplify(const MeshView& mesh, const Options& options) {
+FAQEM_INLINE SimplifyResult simplify(const MeshView& mesh, const Options& options) {
     validate(options);
     if (options.max_error) return detail::simplify_within(mesh, options);
     const std::uint64_t target =
@@ -423,17 +426,17 @@ SimplifyResult simplify(const MeshView& mesh, const Options& options) {
     return std::move(detail::run_to(mesh, {&target, 1}, options).front());
 }
 
-std::vector<SimplifyResult> detail::run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
+FAQEM_INLINE std::vector<SimplifyResult> detail::run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
                                            const Options& options) {
-    return Run(mesh, options).simplify(targets);
+    return detail::Run(mesh, options).simplify(targets);
 }
 
-detail::CostCurve detail::cost_curve(const MeshView& mesh, const Options& options) {
+FAQEM_INLINE detail::CostCurve detail::cost_curve(const MeshView& mesh, const Options& options) {
     Options cheap = options;
     cheap.preset = Preset::fast;
     cheap.weights = {};
     validate(cheap);
-    return Run(mesh, cheap).curve();
+    return detail::Run(mesh, cheap).curve();
 }
 
-}  // namespace faqem
+FAQEM_NAMESPACE_END

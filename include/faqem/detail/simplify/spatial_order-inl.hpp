@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 
 #include <algorithm>
@@ -6,15 +9,14 @@
 
 #include "faqem/detail/base/morton.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Poll;
 using engine::Vector3;
 
 /// The used vertices in the order of the curve.
-std::vector<Index> along_the_curve(const std::vector<Vector3>& positions,
+inline std::vector<Index> along_the_curve(const std::vector<Vector3>& positions,
                                    const std::vector<Triangle>& triangles, Poll poll) {
     std::vector<std::uint8_t> used(positions.size(), 0);
     for (const Triangle& t : triangles) {
@@ -41,7 +43,7 @@ std::vector<Index> along_the_curve(const std::vector<Vector3>& positions,
 }
 
 /// Numbers the faces by the smallest of their corners' slots, then by index: a counting sort.
-std::vector<Index> by_first_slot(const std::vector<Triangle>& triangles, const std::vector<Index>& slot,
+inline std::vector<Index> by_first_slot(const std::vector<Triangle>& triangles, const std::vector<Index>& slot,
                                  std::size_t slots, Poll poll) {
     const auto first = [&](const Triangle& t) { return std::min({slot[t[0]], slot[t[1]], slot[t[2]]}); };
     std::vector<Index> place(slots + 1, 0);
@@ -57,9 +59,7 @@ std::vector<Index> by_first_slot(const std::vector<Triangle>& triangles, const s
     return order;
 }
 
-}  // namespace
-
-Arranged arrange(const Prepared& prepared, Poll poll) {
+FAQEM_INLINE Arranged arrange(const Prepared& prepared, Poll poll) {
     Arranged out;
     const std::vector<Vector3> positions = prepared.engine_positions(poll);
     out.vertex = along_the_curve(positions, prepared.triangles, poll);
@@ -77,4 +77,5 @@ Arranged arrange(const Prepared& prepared, Poll poll) {
     return out;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

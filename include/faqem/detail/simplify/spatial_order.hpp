@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// The used vertices and living faces of a prepared mesh along a space-filling curve, in engine units. The
 /// engine waits for memory more than for anything else: on shuffled input this makes it three times as fast.
@@ -36,4 +38,9 @@ struct Arranged {
 /// \throws what the poll throws
 Arranged arrange(const Prepared& prepared, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/spatial_order-inl.hpp"
+#endif

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// What simplify() takes any lower target for.
 inline constexpr std::uint64_t smallest_target = 4;
@@ -22,4 +24,5 @@ inline std::uint64_t faces_wanted(const Target& target, double faces) {
     return static_cast<std::uint64_t>(std::floor(std::min(wanted, 1e18)));
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -1,3 +1,6 @@
+#pragma once
+
+#include "faqem/export.hpp"
 #include "faqem/detail/simplify/virtual_edges.hpp"
 
 #include <algorithm>
@@ -10,9 +13,8 @@
 #include "faqem/engine/mesh/components.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
-namespace faqem::detail {
-
-namespace {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 using engine::Complex;
 using engine::Vector3;
@@ -83,7 +85,7 @@ private:
 };
 
 // Do two vertices belong together: a face of each in one group, and their mean normals agree?
-bool compatible(const Complex& complex, std::span<const Index> groups, Index u, Index v) {
+inline bool compatible(const Complex& complex, std::span<const Index> groups, Index u, Index v) {
     const auto normal = [&](Index w) {
         Vector3 n = Vector3::Zero();
         complex.for_each_face(w, [&](Index f, unsigned) { n += complex.area_vector(f); });
@@ -96,9 +98,7 @@ bool compatible(const Complex& complex, std::span<const Index> groups, Index u, 
     });
 }
 
-}  // namespace
-
-std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
+FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
                                                    double distance, double least, engine::Poll poll) {
     const std::vector<engine::Component> parts = engine::components(complex, poll);
     if (parts.size() < 2) return {};
@@ -151,4 +151,5 @@ std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::
     return result;
 }
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 
-namespace faqem::detail {
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
 
 /// For each vertex the few nearest vertices of other components. The paper compares centroids of triangles,
 /// which misses close vertices of large ones; vertices are what a collapse joins. Kept are pairs on open
@@ -27,4 +29,9 @@ std::vector<std::pair<Index, Index>> virtual_edges(const engine::Complex& comple
                                                    std::span<const Index> face_groups, double distance,
                                                    double least, engine::Poll poll = {});
 
-}  // namespace faqem::detail
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/virtual_edges-inl.hpp"
+#endif

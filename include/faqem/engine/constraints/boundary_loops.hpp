@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Where a small hole closes the surface hardly moves, but its border is gone: what stood there is as far
 /// from a border as the next one is. Borders are connected sets of open edges; one lives as long as it has an
@@ -209,4 +211,5 @@ private:
     std::uint32_t edges_before_ = 0;  // open ones of the pair that is being collapsed
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -11,12 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/engine/util/hash.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Which vertices are on a curve, and what may be done to them. Empty (no memory, no rule) where none is to
 /// be kept.
@@ -164,4 +166,5 @@ private:
     std::vector<Index> mark_;           // 1 + place in a ring, while looking around; else 0
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A face around a pair as its collapse leaves it: the new vertex, then corners a and b.
 struct TurnedFace {
@@ -120,4 +122,5 @@ private:
     std::vector<std::uint32_t> mark_;  // 1 + place in ends_, while counting; else 0
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -7,13 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
 #include "faqem/engine/constraints/fold_test.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/report.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// The rules a collapse must keep. The starvation ladder relaxes them.
 struct Rules {
@@ -129,4 +131,5 @@ private:
     std::vector<std::uint32_t> mark_;  // faces of the edge from u, while checking
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -11,10 +11,12 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// The wedges of a complex and their values. Empty (no memory, no rule) without attributes.
 class Wedges {
@@ -183,4 +185,5 @@ private:
     std::vector<float> scratch_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -9,10 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// An edge with one face, from the vertex that a pair (u, v) would become.
 struct OpenEdge {
@@ -91,4 +93,5 @@ void for_each_open_edge_after(const Complex& complex, const PairTable& pairs, In
     });
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

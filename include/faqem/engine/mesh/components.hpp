@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A set of faces joined by shared vertices.
 struct Component {
@@ -78,4 +80,5 @@ inline std::vector<Component> expendable_components(const Complex& complex,
     return all;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Height over longest edge below which a face counts as degenerate.
 inline constexpr double degenerate_aspect = 1e-9;
@@ -77,4 +79,5 @@ private:
     std::size_t most_ = 0;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

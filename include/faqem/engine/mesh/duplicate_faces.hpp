@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// The living faces with the corners and the winding of one before them, ascending. Without them the surface
 /// is the same. O(n log n)
@@ -31,4 +33,5 @@ inline std::vector<Index> double_faces(const Complex& complex, Poll poll = {}) {
     return doubles;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

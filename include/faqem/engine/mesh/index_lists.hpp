@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Where a list is. Belongs to one Lists.
 struct List {
@@ -61,4 +63,5 @@ private:
         numbers_;  // before each list, at a multiple of quad: its room. The first quad is nobody's
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A pair of a vertex as for_each_pair() shows it.
 struct Neighbour {
@@ -261,4 +263,5 @@ private:
     std::vector<std::uint32_t> counts_;  // scratch: faces that each change had
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// 6 * max_faces < 2^32: a soup has up to three edges per face, and a pair two ends.
 inline constexpr std::size_t max_faces = 715'827'880;
@@ -268,4 +270,5 @@ private:
     std::vector<Index> kept_;  // scratch: corners of the survivor
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

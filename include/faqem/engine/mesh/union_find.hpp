@@ -7,9 +7,11 @@
 #include <numeric>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Disjoint sets of 0 .. size - 1, each known by its smallest member.
 class DisjointSets {
@@ -41,4 +43,5 @@ private:
     std::vector<Index> parent_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -6,9 +6,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 using Vector3 = Eigen::Vector3d;
 
@@ -20,4 +22,5 @@ inline Vector3 area_vector(const Vector3& a, const Vector3& b, const Vector3& c)
     return (b - a).cross(c - a);
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

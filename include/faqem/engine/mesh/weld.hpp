@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 namespace weld_detail {
 
@@ -115,4 +117,5 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
     return representative;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
@@ -16,7 +17,8 @@
 #include "faqem/engine/quadric/quadric.hpp"
 #include "faqem/engine/quadric/terms.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// What a collapse does to the cost of other pairs of the survivor's neighbours.
 enum class Staleness {
@@ -205,4 +207,5 @@ private:
 
 static_assert(CollapseMetric<MemoryMetric>);
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

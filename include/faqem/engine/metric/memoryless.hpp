@@ -11,9 +11,11 @@
 #include <span>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Weights of the memoryless metric. Both terms are areas times squared distances.
 struct MemorylessWeights {
@@ -306,4 +308,5 @@ private:
 
 static_assert(CollapseMetric<MemorylessMetric>);
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Multiplies the costs of another metric by the larger weight of the pair's ends. The new vertex gets the
 /// weight that the edge, interpolated between its ends, has nearest to it.
@@ -72,4 +74,5 @@ private:
     std::vector<double> weights_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -4,9 +4,11 @@
 
 #include <limits>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/quadric/quadric.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Where the new vertex may go.
 enum class Freedom {
@@ -53,4 +55,5 @@ inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freed
     return best;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -5,9 +5,11 @@
 
 #include <optional>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Ten numbers: the upper triangle of A (xx xy xz yy yz zz), b and c.
 struct Quadric {
@@ -98,4 +100,5 @@ struct Quadric {
     }
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

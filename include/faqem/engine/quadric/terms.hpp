@@ -6,11 +6,13 @@
 #include <array>
 #include <optional>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/engine/quadric/quadric.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// How much a face's plane counts in the base term.
 enum class BaseWeight {
@@ -93,4 +95,5 @@ inline Quadric area_term(const Complex& complex, const PairTable& pairs, Index u
     return q;
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Buckets of nearly equal costs, for metrics whose costs are estimates: several times as fast as the heap.
 /// Costs within a sixty-fourth of a power of two of each other come out in the order in which they came in. All calls
@@ -89,4 +91,5 @@ private:
     std::size_t size_ = 0;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

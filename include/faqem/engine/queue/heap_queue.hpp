@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A set of pairs with costs, finite and >= 0. The cheapest comes first; which of equal ones does depends on
 /// nothing but the calls.
@@ -129,4 +131,5 @@ private:
     std::vector<Index> place_;  // of a pair in heap_, or no_index
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

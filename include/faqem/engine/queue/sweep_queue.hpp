@@ -8,10 +8,12 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/queue/bucket_queue.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Far from the end, what goes matters more than in which order: a round gives out all pairs up to a limit,
 /// by index, and the limit of the next round is higher. So the engine walks over the surface, and finds in the
@@ -162,4 +164,5 @@ private:
 
 static_assert(LazyQueue<RoundQueue> && AimingQueue<RoundQueue>);
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

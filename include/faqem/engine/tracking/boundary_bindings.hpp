@@ -8,13 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
 #include "faqem/engine/tracking/reference_surface.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// The vertices of the original's border, each bound to an open edge of today near it; those of a border that
 /// has come to its end are bound to none. Nothing is kept for a surface without border.
@@ -192,4 +194,5 @@ private:
     std::vector<Index> edge_pairs_, ends_;  // their pairs, their far ends
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -7,9 +7,11 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// A triangle prepared for distance queries. Slivers, segments and points are triangles too.
 class TriangleDistance {
@@ -114,4 +116,5 @@ private:
     std::size_t first_ = 0;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Vertices of the original, and the vertex of a complex that each has gone into.
 struct Lineage {
@@ -107,4 +109,5 @@ private:
     std::vector<Index> open_ends_;
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

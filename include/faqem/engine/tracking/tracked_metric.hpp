@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/tracking/vertex_bindings.hpp"
 #include "faqem/engine/tracking/boundary_bindings.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// What keeps the largest distance small. The memoryless metric forgets: many small errors in one direction
 /// add up. Here every original vertex is bound to the face that stands for it, and a collapse costs, besides,
@@ -175,4 +177,5 @@ private:
 
 static_assert(RefiningMetric<TrackedMetric> && AimingMetric<TrackedMetric>);
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/export.hpp"
 #include "faqem/engine/mesh/triangle_soup.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/tracking/reference_surface.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Vertices of the original, each bound to one living face near it. They are called by their place in the
 /// lineage.
@@ -115,4 +117,5 @@ private:
     std::vector<Index> looked_around_;  // scratch
 };
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

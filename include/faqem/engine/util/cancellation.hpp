@@ -6,9 +6,11 @@
 #include <functional>
 #include <utility>
 
+#include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 
-namespace faqem::engine {
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Thrown where the answer is to cancel; caught by the doors, which make a value of it.
 struct Cancelled {};
@@ -70,4 +72,5 @@ auto polled_less(Poll poll, Less less = {}) {
     };
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

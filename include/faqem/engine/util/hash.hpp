@@ -4,7 +4,10 @@
 
 #include <cstdint>
 
-namespace faqem::engine {
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
 
 /// Another 64 bits for each 64 bits: every bit depends on all of x (the finaliser of SplitMix64, Steele et
 /// al. 2014). One to one; 0 stays 0. O(1)
@@ -14,4 +17,5 @@ inline std::uint64_t scrambled(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-}  // namespace faqem::engine
+}  // namespace engine
+FAQEM_NAMESPACE_END

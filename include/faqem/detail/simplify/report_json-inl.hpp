@@ -1,0 +1,85 @@
+#pragma once
+
+#include "faqem/report_json.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "faqem/detail/simplify/report-inl.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+
+namespace detail {
+
+inline std::uint64_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+template <std::size_t n>
+nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
+                              const std::array<std::string_view, n>& names) {
+    auto json = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < n; ++i) json[std::string(names[i])] = values[i];
+    return json;
+}
+
+}  // namespace detail
+
+FAQEM_INLINE std::string to_json(const Report& report) {
+    nlohmann::ordered_json json;
+    json["preset"] = name(report.preset);
+    json["faces_in"] = report.faces_in;
+    json["faces_out"] = report.faces_out;
+    json["vertices_in"] = report.vertices_in;
+    json["vertices_out"] = report.vertices_out;
+    json["target_faces"] = report.target_faces;
+    json["stop_reason"] = name(report.stop);
+    if (report.max_error) {
+        const MeasuredError& e = *report.max_error;
+        json["max_error"] = {{"allowed", e.allowed},
+                             {"value", e.value},
+                             {"bound", e.bound},
+                             {"runs", e.runs},
+                             {"within", e.within()}};
+    }
+    json["collapses"] = report.collapses;
+    json["refusals"] = detail::counts(report.refusals, detail::refusal_names);
+    json["rungs"] = detail::counts(report.rungs, detail::rung_names);
+    json["faces_dropped"] = report.faces_dropped;
+    json["components_deleted"] = report.components_deleted;
+    json["components_pruned"] = report.components_pruned;
+    json["faces_pruned"] = report.faces_pruned;
+    json["vertices_hidden"] = report.vertices_hidden;
+    json["vertices_relaxed"] = report.vertices_relaxed;
+    json["edges_swapped"] = report.edges_swapped;
+    json["virtual_edges"] = report.virtual_edges;
+    json["pages"] = nlohmann::ordered_json::array();
+    for (const BakedPage& page : report.pages) {
+        json["pages"].push_back(
+            {{"material", page.material},
+             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
+             {"width", page.width},
+             {"height", page.height},
+             {"faces", page.faces},
+             {"charts", page.charts},
+             {"faces_alone", page.faces_alone},
+             {"fill", page.fill},
+             {"density", page.density},
+             {"stretch", page.stretch},
+             {"samples",
+              {{"history", page.samples[0]}, {"relaxed", page.samples[1]}, {"closest", page.samples[2]}}},
+             {"uncertain_texels", page.uncertain_texels}});
+    }
+    json["warnings"] = report.warnings;
+    const PhaseSeconds& s = report.seconds;
+    json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
+                       {"bake", s.bake}, {"save", s.save}, {"total", s.total}};
+    json["detail::peak_rss_bytes"] = detail::peak_rss_bytes();
+    // File names need not be UTF-8: what is not is shown as U+FFFD.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+FAQEM_NAMESPACE_END

@@ -1,0 +1,2 @@
+// Compiles include/faqem/detail/base.
+#include "faqem/detail/base/version-inl.hpp"

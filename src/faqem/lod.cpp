@@ -1,0 +1,2 @@
+// Compiles include/faqem/detail/lod.
+#include "faqem/detail/lod/levels-inl.hpp"
