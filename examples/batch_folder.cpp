@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 // \return false where the model was left out
 bool simplify_file(const fs::path& in, const fs::path& out, const faqem::Options& options) try {
-    const faqem::LightAsset light = faqem::simplify(faqem::load(in), options);
+    const faqem::SimplifiedAsset light = faqem::simplify(faqem::load(in), options);
     faqem::save(light.asset, out, faqem::Overwrite::yes);
     std::cout << in.filename().string() << ": " << light.report.faces_in << " faces, now "
               << light.report.faces_out << " (" << name(light.report.stop) << ")\n";

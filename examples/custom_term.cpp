@@ -22,10 +22,11 @@ int main(int argc, char** argv) try {
     double ground = part.positions.at(0)[1];
     for (const faqem::Vec3& p : part.positions) ground = std::min(ground, p[1]);
 
-    const auto rules = [=](const MemoryMetric& planes, const Complex& mesh, faqem::Index u, faqem::Index v,
-                           Freedom freedom, Candidate found) -> std::optional<Candidate> {
+    const auto rules = [=](const AccumulatedMetric& planes, const CollapseMesh& mesh, faqem::Index u,
+                           faqem::Index v, AllowedPosition allowed_position,
+                           Candidate found) -> std::optional<Candidate> {
         const bool on_foot = mesh.position(u).y() == ground || mesh.position(v).y() == ground;
-        if (on_foot && freedom == Freedom::anywhere) {
+        if (on_foot && allowed_position == AllowedPosition::anywhere) {
             found.point.y() = ground;
             found.cost = std::max((planes.quadric(u) + planes.quadric(v))(found.point), 0.0);
         }
@@ -39,8 +40,8 @@ int main(int argc, char** argv) try {
         return found;
     };
     const CustomResult light =
-        simplify_with({part.positions, part.triangles}, CustomMetric(MemoryMetric({}), rules),
-                      {.rules = {.link = faqem::LinkCondition::on}, .ladder = Ladder::stay});
+        simplify_with({part.positions, part.triangles}, CustomMetric(AccumulatedMetric({}), rules),
+                      {.rules = {.link = faqem::LinkCondition::on}, .ladder = Ladder::off});
 
     part.positions = light.mesh.positions;
     part.triangles = light.mesh.triangles;

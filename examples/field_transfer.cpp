@@ -44,7 +44,7 @@ int main(int argc, char** argv) try {
     double sum = 0;
     std::size_t count = 0, lost = 0;
     for (faqem::Index f = 0; f < original.triangles.size(); ++f) {
-        const faqem::SmallPoint at = to_small.map(f, {1, 0, 0});
+        const faqem::SimplifiedPoint at = to_small.map(f, {1, 0, 0});
         if (at.face == faqem::no_index && ++lost) continue;
         sum += std::abs(mixed(cool, small.mesh.triangles[at.face], at.barycentric) -
                         temperature[original.triangles[f][0]]);

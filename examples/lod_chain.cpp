@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "faqem/bake_levels.hpp"
-#include "faqem/cut.hpp"
 #include "faqem/save_levels.hpp"
+#include "faqem/truncate.hpp"
 
 int main(int argc, char** argv) try {
     if (argc != 3) {
@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
     // Where the error of a level covers one pixel of 1080, seen under 60 degrees.
     const double height_at_one = 2 * std::tan(std::numbers::pi / 6);
     std::vector<faqem::SavedLevel> saved;
-    for (const faqem::SmallPartsLevel& level : levels) {
+    for (const faqem::SimplifiedPartsLevel& level : levels) {
         const double distance = level.error * 1080 / height_at_one;
         std::cout << level.result.report.faces_out << " faces, at most " << level.error
                   << " away: from distance " << distance << " on\n";
@@ -37,9 +37,11 @@ int main(int argc, char** argv) try {
 
     std::vector<faqem::CollapseHistory> histories;
     histories.reserve(levels.size());
-    for (const faqem::SmallPartsLevel& level : levels) histories.push_back(level.result.parts[0].history);
+    for (const faqem::SimplifiedPartsLevel& level : levels)
+        histories.push_back(level.result.parts[0].history);
     const std::uint64_t wanted = (histories[0].kept_faces.size() + histories[1].kept_faces.size()) / 2;
-    const faqem::SimplifyResult cut = faqem::restore(faqem::cut_to(faqem::join(histories), wanted));
+    const faqem::SimplifyResult cut =
+        faqem::restore(faqem::truncate_to_faces(faqem::join(histories), wanted));
     std::cout << cut.mesh.triangles.size() << " faces cut from the history\n";
     return cut.mesh.triangles.size() <= wanted ? 0 : 1;
 } catch (const std::exception& error) {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "faqem/bake.hpp"
 #include <faqem/report_json.hpp>
+#include "faqem/bake.hpp"
 
 int main(int argc, char** argv) try {
     if (argc != 4) {
@@ -26,7 +26,7 @@ int main(int argc, char** argv) try {
         return faqem::Continue::yes;  // `no` stops, and the report says so
     };
 
-    const faqem::LightAsset light = faqem::simplify(source, options);
+    const faqem::SimplifiedAsset light = faqem::simplify(source, options);
     std::ofstream(argv[3]) << faqem::to_json(light.report) << "\n";
     if (light.report.stop == faqem::StopReason::cancelled) return 1;
     for (const std::string& lost : faqem::save(light.asset, argv[2], faqem::Overwrite::yes))

@@ -151,7 +151,7 @@ FAQEM_EXPORT Pixels decode(const Image& image);
 FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name);
 
 /// What an image is for: data and normals must not have their colours thinned out.
-enum class Content { colour, data };
+enum class Content { color, data };
 
 /// Encodes as JPEG; alpha is left out. \param quality  in [1, 100]
 FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Door (c): a textured asset in, a light one with a new texture out. Needs the standard library only.
+/// Door (c): a textured asset in, a simplified one with a new texture out. Needs the standard library only.
 
 #include <iosfwd>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace faqem {
 
 /// The geometry stage's result: one SimplifyResult per part of the source, in its order, history on.
-struct SmallParts {
+struct SimplifiedParts {
     std::vector<SimplifyResult> parts;
     Report report;  ///< sums over the parts
 };
@@ -36,7 +36,7 @@ struct PageOrigins {
 FAQEM_EXPORT void write(const std::vector<PageOrigins>& pages, std::ostream& out);
 
 /// An asset and what was done to make it.
-struct LightAsset {
+struct SimplifiedAsset {
     Asset asset;
     Report report;
     std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
@@ -55,18 +55,19 @@ struct LightAsset {
 ///
 /// \throws as simplify(const MeshView&, ...), and InputError naming the part or material where the asset's
 ///         arrays and indices do not fit each other or a number is not finite
-FAQEM_EXPORT SmallParts simplify_parts(const Asset& source, const Options& options);
+FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& options);
 
-/// Stage two: gives the small parts normals, UVs, materials and images.
-/// \param source   the asset that `small` was made from
-/// \param small    result of simplify_parts() with the same options
+/// Stage two: gives the simplified parts normals, UVs, materials and images.
+/// \param source   the asset that `simplified` was made from
+/// \param simplified    result of simplify_parts() with the same options
 /// \return report.stop is `cancelled`, and the asset has no parts, if the progress callback cancelled
 /// \throws InputError        an image is damaged
 /// \throws UnsupportedError  an image that is needed is neither PNG nor JPEG
-FAQEM_EXPORT LightAsset bake(const Asset& source, const SmallParts& small, const Options& options);
+FAQEM_EXPORT SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified,
+                                  const Options& options);
 
 /// Both stages in one call.
 /// \throws OptionError, InputError, UnsupportedError
-FAQEM_EXPORT LightAsset simplify(const Asset& source, const Options& options = {});
+FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& options = {});
 
 }  // namespace faqem

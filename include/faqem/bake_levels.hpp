@@ -11,17 +11,17 @@
 namespace faqem {
 
 /// The geometry of one level, to be given to bake().
-struct SmallPartsLevel {
-    SmallParts result;    ///< times of the report are those of this level alone
-    double distance = 0;  ///< as SimplifiedLevel::distance, in units of the scene
-    double error = 0;     ///< as SimplifiedLevel::error, in units of the scene
+struct SimplifiedPartsLevel {
+    SimplifiedParts result;  ///< times of the report are those of this level alone
+    double distance = 0;     ///< as SimplifiedLevel::distance, in units of the scene
+    double error = 0;        ///< as SimplifiedLevel::error, in units of the scene
 };
 
 /// One level with its look.
-struct LightLevel {
-    LightAsset result;
-    double distance = 0;  ///< as SmallPartsLevel
-    double error = 0;     ///< as SmallPartsLevel
+struct SimplifiedAssetLevel {
+    SimplifiedAsset result;
+    double distance = 0;  ///< as SimplifiedPartsLevel
+    double error = 0;     ///< as SimplifiedPartsLevel
 };
 
 /// Which images the levels have.
@@ -36,9 +36,9 @@ enum class LevelTextures {
 /// \return one per level, each with the history that bake() needs; one alone, whose stop says so, where
 ///         progress cancelled
 /// \throws as simplify_parts() and simplify_levels()
-FAQEM_EXPORT std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source,
-                                                                const std::vector<Level>& levels,
-                                                                const Options& options = {});
+FAQEM_EXPORT std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source,
+                                                                     const std::vector<Level>& levels,
+                                                                     const Options& options = {});
 
 /// Both stages for all levels. Progress is told of Phase::simplify, then of Phase::bake, for all levels
 /// together.
@@ -50,8 +50,9 @@ FAQEM_EXPORT std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& sou
 /// \throws OptionError  with `shared`: no atlas of charts is baked, a history or kept groups are asked for, or
 ///                      nothing is to be welded
 /// \throws as simplify_parts_levels() and bake()
-FAQEM_EXPORT std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
-                                                     const Options& options = {},
-                                                     LevelTextures textures = LevelTextures::each);
+FAQEM_EXPORT std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source,
+                                                               const std::vector<Level>& levels,
+                                                               const Options& options = {},
+                                                               LevelTextures textures = LevelTextures::each);
 
 }  // namespace faqem

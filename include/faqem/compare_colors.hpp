@@ -14,8 +14,8 @@ namespace faqem {
 struct OneSidedColors {
     double mean_squared = 0;  ///< difference per channel, of samples that count
     double rmse = 0;          ///< its root: 0 to 1
-    double wrong = 0;         ///< share of those samples whose colours are more than 0.25 apart (Euclidean)
-    double one_sided =
+    double outliers = 0;      ///< share of those samples whose colours are more than 0.25 apart (Euclidean)
+    double unmatched =
         0;              ///< share of those samples for which the other model has no face that looks their way
     double hidden = 0;  ///< share of all samples that are masked out, which do not count
 };

@@ -80,8 +80,8 @@ typedef enum faqem_link FAQEM_ENUM {
     FAQEM_LINK_STRICT = 4
 } faqem_link;
 
-/** Whether a border may move. */
-typedef enum faqem_border FAQEM_ENUM { FAQEM_BORDER_FREE = 0, FAQEM_BORDER_KEPT = 1 } faqem_border;
+/** Whether a boundary may move. */
+typedef enum faqem_boundary FAQEM_ENUM { FAQEM_BOUNDARY_FREE = 0, FAQEM_BOUNDARY_KEPT = 1 } faqem_boundary;
 
 /** Whether something that takes memory is kept. */
 typedef enum faqem_recording FAQEM_ENUM { FAQEM_RECORDING_OFF = 0, FAQEM_RECORDING_ON = 1 } faqem_recording;
@@ -99,9 +99,9 @@ FAQEM_API faqem_status faqem_options_set_max_error(faqem_options* options, doubl
 FAQEM_API faqem_status faqem_options_set_preset(faqem_options* options, faqem_preset preset);
 FAQEM_API faqem_status faqem_options_set_link(faqem_options* options, faqem_link link);
 /** Open borders. */
-FAQEM_API faqem_status faqem_options_set_border(faqem_options* options, faqem_border border);
+FAQEM_API faqem_status faqem_options_set_boundary(faqem_options* options, faqem_boundary boundary);
 /** Curves between faces of different groups (of a model: materials). */
-FAQEM_API faqem_status faqem_options_set_group_border(faqem_options* options, faqem_border border);
+FAQEM_API faqem_status faqem_options_set_group_boundaries(faqem_options* options, faqem_boundary boundary);
 /** Vertices at most this far apart become one, model units, >= 0. */
 FAQEM_API faqem_status faqem_options_set_weld_distance(faqem_options* options, double distance);
 /** Open borders of parts that do not touch are joined over gaps up to this share of the diagonal, in (0, 1]. */
@@ -127,7 +127,8 @@ typedef enum faqem_phase FAQEM_ENUM {
 typedef int (*faqem_progress)(void* user, faqem_phase phase, double fraction);
 
 /** `progress` may be null. `user` is handed to it and has to live as long as the options. */
-FAQEM_API faqem_status faqem_options_set_progress(faqem_options* options, faqem_progress progress, void* user);
+FAQEM_API faqem_status faqem_options_set_progress(faqem_options* options, faqem_progress progress,
+                                                  void* user);
 
 /* ---- Arrays ---- */
 
@@ -140,9 +141,10 @@ typedef struct faqem_mesh {
     const uint32_t* triangles;
     const uint16_t* short_triangles; /**< the same in 16 bits; or null */
     size_t face_count;
-    const uint32_t* face_groups;  /**< null, or face_count groups (materials) */
-    const uint8_t* vertex_locks;  /**< null, or vertex_count; nonzero: stays where it is */
-    const float* vertex_weights;  /**< null, or vertex_count in [1e-6, 1e6]: errors there count so many times */
+    const uint32_t* face_groups; /**< null, or face_count groups (materials) */
+    const uint8_t* vertex_locks; /**< null, or vertex_count; nonzero: stays where it is */
+    const float*
+        vertex_weights; /**< null, or vertex_count in [1e-6, 1e6]: errors there count so many times */
     /** Null, or corner_width numbers for each of the 3 * face_count corners, such as UVs: they are carried along. */
     const float* corner_values;
     uint32_t corner_width;
@@ -165,8 +167,8 @@ typedef struct faqem_result faqem_result;
  * \param error    may be null
  * O(n log n) time in the faces, O(n) memory; see faqem/simplify.hpp.
  */
-FAQEM_API faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options, faqem_result** result,
-                                      faqem_error* error);
+FAQEM_API faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options,
+                                      faqem_result** result, faqem_error* error);
 FAQEM_API void faqem_result_destroy(faqem_result* result);
 
 /** The getters of a result: null where there is nothing, or where `result` is null. */

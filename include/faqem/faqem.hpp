@@ -4,7 +4,6 @@
 /// In header-only mode, the headers of textured assets and report_json.hpp are left out: they need the libraries.
 
 #include "faqem/compare.hpp"
-#include "faqem/cut.hpp"
 #include "faqem/error.hpp"
 #include "faqem/forward_map.hpp"
 #include "faqem/history.hpp"
@@ -15,6 +14,7 @@
 #include "faqem/report.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
+#include "faqem/truncate.hpp"
 #include "faqem/version.hpp"
 
 #ifndef FAQEM_HEADER_ONLY

@@ -49,7 +49,7 @@ typedef enum faqem_image_format FAQEM_ENUM {
 /** Whether what is hidden from outside counts less, see faqem::Visibility. */
 typedef enum faqem_visibility FAQEM_ENUM {
     FAQEM_VISIBILITY_IGNORED = 0,
-    FAQEM_VISIBILITY_WEIGHS = 1
+    FAQEM_VISIBILITY_WEIGHTED = 1
 } faqem_visibility;
 
 FAQEM_API faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility);
@@ -83,9 +83,9 @@ FAQEM_API faqem_status faqem_asset_load(const char* path, faqem_asset** asset, f
  */
 FAQEM_API faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error);
 
-/** Simplifies a model and bakes its look anew. \param light  gets a new object, which has a report */
+/** Simplifies a model and bakes its look anew. \param simplified  gets a new object, which has a report */
 FAQEM_API faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
-                                            faqem_asset** light, faqem_error* error);
+                                            faqem_asset** simplified, faqem_error* error);
 
 /** Whose images the levels of a model have, see faqem::LevelTextures. */
 typedef enum faqem_level_textures FAQEM_ENUM {
@@ -109,11 +109,12 @@ FAQEM_API double faqem_asset_level_error(const faqem_asset* asset);
  * Saves levels in one .glb or .gltf with the extension MSFT_lod, see docs/levels.md.
  * \param levels       level_count, from fine to coarse, with the same parts; the first one may be the original. What
  *                     the format could not hold is added to its warnings
- * \param error_share  of the screen's height that the error of a level may cover, finite and > 0: 1.0 / 1080 is a
+ * \param screen_error  of the screen's height that the error of a level may cover, finite and > 0: 1.0 / 1080 is a
  *                     pixel of 1080. How large each level may be seen follows from it
  */
-FAQEM_API faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double error_share,
-                                               const char* path, faqem_overwrite overwrite, faqem_error* error);
+FAQEM_API faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count,
+                                               double screen_error, const char* path,
+                                               faqem_overwrite overwrite, faqem_error* error);
 
 /**
  * The history of a run, made with faqem_options_set_history(); of FAQEM_LEVEL_TEXTURES_SHARED there is none.
@@ -128,10 +129,11 @@ FAQEM_API faqem_status faqem_asset_history_create(const faqem_asset* const* leve
  * give that level; where even the last level has more, that level.
  * \param source   the model that was simplified
  * \param options  of the look, as the run had them; null: the defaults. FAQEM_BAKE_KEEP is refused
- * \param light    gets a new object, which has a report
+ * \param simplified    gets a new object, which has a report
  */
-FAQEM_API faqem_status faqem_asset_cut(const faqem_asset* source, const faqem_history* history, uint64_t faces,
-                                       const faqem_options* options, faqem_asset** light, faqem_error* error);
+FAQEM_API faqem_status faqem_asset_bake_truncated(const faqem_asset* source, const faqem_history* history,
+                                                  uint64_t faces, const faqem_options* options,
+                                                  faqem_asset** simplified, faqem_error* error);
 
 /**
  * Saves as .glb, .gltf, .obj, .ply or .stl, by name. Each file is complete or not there at all.

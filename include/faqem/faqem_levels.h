@@ -16,9 +16,9 @@ extern "C" {
 
 /** What the value of a level is. */
 typedef enum faqem_level_kind FAQEM_ENUM {
-    FAQEM_LEVEL_RATIO = 0,               /**< share of the original's faces, in (0, 1] */
-    FAQEM_LEVEL_FACES = 1,               /**< number of faces, whole and at least 1 */
-    FAQEM_LEVEL_DISTANCE = 2,            /**< from the original, model units: the smallest mesh found within it */
+    FAQEM_LEVEL_RATIO = 0,    /**< share of the original's faces, in (0, 1] */
+    FAQEM_LEVEL_FACES = 1,    /**< number of faces, whole and at least 1 */
+    FAQEM_LEVEL_DISTANCE = 2, /**< from the original, model units: the smallest mesh found within it */
     FAQEM_LEVEL_DISTANCE_OF_DIAGONAL = 3 /**< the same, as a share of the bounding box's diagonal */
 } faqem_level_kind;
 
@@ -35,8 +35,8 @@ typedef struct faqem_level {
  * For counts one run, and one measurement for each; a distance takes up to 12 runs. See faqem/levels.hpp.
  */
 FAQEM_API faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* options,
-                                             const faqem_level* levels, size_t level_count, faqem_result** results,
-                                             faqem_error* error);
+                                             const faqem_level* levels, size_t level_count,
+                                             faqem_result** results, faqem_error* error);
 
 /**
  * Of a level: no point of it or of the original is farther from the other, model units; a coarser level's is not
@@ -70,18 +70,18 @@ FAQEM_API size_t faqem_history_level_count(const faqem_history* history);
 
 /**
  * The mesh when no more than `faces` were left, without another run; as many as a level has give that level. Where
- * even the last level has more, that level. See cut_to() in faqem/cut.hpp.
+ * even the last level has more, that level. See truncate_to_faces() in faqem/truncate.hpp.
  * \param result  gets a new object, without what is not in a history: corner values and vertex origins
  * \return FAQEM_ERROR_OPTION also where the history is of several meshes
  */
-FAQEM_API faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
-                                         faqem_error* error);
+FAQEM_API faqem_status faqem_history_truncate(const faqem_history* history, uint64_t faces,
+                                              faqem_result** result, faqem_error* error);
 /**
- * The same for all meshes of a history together; `faces` counts for all. With a new look: faqem_asset_cut().
+ * The same for all meshes of a history together; `faces` counts for all. With a new look: faqem_asset_bake_truncated().
  * \param results  gets faqem_history_part_count() new objects, in the order of the parts; none where the call fails
  */
-FAQEM_API faqem_status faqem_history_cut_parts(const faqem_history* history, uint64_t faces, faqem_result** results,
-                                               faqem_error* error);
+FAQEM_API faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t faces,
+                                                    faqem_result** results, faqem_error* error);
 
 /* ---- The way back ---- */
 
@@ -101,9 +101,10 @@ typedef enum faqem_mapping FAQEM_ENUM {
  * \param source_barycentric  gets 3 * count weights of their corners
  * O(n log n) in the original's faces for each call, then O(log n) typically for each point: ask for many at once.
  */
-FAQEM_API faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping, const uint32_t* faces,
-                                        const double* barycentric, size_t count, uint32_t* source_faces,
-                                        double* source_barycentric, faqem_error* error);
+FAQEM_API faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping,
+                                        const uint32_t* faces, const double* barycentric, size_t count,
+                                        uint32_t* source_faces, double* source_barycentric,
+                                        faqem_error* error);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@
 FAQEM_NAMESPACE_BEGIN
 
 /// A place on the small mesh.
-struct SmallPoint {
+struct SimplifiedPoint {
     Index face = no_index;  ///< face of the small mesh; no_index: nothing is left of that part
     Vec3 barycentric = {};  ///< weights of its three corners, >= 0, sum 1
 };
@@ -21,7 +21,7 @@ struct SmallPoint {
 /// collapsed into, in the end, or no_index where no face is left there. SimplifyResult::vertex_origin is the
 /// way back, with one answer per vertex. O(size of the history)
 /// \pre validate(history) passes
-FAQEM_EXPORT std::vector<Index> small_vertices(const CollapseHistory& history);
+FAQEM_EXPORT std::vector<Index> vertex_map(const CollapseHistory& history);
 
 /// Answers "where on the small mesh is this point of the original?". Immutable once built; map() may be
 /// called from several threads at once.
@@ -42,10 +42,10 @@ public:
 
     /// \param face         face of the input, < history.triangles.size()
     /// \param barycentric  the point on it
-    /// \return a place on the small mesh; SmallPoint::face is no_index where the face was dropped before the
+    /// \return a place on the small mesh; SimplifiedPoint::face is no_index where the face was dropped before the
     ///         run (two equal corners, or a double), or where nothing is left of what it was part of.
     /// O(faces looked at): some twenty where the surface is smooth
-    SmallPoint map(Index face, const Vec3& barycentric) const;
+    SimplifiedPoint map(Index face, const Vec3& barycentric) const;
 
 private:
     struct Impl;

@@ -39,7 +39,7 @@ struct CollapseHistory {
     std::vector<Collapse> collapses;  ///< in order
     /// Faces that touched a collapse, just before it: collapse k's are
     /// patch_faces[patch_begin[k] .. patch_begin[k + 1]), those that vanish in it included. The patches
-    /// beyond the collapses are edge swaps after all of them: two faces (a, b, c) and (b, a, d) that became
+    /// beyond the collapses are edge flips after all of them: two faces (a, b, c) and (b, a, d) that became
     /// (a, d, c) and (b, c, d), not necessarily from that corner on (preset best).
     std::vector<std::uint64_t> patch_begin;  ///< number of patches + 1, starts with 0
     std::vector<Index> patch_faces;
@@ -51,7 +51,7 @@ struct CollapseHistory {
     std::vector<Vec3> kept_positions;
 
     bool empty() const { return kept_faces.empty(); }
-    /// Collapses, then swaps.
+    /// Collapses, then flips.
     std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
         return {patch_faces.data() + patch_begin[k], patch_begin[k + 1] - patch_begin[k]};

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/error.hpp"
+#include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -123,7 +123,7 @@ void move(Mesh& mesh, typename Mesh::VertexHandle v, const Vec3& p) {
 /// Swaps the edge between faces f and g as the history tells it: f keeps the vertex where its halfedge on
 /// that edge begins. OpenMesh may give the two new faces the other handles: then these are exchanged.
 template <class Mesh>
-void swap_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHandle& g) {
+void flip_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHandle& g) {
     for (const auto h : mesh.fh_range(f)) {
         if (mesh.opposite_face_handle(h) != g) continue;
         const auto from = mesh.from_vertex_handle(h);
@@ -137,7 +137,7 @@ void swap_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHand
     assert(!"the faces of a swap share an edge");
 }
 
-/// Repeats the collapses, deletions and swaps of `history` on the mesh it came from.
+/// Repeats the collapses, deletions and flips of `history` on the mesh it came from.
 template <class Mesh>
 void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& history) {
     std::vector<typename Mesh::VertexHandle> handle(history.positions.size() + history.collapses.size());
@@ -169,13 +169,14 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     }
     std::vector<typename Mesh::FaceHandle> faces = arrays.faces;
     for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
-        swap_edge(mesh, faces[history.patch(k)[0]], faces[history.patch(k)[1]]);
+        flip_edge(mesh, faces[history.patch(k)[0]], faces[history.patch(k)[1]]);
     }
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         const Index version = history.kept_versions[i];
         const bool original = version < history.positions.size();
-        const Vec3& place = history.kept_position(i);
-        if (!original || place != history.position(version)) move(mesh, handle[version], place);
+        const Vec3& final_position = history.kept_position(i);
+        if (!original || final_position != history.position(version))
+            move(mesh, handle[version], final_position);
     }
 }
 

@@ -87,10 +87,10 @@ enum class LinkCondition {
 enum class Weld { by_position, none };
 
 /// Whether vertices on open borders may move.
-enum class Border { free, locked };
+enum class Boundary { free, locked };
 
 /// Whether the curves between faces of different groups (of an asset: materials) may move.
-enum class GroupBorders {
+enum class GroupBoundaries {
     free,
     kept,  ///< held in place as open borders are, and never torn or joined, even if the target is missed
 };
@@ -101,8 +101,8 @@ enum class VirtualEdges { off, on };
 /// What may happen to the connectivity.
 struct Topology {
     LinkCondition link = LinkCondition::as_preset;
-    Border border = Border::free;
-    GroupBorders group_borders = GroupBorders::free;
+    Boundary boundary = Boundary::free;
+    GroupBoundaries group_boundaries = GroupBoundaries::free;
     /// Files split vertices at UV and normal seams: without welding, every seam would be an open border.
     Weld weld = Weld::by_position;
     /// Vertices at most this far apart (model units) become one. Unset: the preset's (paper 1e-6, else
@@ -126,7 +126,7 @@ enum class Budget {
 /// Whether what is hidden from outside counts less; used by the asset door only. See docs/method.md.
 enum class Visibility {
     ignored,
-    weighs,  ///< errors count by how much of the surface around them can be seen from outside the scene
+    weighted,  ///< errors count by how much of the surface around them can be seen from outside the scene
 };
 
 /// Whether the collapse history is kept. Off costs nothing.
@@ -194,7 +194,7 @@ struct BakeOptions {
     double crease_angle = 40;
     ImageFormat image_format = ImageFormat::png;
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
-    /// Whether LightAsset::correspondence is filled.
+    /// Whether SimplifiedAsset::correspondence is filled.
     Recording correspondence = Recording::off;
 };
 

@@ -41,7 +41,7 @@ inline constexpr std::size_t refusal_kinds = 9;
 /// link condition is lifted pair by pair, and so is the rule against folds; each collapse against one counts.
 enum class Rung {
     reseed,           ///< all pairs evaluated anew
-    double_faces,     ///< faces deleted that lie on others, with the same corners and winding
+    duplicate_faces,  ///< faces deleted that lie on others, with the same corners and winding
     tiny_components,  ///< whole tiny components deleted
     without_link,     ///< link condition lifted
     fold,             ///< folds allowed
@@ -74,9 +74,10 @@ struct BakedPage {
     Bake kind = Bake::atlas;              ///< or `per_triangle`
     std::uint32_t width = 0, height = 0;  ///< texels
     std::uint64_t faces = 0;
-    std::uint64_t charts = 0;       ///< pieces: charts; of `per_triangle`, cells
-    std::uint64_t faces_alone = 0;  ///< that could not be laid into a chart within the bound on the work
-    double fill = 0;                ///< share of the page's texels that show a triangle, margins included
+    std::uint64_t charts = 0;  ///< pieces: charts; of `per_triangle`, cells
+    std::uint64_t faces_outside_charts =
+        0;               ///< that could not be laid into a chart within the bound on the work
+    double fill = 0;     ///< share of the page's texels that show a triangle, margins included
     double density = 0;  ///< texels per length over the source's; both root mean squares over the surface
     double stretch = 1;  ///< mean over the area; 1: none
     /// By MapStep: how many samples found their place on the original how.
@@ -100,8 +101,8 @@ struct Report {
     std::uint64_t components_pruned = 0;  ///< deleted at the start, as Topology::prune says
     std::uint64_t faces_pruned = 0;       ///< faces of these
     std::uint64_t vertices_hidden = 0;    ///< of the input, that nothing outside sees (Options::visibility)
-    std::uint64_t vertices_relaxed = 0;   ///< moved in the end to come closer to the original (preset best)
-    std::uint64_t edges_swapped = 0;      ///< in the end, for the same reason (preset best)
+    std::uint64_t vertices_fitted = 0;    ///< moved in the end to come closer to the original (preset best)
+    std::uint64_t edges_flipped = 0;      ///< in the end, for the same reason (preset best)
     std::uint64_t virtual_edges = 0;
     std::optional<MeasuredError> max_error = {};  ///< unless Options::max_error is unset, or it was cancelled
     std::vector<BakedPage> pages;                 ///< of a new atlas; materials without images have none

@@ -17,14 +17,14 @@ namespace detail {
 struct Workers;
 
 /// A map that several threads make; the calling one polls. \throws what the poll throws
-FAQEM_EXPORT SurfaceMap polled_map(const CollapseHistory& history, Mapping mapping,
-                                   std::span<const Triangle> unwelded, const Workers& workers);
+FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, Mapping mapping,
+                                         std::span<const Triangle> unwelded, const Workers& workers);
 }  // namespace detail
 
 /// How a sample found its place.
 enum class MapStep {
-    history,  ///< the walk through the history, every test passed
-    relaxed,  ///< the walk, with the sheet or side test dropped somewhere
+    history,      ///< the walk through the history, every test passed
+    approximate,  ///< the walk, with the sheet or side test dropped somewhere
     /// The walk ended on a wrong face: closest one among those that collapsed into the small face. Of
     /// Mapping::closest: always.
     closest,
@@ -66,9 +66,9 @@ public:
 private:
     struct Impl;
     explicit SurfaceMap(std::unique_ptr<const Impl> impl);
-    friend SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
-                                         std::span<const Triangle> unwelded,
-                                         const detail::Workers& workers);
+    friend SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
+                                               std::span<const Triangle> unwelded,
+                                               const detail::Workers& workers);
 
     std::unique_ptr<const Impl> impl_;
 };

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <string_view>
 
-#include "asset/gltf/gltf.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/formats/off.hpp"
 #include "asset/formats/ply.hpp"
 #include "asset/formats/stl.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -19,20 +19,20 @@ namespace fs = std::filesystem;
 
 enum class Format { unknown, gltf, obj, ply, stl, off };
 
-std::string lower_ending(const fs::path& file) {
-    std::string ending = file.extension().string();
-    for (char& c : ending)
+std::string lower_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return ending;
+    return extension;
 }
 
 Format format_by_name(const fs::path& file) {
-    const std::string ending = lower_ending(file);
-    if (ending == ".glb" || ending == ".gltf") return Format::gltf;
-    if (ending == ".obj") return Format::obj;
-    if (ending == ".ply") return Format::ply;
-    if (ending == ".stl") return Format::stl;
-    return ending == ".off" ? Format::off : Format::unknown;
+    const std::string extension = lower_extension(file);
+    if (extension == ".glb" || extension == ".gltf") return Format::gltf;
+    if (extension == ".obj") return Format::obj;
+    if (extension == ".ply") return Format::ply;
+    if (extension == ".stl") return Format::stl;
+    return extension == ".off" ? Format::off : Format::unknown;
 }
 
 /// OBJ and STL have no signature; glTF as JSON is only told from its first bracket.

@@ -120,8 +120,8 @@ private:
 
 void write_all(const fs::path& target, int file, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
-        const std::size_t piece = std::min(bytes.size(), std::size_t{1} << 30);
-        const ssize_t written = ::write(file, bytes.data(), piece);
+        const std::size_t chunk_size = std::min(bytes.size(), std::size_t{1} << 30);
+        const ssize_t written = ::write(file, bytes.data(), chunk_size);
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) fail_write(target, "write", written < 0 ? errno : EIO);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -144,7 +144,7 @@ struct PendingFile {
     TemporaryFile temporary;
 };
 
-PendingFile prepare(const FileContent& content, Overwrite overwrite) {
+PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite) {
     fs::path target = content.file;
     struct stat old = {};
     const bool exists = ::stat(target.c_str(), &old) == 0;
@@ -166,7 +166,7 @@ PendingFile prepare(const FileContent& content, Overwrite overwrite) {
     return {std::move(target), std::move(folder), std::move(temporary)};
 }
 
-void put_in_place(PendingFile& pending, Overwrite overwrite) {
+void commit_file(PendingFile& pending, Overwrite overwrite) {
     const char* from = pending.temporary.name();
     const char* to = pending.target.c_str();
     const bool renamed = overwrite == Overwrite::yes ? ::rename(from, to) == 0 : rename_if_absent(from, to);
@@ -197,15 +197,15 @@ std::string percent_decoded(std::string_view text) {
 }
 
 bool has_scheme(std::string_view text) {
-    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    if (text.empty() || !letter(text[0])) return false;
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    if (text.empty() || !is_letter(text[0])) return false;
     const auto end = std::find_if(text.begin(), text.end(), [&](char c) {
-        return !letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
+        return !is_letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
     });
     return end != text.end() && *end == ':';
 }
 
-bool leads_outside(const fs::path& relative) {
+bool escapes_folder(const fs::path& relative) {
     std::ptrdiff_t depth = 0;
     for (const fs::path& step : relative) {
         if (step == "..")
@@ -246,8 +246,8 @@ void write_files(std::span<const FileContent> files, Overwrite overwrite) {
     std::vector<PendingFile> pending;
     pending.reserve(files.size());
     try {
-        for (const FileContent& content : files) pending.push_back(prepare(content, overwrite));
-        for (PendingFile& file : pending) put_in_place(file, overwrite);
+        for (const FileContent& content : files) pending.push_back(write_temporary_file(content, overwrite));
+        for (PendingFile& file : pending) commit_file(file, overwrite);
     } catch (const fs::filesystem_error& error) {
         throw WriteError(error.path1().string() + ": cannot write: " + error.code().message());
     }
@@ -265,18 +265,18 @@ void remove_temporary_files() noexcept {
     errno = error;
 }
 
-fs::path resolve_inside(const fs::path& folder, std::string_view reference, Reference kind) {
+fs::path resolve_inside(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {
     const auto refuse = [&](const char* why) {
         throw InputError(folder.string(), "reference '" + std::string(reference) + "'", why);
     };
-    std::string name = kind == Reference::uri ? percent_decoded(reference) : std::string(reference);
-    if (kind == Reference::file_name) std::replace(name.begin(), name.end(), '\\', '/');
+    std::string name = kind == ReferenceSyntax::uri ? percent_decoded(reference) : std::string(reference);
+    if (kind == ReferenceSyntax::file_name) std::replace(name.begin(), name.end(), '\\', '/');
     if (name.empty()) refuse("is empty");
     if (name.find('\0') != std::string::npos) refuse("contains a zero byte");
     if (has_scheme(name)) refuse("is not a path relative to the file");
     const fs::path relative(name);
     if (relative.is_absolute()) refuse("is an absolute path");
-    if (leads_outside(relative)) refuse("leads out of the folder of the file");
+    if (escapes_folder(relative)) refuse("leads out of the folder of the file");
     try {
         const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder);
         fs::path found = fs::canonical(root / relative);

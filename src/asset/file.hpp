@@ -44,7 +44,7 @@ void write_files(std::span<const FileContent> files, Overwrite overwrite);
 FAQEM_EXPORT void remove_temporary_files() noexcept;
 
 /// How a reference in a file is written.
-enum class Reference {
+enum class ReferenceSyntax {
     uri,       ///< glTF: percent-encoded, separated by slashes
     file_name  ///< OBJ, MTL: literal, separated by slashes or backslashes
 };
@@ -58,6 +58,6 @@ enum class Reference {
 /// \throws InputError  empty, absolute, with a scheme (`http:`, `C:`), leading outside, or not a regular file
 FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& folder,
                                                   std::string_view reference,
-                                                  Reference kind = Reference::uri);
+                                                  ReferenceSyntax kind = ReferenceSyntax::uri);
 
 }  // namespace faqem::detail

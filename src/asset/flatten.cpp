@@ -47,7 +47,7 @@ Vec3f transformed_normal(const std::array<Vec3, 3>& cofactor, double sign, const
 }
 
 /// Which attributes the flat part has.
-struct Layout {
+struct VertexLayout {
     bool normals = false, colors = false;
     std::size_t uv_sets = 0;
 };
@@ -61,16 +61,16 @@ void append(std::vector<Value>& to, const std::vector<Value>& values, std::size_
         to.insert(to.end(), values.begin(), values.end());
 }
 
-void append(Part& flat, const Part& part, const Transform& m, const Layout& layout) {
+void append(Part& flat, const Part& part, const Transform& m, const VertexLayout& layout) {
     const auto first = static_cast<Index>(flat.positions.size());
     const std::size_t vertices = part.positions.size();
-    const bool stays = m == identity;
+    const bool is_identity = m == identity;
     const double sign = determinant(m) < 0 ? -1 : 1;
-    for (const Vec3& p : part.positions) flat.positions.push_back(stays ? p : transformed(m, p));
+    for (const Vec3& p : part.positions) flat.positions.push_back(is_identity ? p : transformed(m, p));
     if (layout.normals) {
         const auto cofactor = cofactors(m);
         append(flat.normals, part.normals, vertices, {0, 0, 0});
-        for (std::size_t v = first; v < flat.normals.size() && !stays; ++v)
+        for (std::size_t v = first; v < flat.normals.size() && !is_identity; ++v)
             flat.normals[v] = transformed_normal(cofactor, sign, flat.normals[v]);
     }
     if (layout.colors) append(flat.colors, part.colors, vertices, {1, 1, 1, 1});
@@ -78,17 +78,18 @@ void append(Part& flat, const Part& part, const Transform& m, const Layout& layo
     for (std::size_t set = 0; set < layout.uv_sets; ++set)
         append(flat.uvs[set], set < part.uvs.size() ? part.uvs[set] : none, vertices, {0, 0});
     for (const Triangle& t : part.triangles) {
-        const bool turned = sign < 0;
-        flat.triangles.push_back({first + t[0], first + t[turned ? 2 : 1], first + t[turned ? 1 : 2]});
+        const bool is_mirrored = sign < 0;
+        flat.triangles.push_back(
+            {first + t[0], first + t[is_mirrored ? 2 : 1], first + t[is_mirrored ? 1 : 2]});
     }
     append(flat.face_material, part.face_material, part.triangles.size(), no_index);
 }
 
-std::size_t unseen_parts(const Asset& asset) {
-    std::vector<std::uint8_t> is_unseen;
-    for (const Part& part : asset.parts) is_unseen.push_back(!part.triangles.empty());
-    for (const Instance& instance : instances(asset)) is_unseen[instance.part] = 0;
-    return static_cast<std::size_t>(std::count(is_unseen.begin(), is_unseen.end(), 1));
+std::size_t uninstanced_part_count(const Asset& asset) {
+    std::vector<std::uint8_t> is_uninstanced;
+    for (const Part& part : asset.parts) is_uninstanced.push_back(!part.triangles.empty());
+    for (const Instance& instance : instances(asset)) is_uninstanced[instance.part] = 0;
+    return static_cast<std::size_t>(std::count(is_uninstanced.begin(), is_uninstanced.end(), 1));
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ Part flatten(const Asset& asset) { return flatten(asset, instances(asset)); }
 
 Part flatten(const Asset& asset, const std::vector<Instance>& all) {
     Part flat;
-    Layout layout;
+    VertexLayout layout;
     std::uint64_t vertices = 0, faces = 0;
     for (const Instance& instance : all) {
         const Part& part = asset.parts[instance.part];
@@ -124,9 +125,9 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
     if (asset.source)
         losses.push_back(
             cannot + "a scene: all meshes are placed in world space, and everything else of it is left out");
-    if (const std::size_t unseen = unseen_parts(asset))
-        losses.push_back("no node of the scene shows " + std::to_string(unseen) +
-                         (unseen == 1 ? " mesh, which was left out" : " meshes, which were left out"));
+    if (const std::size_t uninstanced = uninstanced_part_count(asset))
+        losses.push_back("no node of the scene shows " + std::to_string(uninstanced) +
+                         (uninstanced == 1 ? " mesh, which was left out" : " meshes, which were left out"));
     if (any([](const Part& p) { return !p.joints.empty(); }))
         losses.push_back(cannot + "skins: the mesh keeps its rest pose");
     if (any([](const Part& p) { return !p.morph_targets.empty(); }))
@@ -135,7 +136,7 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
     return losses;
 }
 
-bool all_floats(const std::vector<Vec3>& positions) {
+bool is_float_representable(const std::vector<Vec3>& positions) {
     return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
         return std::all_of(p.begin(), p.end(), [](double x) {
             return std::abs(x) <= std::numeric_limits<float>::max() &&

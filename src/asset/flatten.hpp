@@ -26,6 +26,6 @@ Part flatten(const Asset& asset, const std::vector<Instance>& all);
 std::vector<std::string> flattening_losses(const Asset& asset, const std::string& format);
 
 /// True when all coordinates are floats exactly.
-bool all_floats(const std::vector<Vec3>& positions);
+bool is_float_representable(const std::vector<Vec3>& positions);
 
 }  // namespace faqem::detail

@@ -10,11 +10,11 @@ namespace faqem::detail {
 
 /// What the channels of a texture say.
 enum class TextureContent {
-    data,              ///< numbers in RGB
-    alpha,             ///< a number in alpha
-    colour,            ///< sRGB
-    colour_and_alpha,  ///< sRGB, and a number in alpha
-    normal,            ///< a direction in tangent space
+    data,             ///< numbers in RGB
+    alpha,            ///< a number in alpha
+    color,            ///< sRGB
+    color_and_alpha,  ///< sRGB, and a number in alpha
+    normal,           ///< a direction in tangent space
 };
 
 /// A texture of a material extension.
@@ -23,7 +23,7 @@ struct KnownTexture {
     TextureContent content;
     /// The factor it is multiplied with where that is 0 by default: it switches on, everywhere, what the
     /// texture has in places. Else empty.
-    std::string_view switch_factor;
+    std::string_view enabling_factor;
 };
 
 /// By extension and name.
@@ -32,19 +32,19 @@ inline constexpr std::array known_textures = {
     KnownTexture{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", TextureContent::data, ""},
     KnownTexture{"KHR_materials_clearcoat", "clearcoatTexture", TextureContent::data, "clearcoatFactor"},
     KnownTexture{"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture",
-                 TextureContent::colour, ""},
+                 TextureContent::color, ""},
     KnownTexture{"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture", TextureContent::alpha,
                  "diffuseTransmissionFactor"},
     KnownTexture{"KHR_materials_iridescence", "iridescenceTexture", TextureContent::data,
                  "iridescenceFactor"},
     KnownTexture{"KHR_materials_iridescence", "iridescenceThicknessTexture", TextureContent::data, ""},
-    KnownTexture{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", TextureContent::colour_and_alpha,
+    KnownTexture{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", TextureContent::color_and_alpha,
                  ""},
     KnownTexture{"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture",
-                 TextureContent::colour_and_alpha, ""},
-    KnownTexture{"KHR_materials_sheen", "sheenColorTexture", TextureContent::colour, "sheenColorFactor"},
+                 TextureContent::color_and_alpha, ""},
+    KnownTexture{"KHR_materials_sheen", "sheenColorTexture", TextureContent::color, "sheenColorFactor"},
     KnownTexture{"KHR_materials_sheen", "sheenRoughnessTexture", TextureContent::alpha, ""},
-    KnownTexture{"KHR_materials_specular", "specularColorTexture", TextureContent::colour, ""},
+    KnownTexture{"KHR_materials_specular", "specularColorTexture", TextureContent::color, ""},
     KnownTexture{"KHR_materials_specular", "specularTexture", TextureContent::alpha, ""},
     KnownTexture{"KHR_materials_transmission", "transmissionTexture", TextureContent::data,
                  "transmissionFactor"},

@@ -6,7 +6,7 @@
 
 namespace faqem::detail {
 
-bool moves(const Asset& asset) {
+bool is_dynamic(const Asset& asset) {
     if (asset.source && !member(asset.source->document, "animations").empty()) return true;
     return std::any_of(asset.parts.begin(), asset.parts.end(),
                        [](const Part& part) { return !part.joints.empty() || !part.morph_targets.empty(); });

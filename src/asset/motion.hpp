@@ -8,6 +8,6 @@
 namespace faqem::detail {
 
 /// Whether the scene has animations, or parts with skins or morph targets. O(parts)
-FAQEM_EXPORT bool moves(const Asset& asset);
+FAQEM_EXPORT bool is_dynamic(const Asset& asset);
 
 }  // namespace faqem::detail

@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_gltf_name(const fs::path& file) {
-    std::string ending = file.extension().string();
-    for (char& c : ending)
+bool has_gltf_or_glb_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return ending == ".glb" || ending == ".gltf";
+    return extension == ".glb" || extension == ".gltf";
 }
 
-void check(const std::vector<SavedLevel>& levels) {
+void check_levels(const std::vector<SavedLevel>& levels) {
     if (levels.empty()) throw InputError("", "levels", "there are none");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const std::size_t parts = levels[i].asset.parts.size();
@@ -41,15 +41,15 @@ Index add_image(std::vector<Image>& images, Image&& image) {
 }
 
 /// Adds parts that are no meshes of the source document, and what they need.
-void add(Asset& to, Asset&& level) {
-    std::vector<Index> image;
-    for (Image& own : level.images) image.push_back(add_image(to.images, std::move(own)));
+void append_level(Asset& to, Asset&& level) {
+    std::vector<Index> image_map;
+    for (Image& own : level.images) image_map.push_back(add_image(to.images, std::move(own)));
     const auto first_material = static_cast<Index>(to.materials.size());
     for (Material& material : level.materials) {
         for (TextureRef* ref :
              {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
               &material.occlusion_texture, &material.emissive_texture}) {
-            if (*ref) ref->image = image[ref->image];
+            if (*ref) ref->image = image_map[ref->image];
         }
         to.materials.push_back(std::move(material));
     }
@@ -66,9 +66,9 @@ void add(Asset& to, Asset&& level) {
 std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
     std::vector<double> coverage;
     for (std::size_t i = 1; i < levels.size(); ++i) {
-        const double most = coverage.empty() ? 1 : coverage.back();
+        const double max_coverage = coverage.empty() ? 1 : coverage.back();
         const double wanted = levels[i].coverage[part];
-        coverage.push_back(wanted < most ? wanted : most);  // NaN: a point at no distance
+        coverage.push_back(wanted < max_coverage ? wanted : max_coverage);  // NaN: a point at no distance
     }
     coverage.push_back(0);
     return coverage;
@@ -78,15 +78,15 @@ std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size
 
 std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::path& file,
                                      Overwrite overwrite) {
-    if (!is_gltf_name(file))
+    if (!has_gltf_or_glb_extension(file))
         throw UnsupportedError(file.string(), "", "cannot hold levels: the name must end in .glb or .gltf");
-    check(levels);
+    check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();
     detail::LeveledAsset leveled;
-    leveled.parts = parts;
+    leveled.parts_per_level = parts;
     for (std::size_t p = 0; p < parts; ++p) leveled.coverage.push_back(coverage_of(levels, p));
     leveled.asset = std::move(levels[0].asset);
-    for (std::size_t i = 1; i < levels.size(); ++i) add(leveled.asset, std::move(levels[i].asset));
+    for (std::size_t i = 1; i < levels.size(); ++i) append_level(leveled.asset, std::move(levels[i].asset));
     return detail::write_gltf_levels(leveled, file, overwrite);
 }
 

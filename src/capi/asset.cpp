@@ -11,11 +11,11 @@ namespace {
 
 using namespace faqem;
 
-const Part* part_of(const faqem_asset* asset, std::size_t part) {
+const Part* find_part(const faqem_asset* asset, std::size_t part) {
     return asset && part < asset->asset.parts.size() ? &asset->asset.parts[part] : nullptr;
 }
 
-Part part_of_arrays(const MeshView& mesh) {
+Part make_part(const MeshView& mesh) {
     Part part;
     part.positions.reserve(mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) part.positions.push_back(mesh.positions[v]);
@@ -43,18 +43,18 @@ void check(const Part& part) {
 }  // namespace
 
 faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(path, "path");
-        c::require_argument(asset, "asset");
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(path, "path");
+        capi::require_argument(asset, "asset");
         *asset = new faqem_asset(load(path));
     });
 }
 
 faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(mesh, "mesh");
-        c::require_argument(asset, "asset");
-        Part part = part_of_arrays(c::MeshArrays(*mesh).view);
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(mesh, "mesh");
+        capi::require_argument(asset, "asset");
+        Part part = make_part(capi::MeshArrays(*mesh).view);
         check(part);
         Asset whole;
         whole.parts.push_back(std::move(part));
@@ -62,23 +62,23 @@ faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faq
     });
 }
 
-faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options, faqem_asset** light,
-                                  faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(asset, "asset");
-        c::require_argument(light, "light");
-        *light = new faqem_asset(simplify(asset->asset, c::options_or_defaults(options)));
+faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
+                                  faqem_asset** simplified, faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(asset, "asset");
+        capi::require_argument(simplified, "simplified");
+        *simplified = new faqem_asset(simplify(asset->asset, capi::options_or_defaults(options)));
     });
 }
 
 faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwrite overwrite,
                               faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(asset, "asset");
-        c::require_argument(path, "path");
-        const auto notes = save(asset->asset, path, c::overwrite_of(overwrite));
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(asset, "asset");
+        capi::require_argument(path, "path");
+        const auto save_warnings = save(asset->asset, path, capi::to_overwrite(overwrite));
         auto& warnings = asset->asset.warnings;
-        warnings.insert(warnings.end(), notes.begin(), notes.end());
+        warnings.insert(warnings.end(), save_warnings.begin(), save_warnings.end());
     });
 }
 
@@ -87,27 +87,28 @@ void faqem_asset_destroy(faqem_asset* asset) { delete asset; }
 size_t faqem_asset_part_count(const faqem_asset* asset) { return asset ? asset->asset.parts.size() : 0; }
 
 const char* faqem_asset_part_name(const faqem_asset* asset, size_t part) {
-    const Part* p = part_of(asset, part);
+    const Part* p = find_part(asset, part);
     return p ? p->name.c_str() : nullptr;
 }
 
 size_t faqem_asset_vertex_count(const faqem_asset* asset, size_t part) {
-    const Part* p = part_of(asset, part);
+    const Part* p = find_part(asset, part);
     return p ? p->positions.size() : 0;
 }
 
 size_t faqem_asset_face_count(const faqem_asset* asset, size_t part) {
-    const Part* p = part_of(asset, part);
+    const Part* p = find_part(asset, part);
     return p ? p->triangles.size() : 0;
 }
 
 const double* faqem_asset_positions(const faqem_asset* asset, size_t part) {
-    return faqem_asset_vertex_count(asset, part) > 0 ? part_of(asset, part)->positions.front().data()
+    return faqem_asset_vertex_count(asset, part) > 0 ? find_part(asset, part)->positions.front().data()
                                                      : nullptr;
 }
 
 const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
-    return faqem_asset_face_count(asset, part) > 0 ? part_of(asset, part)->triangles.front().data() : nullptr;
+    return faqem_asset_face_count(asset, part) > 0 ? find_part(asset, part)->triangles.front().data()
+                                                   : nullptr;
 }
 
 size_t faqem_asset_warning_count(const faqem_asset* asset) {
@@ -119,11 +120,11 @@ const char* faqem_asset_warning(const faqem_asset* asset, size_t index) {
 }
 
 faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report) {
-    if (!asset || !asset->kept || !report) return FAQEM_ERROR_OPTION;
-    *report = c::numbers_of(asset->kept->report);
+    if (!asset || !asset->stored_report || !report) return FAQEM_ERROR_OPTION;
+    *report = capi::to_c_report(asset->stored_report->report);
     return FAQEM_OK;
 }
 
 const char* faqem_asset_report_json(const faqem_asset* asset) {
-    return asset && asset->kept ? asset->kept->json.c_str() : nullptr;
+    return asset && asset->stored_report ? asset->stored_report->json.c_str() : nullptr;
 }

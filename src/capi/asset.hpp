@@ -15,28 +15,29 @@
 struct faqem_asset {
     explicit faqem_asset(faqem::Asset made) : asset(std::move(made)) {}
     /// \throws CancelledError
-    explicit faqem_asset(faqem::LightAsset light, double error = std::numeric_limits<double>::quiet_NaN())
-        : asset(std::move(light.asset)),
-          kept(light.report),
-          histories(std::move(light.histories)),
+    explicit faqem_asset(faqem::SimplifiedAsset simplified,
+                         double error = std::numeric_limits<double>::quiet_NaN())
+        : asset(std::move(simplified.asset)),
+          stored_report(simplified.report),
+          histories(std::move(simplified.histories)),
           level_error(error) {
-        if (light.report.stop == faqem::StopReason::cancelled) throw faqem::c::CancelledError();
+        if (simplified.report.stop == faqem::StopReason::cancelled) throw faqem::capi::CancelledError();
     }
 
     faqem::Asset asset;
-    std::optional<faqem::c::KeptReport> kept = {};  ///< of what was made of another
+    std::optional<faqem::capi::ReportWithJson> stored_report = {};  ///< of what was made of another
     std::vector<faqem::CollapseHistory> histories =
         {};  ///< one per part, or none where they were not asked for
     double level_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// \throws OptionError  it is no enumerator
-inline Overwrite overwrite_of(faqem_overwrite overwrite) {
+inline Overwrite to_overwrite(faqem_overwrite overwrite) {
     if (overwrite != FAQEM_OVERWRITE_NO && overwrite != FAQEM_OVERWRITE_YES)
         throw OptionError("overwrite: no such enumerator");
     return overwrite == FAQEM_OVERWRITE_YES ? Overwrite::yes : Overwrite::no;
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

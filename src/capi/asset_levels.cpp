@@ -18,10 +18,10 @@ namespace {
 using namespace faqem;
 
 void check_levels(const faqem_asset* const* levels, std::size_t count) {
-    c::require_argument(levels, "levels");
+    capi::require_argument(levels, "levels");
     if (count == 0) throw OptionError("there are no levels");
     for (std::size_t i = 0; i < count; ++i)
-        c::require_argument(levels[i], ("level " + std::to_string(i)).c_str());
+        capi::require_argument(levels[i], ("level " + std::to_string(i)).c_str());
 }
 
 }  // namespace
@@ -30,20 +30,20 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
                                          const faqem_level* levels, size_t level_count,
                                          faqem_level_textures textures, faqem_asset** results,
                                          faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(asset, "asset");
-        c::require_argument(levels, "levels");
-        c::require_argument(results, "results");
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(asset, "asset");
+        capi::require_argument(levels, "levels");
+        capi::require_argument(results, "results");
         if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
             throw OptionError("textures: no such enumerator");
-        std::vector<LightLevel> light = simplify_levels(
-            asset->asset, c::levels_of(levels, level_count), c::options_or_defaults(options),
+        std::vector<SimplifiedAssetLevel> simplified = simplify_levels(
+            asset->asset, capi::to_levels(levels, level_count), capi::options_or_defaults(options),
             textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
-        std::vector<std::unique_ptr<faqem_asset>> made;
-        made.reserve(light.size());
-        for (LightLevel& level : light)
-            made.push_back(std::make_unique<faqem_asset>(std::move(level.result), level.error));
-        for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();
+        std::vector<std::unique_ptr<faqem_asset>> objects;
+        objects.reserve(simplified.size());
+        for (SimplifiedAssetLevel& level : simplified)
+            objects.push_back(std::make_unique<faqem_asset>(std::move(level.result), level.error));
+        for (std::size_t i = 0; i < level_count; ++i) results[i] = objects.at(i).release();
     });
 }
 
@@ -51,32 +51,33 @@ double faqem_asset_level_error(const faqem_asset* asset) {
     return asset ? asset->level_error : std::numeric_limits<double>::quiet_NaN();
 }
 
-faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double error_share,
+faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double screen_error,
                                      const char* path, faqem_overwrite overwrite, faqem_error* error) {
-    return c::guarded(error, [&] {
+    return capi::catch_exceptions(error, [&] {
         check_levels(levels, level_count);
-        c::require_argument(path, "path");
-        if (!(error_share > 0 && std::isfinite(error_share)))
-            throw OptionError("error_share: must be finite and above 0");
+        capi::require_argument(path, "path");
+        if (!(screen_error > 0 && std::isfinite(screen_error)))
+            throw OptionError("screen_error: must be finite and above 0");
         const Asset& first = levels[0]->asset;
         const detail::SceneSize size = detail::scene_size(first);
         std::vector<SavedLevel> saved;
         for (std::size_t i = 0; i < level_count; ++i) {
             const double found = levels[i]->level_error;
-            saved.push_back({levels[i]->asset, detail::level_coverage(
-                                                   first, size, std::isnan(found) ? 0 : found, error_share)});
+            saved.push_back(
+                {levels[i]->asset,
+                 detail::level_coverage(first, size, std::isnan(found) ? 0 : found, screen_error)});
         }
-        const auto notes = save_levels(std::move(saved), path, c::overwrite_of(overwrite));
+        const auto save_warnings = save_levels(std::move(saved), path, capi::to_overwrite(overwrite));
         auto& warnings = levels[0]->asset.warnings;
-        warnings.insert(warnings.end(), notes.begin(), notes.end());
+        warnings.insert(warnings.end(), save_warnings.begin(), save_warnings.end());
     });
 }
 
 faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t level_count,
                                         faqem_history** history, faqem_error* error) {
-    return c::guarded(error, [&] {
+    return capi::catch_exceptions(error, [&] {
         check_levels(levels, level_count);
-        c::require_argument(history, "history");
+        capi::require_argument(history, "history");
         const std::size_t count = levels[0]->histories.size();
         for (std::size_t i = 0; i < level_count; ++i) {
             const std::string where = "level " + std::to_string(i);
@@ -95,16 +96,18 @@ faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t
     });
 }
 
-faqem_status faqem_asset_cut(const faqem_asset* source, const faqem_history* history, uint64_t faces,
-                             const faqem_options* options, faqem_asset** light, faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(source, "source");
-        c::require_argument(light, "light");
-        const Options look = c::options_or_defaults(options);
-        if (look.bake.kind == Bake::keep)
+faqem_status faqem_asset_bake_truncated(const faqem_asset* source, const faqem_history* history,
+                                        uint64_t faces, const faqem_options* options,
+                                        faqem_asset** simplified, faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(source, "source");
+        capi::require_argument(simplified, "simplified");
+        const Options bake_options = capi::options_or_defaults(options);
+        if (bake_options.bake.kind == Bake::keep)
             throw OptionError("bake: a history does not hold the UVs that were kept");
-        const SmallParts small = detail::restored(c::cut_parts(history, faces));
-        detail::check_source(source->asset, small);
-        *light = new faqem_asset(bake(source->asset, small, look));
+        const SimplifiedParts simplified_parts =
+            detail::parts_from_histories(capi::truncate_parts(history, faces));
+        detail::check_source_matches_histories(source->asset, simplified_parts);
+        *simplified = new faqem_asset(bake(source->asset, simplified_parts, bake_options));
     });
 }

@@ -4,28 +4,33 @@
 namespace {
 
 using namespace faqem;
-using faqem::c::same;
-using faqem::c::set;
-using faqem::c::set_enum;
+using faqem::capi::has_same_value;
+using faqem::capi::set;
+using faqem::capi::set_enum;
 
-static_assert(same(FAQEM_VISIBILITY_IGNORED, Visibility::ignored) &&
-              same(FAQEM_VISIBILITY_WEIGHS, Visibility::weighs));
-static_assert(same(FAQEM_BAKE_AUTOMATIC, Bake::automatic) && same(FAQEM_BAKE_ATLAS, Bake::atlas) &&
-              same(FAQEM_BAKE_PER_TRIANGLE, Bake::per_triangle) && same(FAQEM_BAKE_VERTEX, Bake::vertex) &&
-              same(FAQEM_BAKE_KEEP, Bake::keep) && same(FAQEM_BAKE_NONE, Bake::none));
-static_assert(same(FAQEM_NORMAL_MAP_AUTOMATIC, NormalMap::automatic) &&
-              same(FAQEM_NORMAL_MAP_ON, NormalMap::on) && same(FAQEM_NORMAL_MAP_OFF, NormalMap::off));
-static_assert(same(FAQEM_NORMALS_TRANSFER, Normals::transfer) &&
-              same(FAQEM_NORMALS_SMOOTH, Normals::smooth) && same(FAQEM_NORMALS_FLAT, Normals::flat) &&
-              same(FAQEM_NORMALS_NONE, Normals::none));
-static_assert(same(FAQEM_IMAGE_PNG, ImageFormat::png) && same(FAQEM_IMAGE_JPEG, ImageFormat::jpeg) &&
-              same(FAQEM_IMAGE_SOURCE, ImageFormat::source));
+static_assert(has_same_value(FAQEM_VISIBILITY_IGNORED, Visibility::ignored) &&
+              has_same_value(FAQEM_VISIBILITY_WEIGHTED, Visibility::weighted));
+static_assert(has_same_value(FAQEM_BAKE_AUTOMATIC, Bake::automatic) &&
+              has_same_value(FAQEM_BAKE_ATLAS, Bake::atlas) &&
+              has_same_value(FAQEM_BAKE_PER_TRIANGLE, Bake::per_triangle) &&
+              has_same_value(FAQEM_BAKE_VERTEX, Bake::vertex) &&
+              has_same_value(FAQEM_BAKE_KEEP, Bake::keep) && has_same_value(FAQEM_BAKE_NONE, Bake::none));
+static_assert(has_same_value(FAQEM_NORMAL_MAP_AUTOMATIC, NormalMap::automatic) &&
+              has_same_value(FAQEM_NORMAL_MAP_ON, NormalMap::on) &&
+              has_same_value(FAQEM_NORMAL_MAP_OFF, NormalMap::off));
+static_assert(has_same_value(FAQEM_NORMALS_TRANSFER, Normals::transfer) &&
+              has_same_value(FAQEM_NORMALS_SMOOTH, Normals::smooth) &&
+              has_same_value(FAQEM_NORMALS_FLAT, Normals::flat) &&
+              has_same_value(FAQEM_NORMALS_NONE, Normals::none));
+static_assert(has_same_value(FAQEM_IMAGE_PNG, ImageFormat::png) &&
+              has_same_value(FAQEM_IMAGE_JPEG, ImageFormat::jpeg) &&
+              has_same_value(FAQEM_IMAGE_SOURCE, ImageFormat::source));
 
 }  // namespace
 
 faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility) {
     return set_enum(
-        options, visibility, FAQEM_VISIBILITY_WEIGHS, [](Options & o) -> auto& { return o.visibility; });
+        options, visibility, FAQEM_VISIBILITY_WEIGHTED, [](Options & o) -> auto& { return o.visibility; });
 }
 
 faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind) {

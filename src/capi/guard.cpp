@@ -4,30 +4,30 @@
 #include <new>
 #include <string_view>
 
-namespace faqem::c {
+namespace faqem::capi {
 
 namespace {
 
-constexpr std::string_view cut_mark = " ...";
+constexpr std::string_view ellipsis = " ...";
 
-bool continues_a_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+bool is_utf8_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 void write_message(faqem_error& error, std::string_view text) {
-    constexpr std::size_t room = sizeof error.message - 1;
+    constexpr std::size_t capacity = sizeof error.message - 1;
     std::size_t length = text.size();
-    if (length > room) {
-        length = room - cut_mark.size();
-        while (length > 0 && continues_a_character(text[length])) --length;
+    if (length > capacity) {
+        length = capacity - ellipsis.size();
+        while (length > 0 && is_utf8_continuation(text[length])) --length;
     }
     std::memcpy(error.message, text.data(), length);
     if (length < text.size()) {
-        std::memcpy(error.message + length, cut_mark.data(), cut_mark.size());
-        length += cut_mark.size();
+        std::memcpy(error.message + length, ellipsis.data(), ellipsis.size());
+        length += ellipsis.size();
     }
     error.message[length] = '\0';
 }
 
-faqem_status fill(faqem_error* error, faqem_status status, std::string_view text) {
+faqem_status set_error(faqem_error* error, faqem_status status, std::string_view text) {
     if (error) {
         error->status = status;
         write_message(*error, text);
@@ -41,22 +41,22 @@ faqem_status status_of_exception(faqem_error* error) noexcept {
     try {
         throw;
     } catch (const CancelledError& e) {
-        return fill(error, FAQEM_ERROR_CANCELLED, e.what());
+        return set_error(error, FAQEM_ERROR_CANCELLED, e.what());
     } catch (const OptionError& e) {
-        return fill(error, FAQEM_ERROR_OPTION, e.what());
+        return set_error(error, FAQEM_ERROR_OPTION, e.what());
     } catch (const UnsupportedError& e) {
-        return fill(error, FAQEM_ERROR_UNSUPPORTED, e.what());
+        return set_error(error, FAQEM_ERROR_UNSUPPORTED, e.what());
     } catch (const InputError& e) {
-        return fill(error, FAQEM_ERROR_INPUT, e.what());
+        return set_error(error, FAQEM_ERROR_INPUT, e.what());
     } catch (const WriteError& e) {
-        return fill(error, FAQEM_ERROR_WRITE, e.what());
+        return set_error(error, FAQEM_ERROR_WRITE, e.what());
     } catch (const std::bad_alloc&) {
-        return fill(error, FAQEM_ERROR_NO_MEMORY, "not enough memory");
+        return set_error(error, FAQEM_ERROR_NO_MEMORY, "not enough memory");
     } catch (const std::exception& e) {
-        return fill(error, FAQEM_ERROR_INTERNAL, e.what());
+        return set_error(error, FAQEM_ERROR_INTERNAL, e.what());
     } catch (...) {
-        return fill(error, FAQEM_ERROR_INTERNAL, "unknown exception");
+        return set_error(error, FAQEM_ERROR_INTERNAL, "unknown exception");
     }
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

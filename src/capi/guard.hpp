@@ -7,7 +7,7 @@
 #include "faqem/error.hpp"
 #include "faqem/faqem.h"
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// The work was given up because the progress callback said so.
 class CancelledError : public Error {
@@ -25,7 +25,7 @@ inline void require_argument(const void* argument, const char* name) {
 
 /// Runs `work` and says how it ended.
 template <class Work>
-faqem_status guarded(faqem_error* error, Work&& work) noexcept {
+faqem_status catch_exceptions(faqem_error* error, Work&& work) noexcept {
     try {
         work();
     } catch (...) {
@@ -38,4 +38,4 @@ faqem_status guarded(faqem_error* error, Work&& work) noexcept {
     return FAQEM_OK;
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "capi/guard.hpp"
-#include "capi/result.hpp"
 #include "capi/options.hpp"
+#include "capi/result.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace {
 
 using namespace faqem;
-using faqem::c::same;
+using faqem::capi::has_same_value;
 
-static_assert(same(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
-              same(FAQEM_MAPPING_LINEAGE, Mapping::lineage) && same(FAQEM_MAPPING_CLOSEST, Mapping::closest));
+static_assert(has_same_value(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
+              has_same_value(FAQEM_MAPPING_LINEAGE, Mapping::lineage) &&
+              has_same_value(FAQEM_MAPPING_CLOSEST, Mapping::closest));
 
 const CollapseHistory& history_of(const faqem_result* result) {
-    c::require_argument(result, "a result");
+    capi::require_argument(result, "a result");
     if (result->out.history.empty())
         throw OptionError(
             "a result has no history: faqem_options_set_history() was not asked for, or there are no faces");
@@ -44,17 +45,17 @@ faqem_history::faqem_history(std::vector<ChainHistory> histories) : parts(std::m
     bytes = std::move(out).str();
 }
 
-std::vector<CollapseHistory> c::cut_parts(const faqem_history* history, std::uint64_t faces) {
-    c::require_argument(history, "history");
+std::vector<CollapseHistory> capi::truncate_parts(const faqem_history* history, std::uint64_t faces) {
+    capi::require_argument(history, "history");
     if (faces == 0) throw OptionError("faces must be at least 1");
-    return cut_to(history->parts, faces);
+    return truncate_to_faces(history->parts, faces);
 }
 
 faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
                                   faqem_history** history, faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(results, "results");
-        c::require_argument(history, "history");
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(results, "results");
+        capi::require_argument(history, "history");
         if (result_count == 0) throw OptionError("there are no results");
         std::vector<CollapseHistory> levels;
         for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
@@ -64,9 +65,9 @@ faqem_status faqem_history_create(const faqem_result* const* results, size_t res
 
 faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history** history,
                                 faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(bytes, "bytes");
-        c::require_argument(history, "history");
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(bytes, "bytes");
+        capi::require_argument(history, "history");
         std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
         std::vector<ChainHistory> parts;
         do parts.push_back(read_chain_history(in));
@@ -88,38 +89,38 @@ size_t faqem_history_level_count(const faqem_history* history) {
     return history ? history->parts.front().level_count() : 0;
 }
 
-faqem_status faqem_history_cut(const faqem_history* history, uint64_t faces, faqem_result** result,
-                               faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(result, "result");
-        std::vector<CollapseHistory> cuts = c::cut_parts(history, faces);
+faqem_status faqem_history_truncate(const faqem_history* history, uint64_t faces, faqem_result** result,
+                                    faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(result, "result");
+        std::vector<CollapseHistory> cuts = capi::truncate_parts(history, faces);
         if (cuts.size() > 1)
             throw OptionError("the history is of " + std::to_string(cuts.size()) +
-                              " meshes: they are cut by faqem_history_cut_parts()");
+                              " meshes: they are cut by faqem_history_truncate_parts()");
         *result = new faqem_result(restore(std::move(cuts.front())));
     });
 }
 
-faqem_status faqem_history_cut_parts(const faqem_history* history, uint64_t faces, faqem_result** results,
-                                     faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(results, "results");
-        std::vector<std::unique_ptr<faqem_result>> made;
-        for (CollapseHistory& cut : c::cut_parts(history, faces))
-            made.push_back(std::make_unique<faqem_result>(restore(std::move(cut))));
-        for (std::size_t p = 0; p < made.size(); ++p) results[p] = made[p].release();
+faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t faces,
+                                          faqem_result** results, faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(results, "results");
+        std::vector<std::unique_ptr<faqem_result>> objects;
+        for (CollapseHistory& cut : capi::truncate_parts(history, faces))
+            objects.push_back(std::make_unique<faqem_result>(restore(std::move(cut))));
+        for (std::size_t p = 0; p < objects.size(); ++p) results[p] = objects[p].release();
     });
 }
 
 faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping, const uint32_t* faces,
                               const double* barycentric, size_t count, uint32_t* source_faces,
                               double* source_barycentric, faqem_error* error) {
-    return c::guarded(error, [&] {
+    return capi::catch_exceptions(error, [&] {
         const CollapseHistory& history = history_of(result);
-        c::require_argument(faces, "faces");
-        c::require_argument(barycentric, "barycentric");
-        c::require_argument(source_faces, "source_faces");
-        c::require_argument(source_barycentric, "source_barycentric");
+        capi::require_argument(faces, "faces");
+        capi::require_argument(barycentric, "barycentric");
+        capi::require_argument(source_faces, "source_faces");
+        capi::require_argument(source_barycentric, "source_barycentric");
         if (mapping < FAQEM_MAPPING_PROJECTION || mapping > FAQEM_MAPPING_CLOSEST)
             throw OptionError("mapping: unknown");
         const auto weights = [&](std::size_t i) {

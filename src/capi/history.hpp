@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "faqem/cut.hpp"
 #include "faqem/faqem_levels.h"
+#include "faqem/truncate.hpp"
 
 struct faqem_history {
     /// \param histories  one per part, at least one
@@ -16,9 +16,9 @@ struct faqem_history {
     std::string bytes;  ///< made at once: getters only read
 };
 
-namespace faqem::c {
+namespace faqem::capi {
 
-/// cut_to() for all parts. \throws OptionError, InputError
-std::vector<CollapseHistory> cut_parts(const faqem_history* history, std::uint64_t faces);
+/// truncate_to_faces() for all parts. \throws OptionError, InputError
+std::vector<CollapseHistory> truncate_parts(const faqem_history* history, std::uint64_t faces);
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

@@ -12,9 +12,9 @@ namespace faqem::detail {
 
 const ImageCodec& image_codec() {
     static const ImageCodec& codec = []() -> const ImageCodec& {
-        Dl_info door = {};
-        dladdr(reinterpret_cast<const void*>(&image_codec), &door);
-        return images::load(std::filesystem::absolute(door.dli_fname).parent_path());
+        Dl_info library_info = {};
+        dladdr(reinterpret_cast<const void*>(&image_codec), &library_info);
+        return image_plugin::load_codec(std::filesystem::absolute(library_info.dli_fname).parent_path());
     }();
     return codec;
 }

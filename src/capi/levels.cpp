@@ -17,14 +17,14 @@ namespace {
 
 using namespace faqem;
 
-constexpr double most_faces = 9007199254740992;  // 2^53: whole numbers are exact up to it
+constexpr double max_faces = 9007199254740992;  // 2^53: whole numbers are exact up to it
 
-Level level_of(const faqem_level& level, std::size_t index) {
+Level to_level(const faqem_level& level, std::size_t index) {
     switch (level.kind) {
         case FAQEM_LEVEL_RATIO:
             return ratio(level.value);
         case FAQEM_LEVEL_FACES:
-            if (!(level.value >= 1 && level.value <= most_faces && level.value == std::floor(level.value)))
+            if (!(level.value >= 1 && level.value <= max_faces && level.value == std::floor(level.value)))
                 throw OptionError("level " + std::to_string(index) + ": is no number of faces");
             return faces(static_cast<std::uint64_t>(level.value));
         case FAQEM_LEVEL_DISTANCE:
@@ -37,25 +37,26 @@ Level level_of(const faqem_level& level, std::size_t index) {
 
 }  // namespace
 
-std::vector<Level> c::levels_of(const faqem_level* levels, std::size_t count) {
+std::vector<Level> capi::to_levels(const faqem_level* levels, std::size_t count) {
     std::vector<Level> result;
-    for (std::size_t i = 0; i < count; ++i) result.push_back(level_of(levels[i], i));
+    for (std::size_t i = 0; i < count; ++i) result.push_back(to_level(levels[i], i));
     return result;
 }
 
 faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* options,
                                    const faqem_level* levels, size_t level_count, faqem_result** results,
                                    faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(mesh, "mesh");
-        c::require_argument(levels, "levels");
-        c::require_argument(results, "results");
-        const std::vector<Level> wanted = c::levels_of(levels, level_count);
-        const c::MeshArrays arrays(*mesh);
-        std::vector<std::unique_ptr<faqem_result>> made;
-        for (SimplifiedLevel& level : simplify_levels(arrays.view, wanted, c::options_or_defaults(options)))
-            made.push_back(std::make_unique<faqem_result>(std::move(level.result), level.error));
-        for (std::size_t i = 0; i < level_count; ++i) results[i] = made.at(i).release();
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(mesh, "mesh");
+        capi::require_argument(levels, "levels");
+        capi::require_argument(results, "results");
+        const std::vector<Level> wanted = capi::to_levels(levels, level_count);
+        const capi::MeshArrays arrays(*mesh);
+        std::vector<std::unique_ptr<faqem_result>> objects;
+        for (SimplifiedLevel& level :
+             simplify_levels(arrays.view, wanted, capi::options_or_defaults(options)))
+            objects.push_back(std::make_unique<faqem_result>(std::move(level.result), level.error));
+        for (std::size_t i = 0; i < level_count; ++i) results[i] = objects.at(i).release();
     });
 }
 

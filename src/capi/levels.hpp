@@ -8,9 +8,9 @@
 #include "faqem/faqem_levels.h"
 #include "faqem/levels.hpp"
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// \throws OptionError  an enumerator or a number of faces that there is not
-std::vector<Level> levels_of(const faqem_level* levels, std::size_t count);
+std::vector<Level> to_levels(const faqem_level* levels, std::size_t count);
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

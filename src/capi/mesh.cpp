@@ -5,7 +5,7 @@
 
 #include "faqem/error.hpp"
 
-namespace faqem::c {
+namespace faqem::capi {
 
 namespace {
 
@@ -67,4 +67,4 @@ MeshArrays::MeshArrays(const faqem_mesh& mesh) {
     view.attributes = &corners;
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

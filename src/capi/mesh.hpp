@@ -5,7 +5,7 @@
 #include "faqem/faqem.h"
 #include "faqem/mesh.hpp"
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// A mesh of the C door. Only corner values are copied; indices and positions are checked by whoever gets the
 /// view.
@@ -20,4 +20,4 @@ struct MeshArrays {
     MeshView view;
 };
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

@@ -7,30 +7,40 @@
 namespace {
 
 using namespace faqem;
-using faqem::c::same;
-using faqem::c::set;
-using faqem::c::set_enum;
+using faqem::capi::has_same_value;
+using faqem::capi::set;
+using faqem::capi::set_enum;
 
-static_assert(same(FAQEM_PRESET_QEM, Preset::qem) && same(FAQEM_PRESET_PAPER, Preset::paper) &&
-              same(FAQEM_PRESET_STMW, Preset::stmw) && same(FAQEM_PRESET_FAST, Preset::fast) &&
-              same(FAQEM_PRESET_BALANCED, Preset::balanced) && same(FAQEM_PRESET_BEST, Preset::best));
-static_assert(same(FAQEM_UNIT_MODEL, Length::Unit::model) &&
-              same(FAQEM_UNIT_DIAGONAL, Length::Unit::diagonal));
-static_assert(same(FAQEM_LINK_AS_PRESET, LinkCondition::as_preset) &&
-              same(FAQEM_LINK_OFF, LinkCondition::off) && same(FAQEM_LINK_BY_SIZE, LinkCondition::by_size) &&
-              same(FAQEM_LINK_ON, LinkCondition::on) && same(FAQEM_LINK_STRICT, LinkCondition::strict));
-static_assert(same(FAQEM_BORDER_FREE, Border::free) && same(FAQEM_BORDER_KEPT, Border::locked) &&
-              same(FAQEM_BORDER_FREE, GroupBorders::free) && same(FAQEM_BORDER_KEPT, GroupBorders::kept));
-static_assert(same(FAQEM_RECORDING_OFF, Recording::off) && same(FAQEM_RECORDING_ON, Recording::on));
-static_assert(same(FAQEM_PHASE_LOAD, Phase::load) && same(FAQEM_PHASE_WELD, Phase::weld) &&
-              same(FAQEM_PHASE_SIMPLIFY, Phase::simplify) && same(FAQEM_PHASE_MAP, Phase::map) &&
-              same(FAQEM_PHASE_BAKE, Phase::bake) && same(FAQEM_PHASE_SAVE, Phase::save));
+static_assert(has_same_value(FAQEM_PRESET_QEM, Preset::qem) &&
+              has_same_value(FAQEM_PRESET_PAPER, Preset::paper) &&
+              has_same_value(FAQEM_PRESET_STMW, Preset::stmw) &&
+              has_same_value(FAQEM_PRESET_FAST, Preset::fast) &&
+              has_same_value(FAQEM_PRESET_BALANCED, Preset::balanced) &&
+              has_same_value(FAQEM_PRESET_BEST, Preset::best));
+static_assert(has_same_value(FAQEM_UNIT_MODEL, Length::Unit::model) &&
+              has_same_value(FAQEM_UNIT_DIAGONAL, Length::Unit::diagonal));
+static_assert(has_same_value(FAQEM_LINK_AS_PRESET, LinkCondition::as_preset) &&
+              has_same_value(FAQEM_LINK_OFF, LinkCondition::off) &&
+              has_same_value(FAQEM_LINK_BY_SIZE, LinkCondition::by_size) &&
+              has_same_value(FAQEM_LINK_ON, LinkCondition::on) &&
+              has_same_value(FAQEM_LINK_STRICT, LinkCondition::strict));
+static_assert(has_same_value(FAQEM_BOUNDARY_FREE, Boundary::free) &&
+              has_same_value(FAQEM_BOUNDARY_KEPT, Boundary::locked) &&
+              has_same_value(FAQEM_BOUNDARY_FREE, GroupBoundaries::free) &&
+              has_same_value(FAQEM_BOUNDARY_KEPT, GroupBoundaries::kept));
+static_assert(has_same_value(FAQEM_RECORDING_OFF, Recording::off) &&
+              has_same_value(FAQEM_RECORDING_ON, Recording::on));
+static_assert(has_same_value(FAQEM_PHASE_LOAD, Phase::load) &&
+              has_same_value(FAQEM_PHASE_WELD, Phase::weld) &&
+              has_same_value(FAQEM_PHASE_SIMPLIFY, Phase::simplify) &&
+              has_same_value(FAQEM_PHASE_MAP, Phase::map) && has_same_value(FAQEM_PHASE_BAKE, Phase::bake) &&
+              has_same_value(FAQEM_PHASE_SAVE, Phase::save));
 
-/// A length of the member that `place` gives.
-template <class Place>
-faqem_status set_length(faqem_options* options, double value, faqem_unit unit, Place&& place) {
+/// A length of the member that `member` gives.
+template <class Member>
+faqem_status set_length(faqem_options* options, double value, faqem_unit unit, Member&& member) {
     if (unit != FAQEM_UNIT_MODEL && unit != FAQEM_UNIT_DIAGONAL) return FAQEM_ERROR_OPTION;
-    return set(options, [&](Options& o) { place(o) = Length{value, static_cast<Length::Unit>(unit)}; });
+    return set(options, [&](Options& o) { member(o) = Length{value, static_cast<Length::Unit>(unit)}; });
 }
 
 }  // namespace
@@ -62,14 +72,15 @@ faqem_status faqem_options_set_link(faqem_options* options, faqem_link link) {
         options, link, FAQEM_LINK_STRICT, [](Options & o) -> auto& { return o.topology.link; });
 }
 
-faqem_status faqem_options_set_border(faqem_options* options, faqem_border border) {
+faqem_status faqem_options_set_boundary(faqem_options* options, faqem_boundary boundary) {
     return set_enum(
-        options, border, FAQEM_BORDER_KEPT, [](Options & o) -> auto& { return o.topology.border; });
+        options, boundary, FAQEM_BOUNDARY_KEPT, [](Options & o) -> auto& { return o.topology.boundary; });
 }
 
-faqem_status faqem_options_set_group_border(faqem_options* options, faqem_border border) {
+faqem_status faqem_options_set_group_boundaries(faqem_options* options, faqem_boundary boundary) {
     return set_enum(
-        options, border, FAQEM_BORDER_KEPT, [](Options & o) -> auto& { return o.topology.group_borders; });
+        options, boundary, FAQEM_BOUNDARY_KEPT,
+        [](Options & o) -> auto& { return o.topology.group_boundaries; });
 }
 
 faqem_status faqem_options_set_weld_distance(faqem_options* options, double distance) {

@@ -6,7 +6,7 @@
 
 #include "capi/report.hpp"
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// Changes the options where there are any.
 template <class Change>
@@ -20,15 +20,15 @@ faqem_status set(faqem_options* options, Change&& change) {
 template <class Value, class Member>
 faqem_status set_enum(faqem_options* options, Value value, Value last, Member&& member) {
     if (!options || value < 0 || value > last) return FAQEM_ERROR_OPTION;
-    auto& place = member(options->options);
-    place = static_cast<std::remove_reference_t<decltype(place)>>(value);
+    auto& field = member(options->options);
+    field = static_cast<std::remove_reference_t<decltype(field)>>(value);
     return FAQEM_OK;
 }
 
 /// Whether enumerators of both doors have one number.
-template <class There, class Here>
-constexpr bool same(There there, Here here) {
+template <class CEnum, class CppEnum>
+constexpr bool has_same_value(CEnum there, CppEnum here) {
     return static_cast<int>(there) == static_cast<int>(here);
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

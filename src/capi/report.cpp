@@ -1,15 +1,15 @@
 #include <limits>
 
-#include "capi/report.hpp"
 #include "capi/options.hpp"
+#include "capi/report.hpp"
 
-namespace faqem::c {
+namespace faqem::capi {
 
-static_assert(same(FAQEM_STOP_REACHED_TARGET, StopReason::reached_target) &&
-              same(FAQEM_STOP_NO_LEGAL_COLLAPSE, StopReason::no_legal_collapse) &&
-              same(FAQEM_STOP_REACHED_MAX_ERROR, StopReason::reached_max_error));
+static_assert(has_same_value(FAQEM_STOP_REACHED_TARGET, StopReason::reached_target) &&
+              has_same_value(FAQEM_STOP_NO_LEGAL_COLLAPSE, StopReason::no_legal_collapse) &&
+              has_same_value(FAQEM_STOP_REACHED_MAX_ERROR, StopReason::reached_max_error));
 
-faqem_report numbers_of(const Report& report) {
+faqem_report to_c_report(const Report& report) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     faqem_report numbers = {};
     numbers.vertices_in = report.vertices_in;
@@ -25,4 +25,4 @@ faqem_report numbers_of(const Report& report) {
     return numbers;
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

@@ -12,22 +12,22 @@ struct faqem_options {
     faqem::Options options;
 };
 
-namespace faqem::c {
+namespace faqem::capi {
 
 /// A report and its JSON, made at once: getters only read.
-struct KeptReport {
-    explicit KeptReport(const Report& r) : report(r), json(to_json(r)) {}
+struct ReportWithJson {
+    explicit ReportWithJson(const Report& r) : report(r), json(to_json(r)) {}
 
     Report report;
     std::string json;
 };
 
 /// The numbers of a report.
-faqem_report numbers_of(const Report& report);
+faqem_report to_c_report(const Report& report);
 
 /// The options, or the defaults where there are none.
 inline Options options_or_defaults(const faqem_options* options) {
     return options ? options->options : Options{};
 }
 
-}  // namespace faqem::c
+}  // namespace faqem::capi

@@ -13,11 +13,11 @@ struct faqem_result {
     /// \throws CancelledError
     explicit faqem_result(faqem::SimplifyResult result,
                           double error = std::numeric_limits<double>::quiet_NaN())
-        : out(std::move(result)), kept(out.report), level_error(error) {
-        if (out.report.stop == faqem::StopReason::cancelled) throw faqem::c::CancelledError();
+        : out(std::move(result)), stored_report(out.report), level_error(error) {
+        if (out.report.stop == faqem::StopReason::cancelled) throw faqem::capi::CancelledError();
     }
 
     faqem::SimplifyResult out;
-    faqem::c::KeptReport kept;
+    faqem::capi::ReportWithJson stored_report;
     double level_error;
 };

@@ -26,11 +26,11 @@ const char* faqem_version(void) {
 
 faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options, faqem_result** result,
                             faqem_error* error) {
-    return c::guarded(error, [&] {
-        c::require_argument(mesh, "mesh");
-        c::require_argument(result, "result");
-        const c::MeshArrays arrays(*mesh);
-        *result = new faqem_result(simplify(arrays.view, c::options_or_defaults(options)));
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(mesh, "mesh");
+        capi::require_argument(result, "result");
+        const capi::MeshArrays arrays(*mesh);
+        *result = new faqem_result(simplify(arrays.view, capi::options_or_defaults(options)));
     });
 }
 
@@ -74,10 +74,10 @@ const uint32_t* faqem_result_face_origin(const faqem_result* result) {
 
 faqem_status faqem_result_report(const faqem_result* result, faqem_report* report) {
     if (!result || !report) return FAQEM_ERROR_OPTION;
-    *report = c::numbers_of(result->kept.report);
+    *report = capi::to_c_report(result->stored_report.report);
     return FAQEM_OK;
 }
 
 const char* faqem_result_report_json(const faqem_result* result) {
-    return result ? result->kept.json.c_str() : nullptr;
+    return result ? result->stored_report.json.c_str() : nullptr;
 }

@@ -7,22 +7,22 @@
 
 #include "cli/temporary_folder.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t least_texture_size = 64;
-constexpr std::uint64_t least_faces = 4;
-constexpr int most_runs = 8;
+constexpr std::uint32_t min_texture_size = 64;
+constexpr std::uint64_t min_faces = 4;
+constexpr int max_runs = 8;
 
 /// Bytes per face change a little from run to run.
-constexpr double aim = 0.98;
+constexpr double safety_factor = 0.98;
 
 bool is_image(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".webp";
+    const std::string extension = file.extension().string();
+    return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 
 std::string encoding_name(const BakeOptions& bake) {
@@ -38,69 +38,70 @@ std::string encoding_name(const BakeOptions& bake) {
 }
 
 /// One search.
-class Search {
+class ByteBudgetSearch {
 public:
-    Search(const Asset& source, const Options& options, const ByteBudget& budget)
+    ByteBudgetSearch(const Asset& source, const Options& options, const ByteBudget& budget)
         : source_(source), options_(options), budget_(budget) {}
 
-    LightAsset operator()() {
+    SimplifiedAsset operator()() {
         simplify_again();
-        if (done()) return std::move(light_);
+        if (is_done()) return std::move(result_);
         const bool baked = makes_atlas(options_.bake.kind) && size_.images > 0;
         const std::uint64_t images = baked ? budget_.bytes - budget_.bytes / 2 : size_.images;
         reduce_faces(images < budget_.bytes ? budget_.bytes - images : 0);
         if (baked) {
-            while (!done() && smaller_images()) bake_again();
-            if (!done()) reduce_faces(size_.images < budget_.bytes ? budget_.bytes - size_.images : 0);
+            while (!is_done() && reduce_image_size()) bake_again();
+            if (!is_done()) reduce_faces(size_.images < budget_.bytes ? budget_.bytes - size_.images : 0);
         }
-        if (!done()) {
+        if (!is_done()) {
             throw BudgetError("the smallest result has " + std::to_string(size_.total()) + " bytes, " +
                               std::to_string(budget_.bytes) + " allowed: " + summary());
         }
-        if (!cancelled()) light_.report.warnings.push_back("made smaller for --max-bytes: " + summary());
-        return std::move(light_);
+        if (!is_cancelled()) result_.report.warnings.push_back("made smaller for --max-bytes: " + summary());
+        return std::move(result_);
     }
 
 private:
-    bool cancelled() const { return light_.report.stop == StopReason::cancelled; }
-    bool done() const { return cancelled() || size_.total() <= budget_.bytes; }
+    bool is_cancelled() const { return result_.report.stop == StopReason::cancelled; }
+    bool is_done() const { return is_cancelled() || size_.total() <= budget_.bytes; }
 
     void simplify_again() {
-        small_ = simplify_parts(source_, options_);
+        simplified_parts_ = simplify_parts(source_, options_);
         bake_again();
     }
 
     void bake_again() {
-        light_ = bake(source_, small_, options_);
-        if (!cancelled()) size_ = model_bytes(light_.asset, budget_.file);
+        result_ = bake(source_, simplified_parts_, options_);
+        if (!is_cancelled()) size_ = model_bytes(result_.asset, budget_.file);
     }
 
     // Until the geometry is within `bytes`, or no fewer faces come out.
     void reduce_faces(std::uint64_t bytes) {
-        for (int run = 0; run < most_runs && !cancelled() && size_.geometry > bytes; ++run) {
-            const std::uint64_t faces = light_.report.faces_out;
-            const double share = aim * static_cast<double>(bytes) / static_cast<double>(size_.geometry);
+        for (int run = 0; run < max_runs && !is_cancelled() && size_.geometry > bytes; ++run) {
+            const std::uint64_t faces = result_.report.faces_out;
+            const double share =
+                safety_factor * static_cast<double>(bytes) / static_cast<double>(size_.geometry);
             const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(faces));
-            options_.target = faqem::faces(std::max(wanted, least_faces));
+            options_.target = faqem::faces(std::max(wanted, min_faces));
             simplify_again();
-            if (light_.report.faces_out >= faces) return;
+            if (result_.report.faces_out >= faces) return;
         }
     }
 
     // The next step down. False at the last.
-    bool smaller_images() {
+    bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
-        if (budget_.encoding == Encoding::free && bake.image_format != ImageFormat::jpeg) {
+        if (budget_.encoding == ImageEncodingChoice::automatic && bake.image_format != ImageFormat::jpeg) {
             bake.image_format = ImageFormat::jpeg;
             return true;
         }
-        if (bake.texture_size <= least_texture_size) return false;
+        if (bake.texture_size <= min_texture_size) return false;
         bake.texture_size /= 2;
         return true;
     }
 
     std::string summary() const {
-        std::string text = std::to_string(light_.report.faces_out) + " faces, " +
+        std::string text = std::to_string(result_.report.faces_out) + " faces, " +
                            std::to_string(size_.geometry) + " bytes without images";
         if (size_.images == 0) return text;
         text += ", images of " + std::to_string(size_.images) + " bytes";
@@ -112,8 +113,8 @@ private:
     const Asset& source_;
     Options options_;  // of the run at hand
     const ByteBudget& budget_;
-    SmallParts small_;
-    LightAsset light_;
+    SimplifiedParts simplified_parts_;
+    SimplifiedAsset result_;
     ModelBytes size_;
 };
 
@@ -135,8 +136,8 @@ ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
     return result;
 }
 
-LightAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget) {
-    return Search(source, options, budget)();
+SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget) {
+    return ByteBudgetSearch(source, options, budget)();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

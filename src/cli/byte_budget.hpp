@@ -8,7 +8,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// No result is as small as it was asked to be. The tool exits with 10.
 class BudgetError : public Error {
@@ -17,13 +17,13 @@ public:
 };
 
 /// Who chose the encoding of the images: one that the user named stays.
-enum class Encoding { free, as_asked };
+enum class ImageEncodingChoice { automatic, user_specified };
 
 /// A byte budget for the files of one model.
 struct ByteBudget {
     std::uint64_t bytes = 0;     ///< all files together, > 0
-    std::filesystem::path file;  ///< the result's name: its ending decides what is counted
-    Encoding encoding = Encoding::free;
+    std::filesystem::path file;  ///< the result's name: its extension decides what is counted
+    ImageEncodingChoice encoding = ImageEncodingChoice::automatic;
 };
 
 /// What a model takes on disk.
@@ -48,6 +48,6 @@ ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 /// \throws BudgetError  nothing fits
 /// \throws as simplify() and model_bytes()
 /// At most 8 simplifications for each of 1 and 3, and 9 bakings, each a quarter of the one before.
-LightAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget);
+SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

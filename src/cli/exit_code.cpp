@@ -2,11 +2,11 @@
 
 #include <new>
 
-#include "faqem/error.hpp"
 #include "cli/byte_budget.hpp"
 #include "cli/memory_estimate.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 ExitCode exit_code_of(const std::exception& error) {
     if (dynamic_cast<const OptionError*>(&error)) return exit_usage;
@@ -24,4 +24,4 @@ std::string message_of(const std::exception& error) {
     return error.what();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Exit codes, documented in docs/cli.md.
 enum ExitCode : int {
@@ -29,4 +29,4 @@ ExitCode exit_code_of(const std::exception& error);
 /// What to tell about it.
 std::string message_of(const std::exception& error);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -4,15 +4,15 @@
 
 #include <filesystem>
 
-#include "image_plugin/load.hpp"
 #include "cli/interrupt.hpp"
+#include "image_plugin/load.hpp"
 
 namespace faqem::detail {
 
 const ImageCodec& image_codec() {
     static const ImageCodec& codec = []() -> const ImageCodec& {
-        const tool::Unattended unattended;
-        return images::load(std::filesystem::read_symlink("/proc/self/exe").parent_path());
+        const cli::ExitOnInterrupt exit_on_interrupt;
+        return image_plugin::load_codec(std::filesystem::read_symlink("/proc/self/exe").parent_path());
     }();
     return codec;
 }

@@ -8,17 +8,17 @@
 #include "asset/file.hpp"
 #include "cli/exit_code.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 // Atomic: a batch asks on several threads.
-std::atomic<int> signals = 0, unattended = 0;
+std::atomic<int> signal_count = 0, exit_on_interrupt = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
 void on_signal(int) {
-    if (unattended == 0 && signals == 0) {
-        signals = 1;
+    if (exit_on_interrupt == 0 && signal_count == 0) {
+        signal_count = 1;
         return;
     }
     detail::remove_temporary_files();
@@ -27,7 +27,7 @@ void on_signal(int) {
 
 }  // namespace
 
-void handle_interrupts() {
+void install_signal_handlers() {
     struct sigaction action = {};
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
@@ -37,12 +37,12 @@ void handle_interrupts() {
     sigaction(SIGXFSZ, &action, nullptr);
 }
 
-bool interrupted() { return signals != 0; }
+bool is_interrupted() { return signal_count != 0; }
 
-Unattended::Unattended() {
-    ++unattended;
-    if (signals != 0) _exit(exit_cancelled);  // it came after the last question and before this
+ExitOnInterrupt::ExitOnInterrupt() {
+    ++exit_on_interrupt;
+    if (signal_count != 0) _exit(exit_cancelled);  // it came after the last question and before this
 }
-Unattended::~Unattended() { --unattended; }
+ExitOnInterrupt::~ExitOnInterrupt() { --exit_on_interrupt; }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -2,22 +2,22 @@
 /// \file
 /// SIGINT and SIGTERM.
 
-namespace faqem::tool {
+namespace faqem::cli {
 
-/// From now on a signal is noted, to be asked for with interrupted(). While nobody asks (see Unattended), or
+/// From now on a signal is noted, to be asked for with is_interrupted(). While nobody asks (see ExitOnInterrupt), or
 /// when it comes a second time, it removes temporary files and ends the process with exit code 8. A file that
 /// grows above the shell's limit becomes a failed write.
-void handle_interrupts();
+void install_signal_handlers();
 
-bool interrupted();
+bool is_interrupted();
 
 /// Alive while work is done that does not ask: reading and writing files, loading libraries.
-class Unattended {
+class ExitOnInterrupt {
 public:
-    Unattended();
-    ~Unattended();
-    Unattended(const Unattended&) = delete;
-    Unattended& operator=(const Unattended&) = delete;
+    ExitOnInterrupt();
+    ~ExitOnInterrupt();
+    ExitOnInterrupt(const ExitOnInterrupt&) = delete;
+    ExitOnInterrupt& operator=(const ExitOnInterrupt&) = delete;
 };
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 Json info_json(const MeshInfo& info) {
     return {{"faces", info.faces},
@@ -26,4 +26,4 @@ void print_json_line(const Json& json) {
     std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << "\n" << std::flush;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,7 +6,7 @@
 
 #include "faqem/compare.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 using Json = nlohmann::ordered_json;
 
@@ -19,4 +19,4 @@ void print_json(const Json& json);
 /// On one line, and at once: whoever reads along need not wait.
 void print_json_line(const Json& json);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -16,28 +16,28 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 /// The number in a file; no limit where there is no file, or `max` in it.
-std::uint64_t limit_in(const fs::path& file) {
+std::uint64_t read_limit(const fs::path& file) {
     std::ifstream in(file);
     std::uint64_t limit = 0;
     return in >> limit ? limit : unlimited;
 }
 
 /// \param group  begins with a slash
-std::uint64_t least_limit(const fs::path& mount, const fs::path& group, const char* name) {
-    std::uint64_t least = limit_in(mount / name);
+std::uint64_t min_limit_of_ancestors(const fs::path& mount, const fs::path& group, const char* name) {
+    std::uint64_t min_limit = read_limit(mount / name);
     for (fs::path below = group.relative_path(); !below.empty(); below = below.parent_path())
-        least = std::min(least, limit_in(mount / below / name));
-    return least;
+        min_limit = std::min(min_limit, read_limit(mount / below / name));
+    return min_limit;
 }
 
-bool lists_memory(const std::string& controllers) {
+bool has_memory_controller(const std::string& controllers) {
     return ("," + controllers + ",").find(",memory,") != std::string::npos;
 }
 
 }  // namespace
 
-std::uint64_t group_memory(const fs::path& membership, const fs::path& mounts) {
-    std::uint64_t least = unlimited;
+std::uint64_t cgroup_memory_limit(const fs::path& membership, const fs::path& mounts) {
+    std::uint64_t min_limit = unlimited;
     std::ifstream in(membership);
     // A line is NUMBER:CONTROLLERS:PATH, in version 2 without controllers.
     for (std::string line; std::getline(in, line);) {
@@ -46,17 +46,19 @@ std::uint64_t group_memory(const fs::path& membership, const fs::path& mounts) {
         if (first == std::string::npos || second == std::string::npos) continue;
         const std::string controllers = line.substr(first + 1, second - first - 1);
         const fs::path group = line.substr(second + 1);
-        if (controllers.empty()) least = std::min(least, least_limit(mounts, group, "memory.max"));
-        if (lists_memory(controllers))
-            least = std::min(least, least_limit(mounts / "memory", group, "memory.limit_in_bytes"));
+        if (controllers.empty())
+            min_limit = std::min(min_limit, min_limit_of_ancestors(mounts, group, "memory.max"));
+        if (has_memory_controller(controllers))
+            min_limit = std::min(min_limit,
+                                 min_limit_of_ancestors(mounts / "memory", group, "memory.limit_in_bytes"));
     }
-    return least;
+    return min_limit;
 }
 
 std::uint64_t machine_memory() {
     const std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                                 static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return std::min(bytes, group_memory("/proc/self/cgroup", "/sys/fs/cgroup"));
+    return std::min(bytes, cgroup_memory_limit("/proc/self/cgroup", "/sys/fs/cgroup"));
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

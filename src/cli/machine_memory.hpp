@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Memory of the machine, or the least limit of the control groups the process is in if that is less, bytes.
 std::uint64_t machine_memory();
@@ -15,6 +15,7 @@ std::uint64_t machine_memory();
 /// container the mounted tree begins at the container's own group, and the path may tell of groups outside.
 /// \param membership  as /proc/self/cgroup
 /// \param mounts  as /sys/fs/cgroup
-std::uint64_t group_memory(const std::filesystem::path& membership, const std::filesystem::path& mounts);
+std::uint64_t cgroup_memory_limit(const std::filesystem::path& membership,
+                                  const std::filesystem::path& mounts);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/error.hpp"
 #include "cli/commands/command_line.hpp"
-#include "cli/shell/command_tree.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/options/profile.hpp"
+#include "cli/shell/command_tree.hpp"
 #include "cli/shell/suggestion.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -39,13 +39,13 @@ int parse_and_run(int argc, char** argv) {
     build_command_line(app, action);
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
-        std::vector<std::string> all = with_profile(command_tree(app), words);
+        std::vector<std::string> all = expand_profile(command_tree(app), words);
         std::reverse(all.begin(), all.end());  // as CLI11 takes them
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) return exit_ok;
-        const std::string meant = suggestion(command_tree(app), words);
-        if (!meant.empty()) std::cerr << "Did you mean " << meant << "?\n";
+        const std::string suggested = suggestion(command_tree(app), words);
+        if (!suggested.empty()) std::cerr << "Did you mean " << suggested << "?\n";
         return exit_usage;
     } catch (const std::exception& error) {
         return fail(error);
@@ -55,6 +55,6 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli
 
-int main(int argc, char** argv) { return faqem::tool::parse_and_run(argc, argv); }
+int main(int argc, char** argv) { return faqem::cli::parse_and_run(argc, argv); }

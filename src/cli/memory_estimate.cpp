@@ -9,15 +9,15 @@
 
 #include "asset/image/image_size.hpp"
 #include "bake/transfer/material_groups.hpp"
-#include "cli/referenced_files.hpp"
 #include "cli/output_file.hpp"
+#include "cli/referenced_files.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 /// Of the process so far: what is given back to the heap is used again.
-double resident_peak() {
+double peak_resident_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
@@ -25,7 +25,7 @@ double resident_peak() {
 
 /// Bytes for each face of the mesh that is worked on. Measured on meshes of 0.06 to 1 million faces, rounded
 /// up.
-double work_per_face(const Options& options) {
+double simplify_bytes_per_face(const Options& options) {
     switch (options.preset) {
         case Preset::fast:
             return 350;
@@ -41,18 +41,20 @@ double work_per_face(const Options& options) {
     return 700;
 }
 
-constexpr double held_per_face = 250;  // the history, and what baking finds its way with
-constexpr double looking_per_face = 400;  // of all instances: --visibility, before anything else
-constexpr double search_factor = 1.3;  // --max-error: the best mesh so far, and what measures it
+constexpr double history_bytes_per_face = 250;     // the history, and what baking finds its way with
+constexpr double visibility_bytes_per_face = 400;  // of all instances: --visibility, before anything else
+constexpr double search_factor = 1.3;              // --max-error: the best mesh so far, and what measures it
 constexpr double bytes_per_corner_value = 12;
-constexpr double image_libraries =
+constexpr double image_library_bytes =
     140e6;  // come with the first image that is decoded or encoded (images/load.hpp)
-constexpr double work_per_texel = 36, held_per_texel = 8, bytes_per_origin = 24;
-constexpr double work_per_layer_texel = 9;  // of a texture of a material's extensions
+constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
+constexpr double bake_bytes_per_layer_texel = 9;  // of a texture of a material's extensions
 
-std::size_t kept_values(const Part& part) { return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4); }
+std::size_t attribute_values_per_corner(const Part& part) {
+    return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4);
+}
 
-double decoded_bytes(const Asset& asset) {
+double decoded_image_bytes(const Asset& asset) {
     double bytes = 0;
     for (const Image& image : asset.images) {
         const auto size = detail::declared_size(image.encoded);
@@ -65,15 +67,17 @@ double decoded_bytes(const Asset& asset) {
 
 double page_bytes(const Asset& asset, const BakeOptions& bake) {
     const double texels = static_cast<double>(bake.texture_size) * bake.texture_size;
-    const double held = held_per_texel + (bake.correspondence == Recording::on ? bytes_per_origin : 0);
+    const double held =
+        page_bytes_per_texel + (bake.correspondence == Recording::on ? correspondence_bytes_per_texel : 0);
     const auto pages = static_cast<double>(detail::group_materials(asset, bake.kind).groups.size());
     std::size_t layers = 0;
     for (const Material& material : asset.materials)
         layers = std::max(layers, material.extension_textures.size());
-    return texels * (work_per_texel + work_per_layer_texel * static_cast<double>(layers) + held * pages);
+    return texels *
+           (bake_bytes_per_texel + bake_bytes_per_layer_texel * static_cast<double>(layers) + held * pages);
 }
 
-double faces_shown(const Asset& asset) {
+double instanced_face_count(const Asset& asset) {
     double faces = 0;
     for (const Instance& instance : instances(asset))
         faces += static_cast<double>(asset.parts[instance.part].triangles.size());
@@ -84,36 +88,38 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'
 
 }  // namespace
 
-std::uint64_t loading_peak(const std::filesystem::path& model) {
+std::uint64_t estimated_loading_memory(const std::filesystem::path& model) {
     std::vector<std::filesystem::path> files;
     std::error_code ignored;
     // A pipe would have to be opened to be asked.
     if (std::filesystem::is_regular_file(model, ignored)) {
-        if (lower_ending(model) != ".obj") files = referred_files(model);
+        if (lower_case_extension(model) != ".obj") files = referenced_files(model);
         files.push_back(model);
     }
     // The bytes, the arrays made of them, and these again while they grow.
-    return static_cast<std::uint64_t>(resident_peak() + 5 * static_cast<double>(bytes_of(files)));
+    return static_cast<std::uint64_t>(peak_resident_memory() +
+                                      5 * static_cast<double>(total_file_size(files)));
 }
 
-std::uint64_t predicted_peak(const Asset& asset, const Options& options) {
+std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) {
     double all = 0, largest = 0, values = 0;
     for (const Part& part : asset.parts) {
         const auto faces = static_cast<double>(part.triangles.size());
         all += faces;
         largest = std::max(largest, faces);
-        values = std::max(values, 3 * faces * static_cast<double>(kept_values(part)));
+        values = std::max(values, 3 * faces * static_cast<double>(attribute_values_per_corner(part)));
     }
-    double work = held_per_face * all + work_per_face(options) * largest;
+    double work = history_bytes_per_face * all + simplify_bytes_per_face(options) * largest;
     if (options.bake.kind == Bake::keep) work += bytes_per_corner_value * values;
     if (options.max_error) work *= search_factor;
-    if (options.visibility == Visibility::weighs)
-        work = std::max(work, looking_per_face * faces_shown(asset));
+    if (options.visibility == Visibility::weighted)
+        work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
     double baking = 0;
-    if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none) baking += decoded_bytes(asset);
+    if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none)
+        baking += decoded_image_bytes(asset);
     if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);
-    if (baking > 0) baking += image_libraries;
-    return static_cast<std::uint64_t>(resident_peak() + work + baking);
+    if (baking > 0) baking += image_library_bytes;
+    return static_cast<std::uint64_t>(peak_resident_memory() + work + baking);
 }
 
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
@@ -122,4 +128,4 @@ void require_memory(const std::filesystem::path& file, std::uint64_t needed, std
                       megabytes(allowed) + " are allowed (--max-memory)");
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

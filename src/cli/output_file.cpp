@@ -9,7 +9,7 @@
 #include "asset/file.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace fs = std::filesystem;
 
@@ -34,23 +34,23 @@ void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Ove
         throw WriteError(file.string() + ": the folder cannot be written to");
 }
 
-std::string lower_ending(const fs::path& file) {
-    std::string ending = file.extension().string();
-    for (char& c : ending) {
+std::string lower_case_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
-    return ending;
+    return extension;
 }
 
-void check_ending(const fs::path& file, const std::vector<std::string_view>& endings) {
-    const std::string ending = lower_ending(file);
-    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
+    const std::string extension = lower_case_extension(file);
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
     std::string known;
-    for (const std::string_view one : endings) known += (known.empty() ? "" : ", ") + std::string(one);
+    for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
     throw OptionError(file.string() + ": the name must end in one of " + known);
 }
 
-std::string ending_of_format(const std::string& format) {
+std::string extension_of_format(const std::string& format) {
     for (const char* known : {"glb", "gltf", "obj", "ply", "stl"}) {
         if (format == known) return "." + format;
     }
@@ -69,4 +69,4 @@ void write_output(const fs::path& file, std::string_view content, Overwrite over
                        overwrite);
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,7 +9,7 @@
 
 #include "faqem/asset.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Makes sure that a file may be written: its folder is there and can be written to, it is none of the inputs
 /// (by inode, so that links do not hide it), it is no device or pipe, and it does not exist unless that is
@@ -19,15 +19,15 @@ namespace faqem::tool {
 void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
                   Overwrite overwrite);
 
-/// The ending of the name with its dot, in lower case.
-std::string lower_ending(const std::filesystem::path& file);
+/// The extension of the name with its dot, in lower case.
+std::string lower_case_extension(const std::filesystem::path& file);
 
-/// Makes sure that the name ends in one of the endings, in any case.
+/// Makes sure that the name ends in one of the extensions, in any case.
 /// \throws OptionError
-void check_ending(const std::filesystem::path& file, const std::vector<std::string_view>& endings);
+void check_extension(const std::filesystem::path& file, const std::vector<std::string_view>& extensions);
 
-/// The ending of a format's files: `.glb` of `glb`. \throws OptionError  --format has no such value
-std::string ending_of_format(const std::string& format);
+/// The extension of a format's files: `.glb` of `glb`. \throws OptionError  --format has no such value
+std::string extension_of_format(const std::string& format);
 
 /// Makes a folder where there is none. \throws WriteError
 void make_folder(const std::filesystem::path& folder);
@@ -35,4 +35,4 @@ void make_folder(const std::filesystem::path& folder);
 /// Writes a text or binary file, complete or not at all. \throws WriteError
 void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

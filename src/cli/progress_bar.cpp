@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -35,4 +35,4 @@ void ProgressBar::show(Phase phase, double fraction) {
               << std::string(width - full, '.') << "] " << percent << "%" << std::flush;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -4,7 +4,7 @@
 
 #include "faqem/progress.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 enum class Bar { hidden, shown };
 
@@ -26,4 +26,4 @@ private:
     int percent_ = -1;
 };
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

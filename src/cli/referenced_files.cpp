@@ -10,19 +10,19 @@
 
 #include "asset/file.hpp"
 #include "asset/formats/mtl.hpp"
-#include "faqem/error.hpp"
 #include "cli/json.hpp"
 #include "cli/output_file.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
-using detail::Reference;
+using detail::ReferenceSyntax;
 
-void add_inside(std::vector<fs::path>& files, const fs::path& folder, const std::string& reference,
-                Reference kind) {
+void add_referenced_file(std::vector<fs::path>& files, const fs::path& folder, const std::string& reference,
+                         ReferenceSyntax kind) {
     try {
         fs::path file = detail::resolve_inside(folder, reference, kind);
         if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
@@ -43,71 +43,73 @@ std::string glb_json(const fs::path& model) {
     return text;
 }
 
-void add_gltf_files(const fs::path& model, std::string_view text, std::vector<fs::path>& files) {
+void add_gltf_references(const fs::path& model, std::string_view text, std::vector<fs::path>& files) {
     const Json document = Json::parse(text, nullptr, false);
     for (const char* key : {"buffers", "images"}) {
         if (!document.is_object() || !document.contains(key) || !document[key].is_array()) continue;
         for (const Json& one : document[key]) {
             if (!one.is_object() || !one.contains("uri") || !one["uri"].is_string()) continue;
             const auto& uri = one["uri"].get_ref<const std::string&>();
-            if (!uri.starts_with("data:")) add_inside(files, model.parent_path(), uri, Reference::uri);
+            if (!uri.starts_with("data:"))
+                add_referenced_file(files, model.parent_path(), uri, ReferenceSyntax::uri);
         }
     }
 }
 
-void add_library(const fs::path& model, const fs::path& library, std::vector<fs::path>& files) {
-    files.push_back(library);
+void add_mtl_references(const fs::path& model, const fs::path& mtl_file, std::vector<fs::path>& files) {
+    files.push_back(mtl_file);
     std::vector<std::string> warnings;
-    const auto text = detail::read_file(library);
-    for (const detail::MtlMaterial& material : detail::read_mtl(text, library.string(), warnings)) {
+    const auto text = detail::read_file(mtl_file);
+    for (const detail::MtlMaterial& material : detail::read_mtl(text, mtl_file.string(), warnings)) {
         for (const auto* texture : {&material.color, &material.alpha, &material.emissive, &material.normal}) {
             if (texture->file.empty()) continue;
             const fs::path image =
-                library.parent_path().lexically_relative(fs::canonical(model.parent_path())) / texture->file;
-            add_inside(files, model.parent_path(), image.generic_string(), Reference::file_name);
+                mtl_file.parent_path().lexically_relative(fs::canonical(model.parent_path())) / texture->file;
+            add_referenced_file(files, model.parent_path(), image.generic_string(),
+                                ReferenceSyntax::file_name);
         }
     }
 }
 
 /// Of a line that begins with mtllib: the whole rest, and every word.
-void add_libraries(const fs::path& model, std::string_view rest, std::vector<fs::path>& libraries) {
+void add_mtl_files(const fs::path& model, std::string_view rest, std::vector<fs::path>& mtl_files) {
     const auto skip_blanks = [&rest] {
         rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     };
     skip_blanks();
     rest = rest.substr(0, rest.find_last_not_of(" \t\r") + 1);
-    add_inside(libraries, model.parent_path(), std::string(rest), Reference::file_name);
+    add_referenced_file(mtl_files, model.parent_path(), std::string(rest), ReferenceSyntax::file_name);
     while (!rest.empty()) {
         const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
-        add_inside(libraries, model.parent_path(), std::string(word), Reference::file_name);
+        add_referenced_file(mtl_files, model.parent_path(), std::string(word), ReferenceSyntax::file_name);
         rest.remove_prefix(word.size());
         skip_blanks();
     }
 }
 
-void add_obj_files(const fs::path& model, std::vector<fs::path>& files) {
+void add_obj_references(const fs::path& model, std::vector<fs::path>& files) {
     // Line by line: this is done before memory is asked for.
     std::ifstream in(model, std::ios::binary);
-    std::vector<fs::path> libraries;
+    std::vector<fs::path> mtl_files;
     for (std::string line; std::getline(in, line);) {
         const std::size_t first = line.find_first_not_of(" \t");
         if (first != std::string::npos && line.compare(first, 6, "mtllib") == 0)
-            add_libraries(model, std::string_view(line).substr(first + 6), libraries);
+            add_mtl_files(model, std::string_view(line).substr(first + 6), mtl_files);
     }
-    for (const fs::path& library : libraries) add_library(model, library, files);
+    for (const fs::path& mtl_file : mtl_files) add_mtl_references(model, mtl_file, files);
 }
 
 }  // namespace
 
-std::vector<fs::path> referred_files(const fs::path& model) {
+std::vector<fs::path> referenced_files(const fs::path& model) {
     std::vector<fs::path> files;
-    const std::string ending = lower_ending(model);
+    const std::string extension = lower_case_extension(model);
     try {
-        if (ending == ".obj") add_obj_files(model, files);
-        if (ending == ".glb") add_gltf_files(model, glb_json(model), files);
-        if (ending == ".gltf") {
+        if (extension == ".obj") add_obj_references(model, files);
+        if (extension == ".glb") add_gltf_references(model, glb_json(model), files);
+        if (extension == ".gltf") {
             const auto bytes = detail::read_file(model);
-            add_gltf_files(model, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, files);
+            add_gltf_references(model, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, files);
         }
     } catch (const InputError&) {
     } catch (const fs::filesystem_error&) {
@@ -115,7 +117,7 @@ std::vector<fs::path> referred_files(const fs::path& model) {
     return files;
 }
 
-std::string stamp_of(const std::vector<fs::path>& files) {
+std::string modification_stamp(const std::vector<fs::path>& files) {
     std::string text;
     for (const fs::path& file : files) {
         struct stat status = {};
@@ -130,7 +132,7 @@ std::string stamp_of(const std::vector<fs::path>& files) {
     return text;
 }
 
-std::uint64_t bytes_of(const std::vector<fs::path>& files) {
+std::uint64_t total_file_size(const std::vector<fs::path>& files) {
     std::uint64_t sum = 0;
     for (const fs::path& file : files) {
         struct stat status = {};
@@ -139,4 +141,4 @@ std::uint64_t bytes_of(const std::vector<fs::path>& files) {
     return sum;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <sstream>
 
-#include "faqem/error.hpp"
 #include "cli/strict.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     Asset asset = load(file);
@@ -19,42 +19,43 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     return asset;
 }
 
-BakeOptions bake_for(BakeOptions asked, const Asset& source, const std::filesystem::path& out) {
-    if (asked.kind != Bake::automatic) return asked;
-    std::string ending = out.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
+BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
+                                   const std::filesystem::path& out) {
+    if (requested.kind != Bake::automatic) return requested;
+    std::string extension = out.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto no_part_has = [&](auto values) {
         return std::all_of(source.parts.begin(), source.parts.end(),
                            [&](const Part& p) { return (p.*values).empty(); });
     };
     const bool bare = source.materials.empty() && no_part_has(&Part::colors);
-    if (ending == ".stl") {
-        asked.kind = Bake::none;
-        // Nothing is asked of the original then. Where it has normals, save() says that STL has none.
-        asked.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
+    if (extension == ".stl") {
+        requested.kind = Bake::none;
+        // Nothing is requested of the original then. Where it has normals, save() says that STL has none.
+        requested.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
     }
-    if (ending == ".ply") asked.kind = bare ? Bake::none : Bake::vertex;
-    if (ending == ".obj" && bare) asked.kind = Bake::none;
-    return asked;
+    if (extension == ".ply") requested.kind = bare ? Bake::none : Bake::vertex;
+    if (extension == ".obj" && bare) requested.kind = Bake::none;
+    return requested;
 }
 
-LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
-                          const std::optional<ByteBudget>& budget) {
-    return naming(file, [&] {
+SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
+                               const std::optional<ByteBudget>& budget) {
+    return with_file_in_errors(file, [&] {
         return budget ? simplify_within_bytes(source, options, *budget) : simplify(source, options);
     });
 }
 
-ExitCode why_refused(const Report& report, bool strict_target) {
+ExitCode rejection_code(const Report& report, bool strict_target) {
     if (strict_target && report.faces_out > report.target_faces) return exit_target_missed;
     if (report.max_error && !report.max_error->within()) return exit_error_exceeded;
     return exit_ok;
 }
 
-std::string refusal_text(ExitCode refusal, const std::filesystem::path& out, const Report& report) {
+std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report) {
     std::ostringstream text;
-    if (refusal == exit_target_missed) {
+    if (rejection == exit_target_missed) {
         text << "target missed: " << report.faces_out << " faces, " << report.target_faces << " wanted; ";
     } else {
         text << "max error exceeded: " << report.faces_out << " faces are up to " << report.max_error->bound
@@ -64,4 +65,4 @@ std::string refusal_text(ExitCode refusal, const std::filesystem::path& out, con
     return text.str();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "cli/byte_budget.hpp"
+#include "cli/exit_code.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
-#include "cli/byte_budget.hpp"
-#include "cli/exit_code.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Whether what load() repairs or leaves out is an error.
 enum class Strictness { lenient, strict };
@@ -22,7 +22,7 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness);
 
 /// Does the work. What is wrong with an asset is said with the name of its file.
 template <class Work>
-auto naming(const std::filesystem::path& file, Work&& work) {
+auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
     try {
         return work();
     } catch (const UnsupportedError& error) {
@@ -36,18 +36,19 @@ auto naming(const std::filesystem::path& file, Work&& work) {
 /// read: there is nothing to lay out an atlas for. PLY: vertex colours, where the source has any look; STL,
 /// and bare geometry into PLY and OBJ: none; STL has no vertex normals from the original either, which would
 /// need the map. Other kinds, and other files, stay as they are.
-/// \param out  its ending decides
-BakeOptions bake_for(BakeOptions asked, const Asset& source, const std::filesystem::path& out);
+/// \param out  its extension decides
+BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
+                                   const std::filesystem::path& out);
 
 /// simplify(), within a budget where there is one. What is wrong with an asset is said with the name of its
 /// file.
-LightAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
-                          const std::optional<ByteBudget>& budget = std::nullopt);
+SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
+                               const std::optional<ByteBudget>& budget = std::nullopt);
 
 /// Why the result is not to be written, or exit_ok.
-ExitCode why_refused(const Report& report, bool strict_target);
+ExitCode rejection_code(const Report& report, bool strict_target);
 
 /// One sentence about a result that was refused.
-std::string refusal_text(ExitCode refusal, const std::filesystem::path& out, const Report& report);
+std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -4,31 +4,31 @@
 #include <vector>
 
 #include "bake/texture/bake_job.hpp"
-#include "faqem/error.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 namespace {
 
 /// Corners by position, the smallest place first, so that doubles are equal and faces back to back are not.
-std::array<Vec3, 3> places(const Part& part, const Triangle& t) {
+std::array<Vec3, 3> corner_positions(const Part& part, const Triangle& t) {
     std::array<Vec3, 3> p = {part.positions[t[0]], part.positions[t[1]], part.positions[t[2]]};
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     return p;
 }
 
-void require_area(const Part& part, const std::string& where) {
+void require_nonzero_area(const Part& part, const std::string& where) {
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-        const auto [a, b, c] = places(part, part.triangles[f]);
+        const auto [a, b, c] = corner_positions(part, part.triangles[f]);
         if (detail::has_no_area(a, b, c)) throw InputError(where, "face " + std::to_string(f), "has no area");
     }
 }
 
-void require_once(const Part& part, const std::string& where) {
+void require_no_duplicate_faces(const Part& part, const std::string& where) {
     std::vector<Index> order(part.triangles.size());
     for (Index f = 0; f < order.size(); ++f) order[f] = f;
     const auto key = [&](Index f) {
-        return std::pair(places(part, part.triangles[f]),
+        return std::pair(corner_positions(part, part.triangles[f]),
                          part.face_material.empty() ? no_index : part.face_material[f]);
     };
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
@@ -49,9 +49,9 @@ void require_clean(const Asset& asset, const std::string& file) {
     if (!asset.warnings.empty()) throw InputError(file, "", "not clean: " + asset.warnings.front());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const std::string where = file + ": " + detail::part_title(asset, p);
-        require_area(asset.parts[p], where);
-        require_once(asset.parts[p], where);
+        require_nonzero_area(asset.parts[p], where);
+        require_no_duplicate_faces(asset.parts[p], where);
     }
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

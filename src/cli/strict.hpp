@@ -6,7 +6,7 @@
 
 #include "faqem/asset.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Makes sure that nothing was repaired or left out when the asset was loaded, and that every face has an
 /// area and is there once.
@@ -14,4 +14,4 @@ namespace faqem::tool {
 /// \throws InputError  naming the first of each
 void require_clean(const Asset& asset, const std::string& file);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,7 +9,7 @@
 
 #include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// A new folder among the system's temporary ones, gone afterwards with all that is in it.
 class TemporaryFolder {
@@ -34,4 +34,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,12 +6,14 @@
 
 #include "faqem/error.hpp"
 
-namespace faqem::images {
+namespace faqem::image_plugin {
 
-const detail::ImageCodec& load(const std::filesystem::path& here) {
-    const std::filesystem::path built = here / FAQEM_IMAGES_MODULE;
-    const std::filesystem::path installed = here / FAQEM_IMAGES_FOLDER / FAQEM_IMAGES_MODULE;
-    const std::string file = (exists(built) ? built : installed.lexically_normal()).string();
+const detail::ImageCodec& load_codec(const std::filesystem::path& program_folder) {
+    const std::filesystem::path build_tree_path = program_folder / FAQEM_IMAGE_PLUGIN_FILE;
+    const std::filesystem::path installed_path =
+        program_folder / FAQEM_IMAGE_PLUGIN_FOLDER / FAQEM_IMAGE_PLUGIN_FILE;
+    const std::string file =
+        (exists(build_tree_path) ? build_tree_path : installed_path.lexically_normal()).string();
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!module) throw Error(std::string("cannot read or write images: ") + dlerror());
     using Entry = const detail::ImageCodec*();
@@ -23,4 +25,4 @@ const detail::ImageCodec& load(const std::filesystem::path& here) {
     return codec;
 }
 
-}  // namespace faqem::images
+}  // namespace faqem::image_plugin

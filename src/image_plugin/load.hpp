@@ -7,11 +7,11 @@
 
 #include "asset/image/image_codec.hpp"
 
-namespace faqem::images {
+namespace faqem::image_plugin {
 
 /// Loads the module. It stays, since the libraries below it have threads of their own.
-/// \param here  the folder of the program or library that asks
+/// \param program_folder  the folder of the program or library that asks
 /// \throws Error  if the module is neither there nor where it is installed, or is of another version
-const detail::ImageCodec& load(const std::filesystem::path& here);
+const detail::ImageCodec& load_codec(const std::filesystem::path& program_folder);
 
-}  // namespace faqem::images
+}  // namespace faqem::image_plugin

@@ -7,13 +7,13 @@
 
 #include "asset/image/srgb.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr float top_grey = 0.80f, bottom_grey = 0.58f, ink = 0.035f;  // linear light
+constexpr float top_grey = 0.80f, bottom_grey = 0.58f, text_grey = 0.035f;  // linear light
 constexpr std::uint32_t glyph_width = 5, glyph_height = 7;
 
 /// Rows of five dots, the leftmost in the highest bit.
@@ -47,7 +47,7 @@ std::uint8_t encode(float linear) {
     return static_cast<std::uint8_t>(std::lround(c * 255));
 }
 
-void put(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& colour) {
+void set_pixel(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& colour) {
     std::uint8_t* p = &sheet.rgba[(std::size_t{y} * sheet.width + x) * 4];
     for (int k = 0; k < 3; ++k) p[k] = encode(colour[k]);
     p[3] = 255;
@@ -59,45 +59,48 @@ void paste(Pixels& sheet, const Frame& frame, std::uint32_t left, std::uint32_t 
         const float grey = (1 - t) * top_grey + t * bottom_grey;
         for (std::uint32_t x = 0; x < frame.size; ++x) {
             const Eigen::Vector4f& c = frame.pixels[std::size_t{y} * frame.size + x];
-            put(sheet, left + x, top + y, c.head<3>() + (1 - c[3]) * Vector3f::Constant(grey));
+            set_pixel(sheet, left + x, top + y, c.head<3>() + (1 - c[3]) * Vector3f::Constant(grey));
         }
     }
 }
 
-void write(Pixels& sheet, const std::string& text, std::uint32_t left, std::uint32_t top, std::uint32_t dot) {
+void draw_text(Pixels& sheet, const std::string& text, std::uint32_t left, std::uint32_t top,
+               std::uint32_t dot_size) {
     for (const char character : text) {
         const auto* glyph =
             std::find_if(font.begin(), font.end(), [&](const Glyph& g) { return g.character == character; });
         if (glyph == font.end()) continue;
-        for (std::uint32_t y = 0; y < glyph_height * dot; ++y) {
-            for (std::uint32_t x = 0; x < glyph_width * dot; ++x) {
-                const bool set = glyph->rows[y / dot] >> (glyph_width - 1 - x / dot) & 1;
-                if (set && left + x < sheet.width) put(sheet, left + x, top + y, Vector3f::Constant(ink));
+        for (std::uint32_t y = 0; y < glyph_height * dot_size; ++y) {
+            for (std::uint32_t x = 0; x < glyph_width * dot_size; ++x) {
+                const bool set = glyph->rows[y / dot_size] >> (glyph_width - 1 - x / dot_size) & 1;
+                if (set && left + x < sheet.width)
+                    set_pixel(sheet, left + x, top + y, Vector3f::Constant(text_grey));
             }
         }
-        left += (glyph_width + 1) * dot;
+        left += (glyph_width + 1) * dot_size;
     }
 }
 
 }  // namespace
 
-Pixels compose(const std::vector<SheetRow>& rows) {
+Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows) {
     const std::uint32_t size = rows.at(0).frames.at(0).size;
     Pixels sheet;
     sheet.width = size * static_cast<std::uint32_t>(rows[0].frames.size());
     sheet.height = size * static_cast<std::uint32_t>(rows.size());
     sheet.rgba.resize(std::size_t{sheet.width} * sheet.height * 4);
-    const std::uint32_t dot = std::max(1u, size / 240);
+    const std::uint32_t dot_size = std::max(1u, size / 240);
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
         for (std::uint32_t c = 0; c < rows[r].frames.size(); ++c) {
             paste(sheet, rows[r].frames[c], c * size, r * size);
         }
-        const std::uint32_t margin = 6 * dot;
-        if (size > glyph_height * dot + 2 * margin) {
-            write(sheet, rows[r].label, margin, r * size + size - margin - glyph_height * dot, dot);
+        const std::uint32_t margin = 6 * dot_size;
+        if (size > glyph_height * dot_size + 2 * margin) {
+            draw_text(sheet, rows[r].label, margin, r * size + size - margin - glyph_height * dot_size,
+                      dot_size);
         }
     }
     return sheet;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

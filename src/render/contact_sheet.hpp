@@ -7,15 +7,15 @@
 
 #include "render/rasteriser.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 /// The views of one model.
-struct SheetRow {
+struct ContactSheetRow {
     std::vector<Frame> frames;  ///< all of the same size
     std::string label;          ///< digits, commas, spaces and the letters of "faces"
 };
 
 /// One row under the other on a neutral ground, labels at the left. sRGB, opaque.
-Pixels compose(const std::vector<SheetRow>& rows);
+Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows);
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

@@ -6,22 +6,22 @@
 
 #include "render/rasteriser.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
 constexpr int directions = 12;
 constexpr std::array<double, 3> radii = {0.006, 0.017, 0.04};  // shares of the picture
 constexpr double strength = 0.85;
-constexpr double least_rise = 0.08;  // flat surfaces of small faces must stay clean
-constexpr double turn = 6.283185307179586;
+constexpr double min_elevation_sine = 0.08;  // flat surfaces of small faces must stay clean
+constexpr double two_pi = 6.283185307179586;
 
 /// Point seen at a pixel, relative to the eye.
-Vector3 point(const Surfels& surfels, const Camera& camera, std::int64_t x, std::int64_t y,
+Vector3 point(const SurfelImage& surfels, const Camera& camera, std::int64_t x, std::int64_t y,
               double inverse_depth) {
     const double half = surfels.size / 2.0, depth = 1 / inverse_depth;
-    return depth * (surfels.tangent * ((static_cast<double>(x) + 0.5 - half) / half * camera.right -
-                                       (static_cast<double>(y) + 0.5 - half) / half * camera.up) -
+    return depth * (surfels.tan_half_fov * ((static_cast<double>(x) + 0.5 - half) / half * camera.right -
+                                            (static_cast<double>(y) + 0.5 - half) / half * camera.up) -
                     camera.back);
 }
 
@@ -38,7 +38,7 @@ std::array<Pattern, rotations> patterns(std::uint32_t size) {
     for (int r = 0; r < rotations; ++r) {
         for (const double radius : radii) {
             for (int d = 0; d < directions; ++d) {
-                const double angle = turn / directions * (d + static_cast<double>(r) / rotations);
+                const double angle = two_pi / directions * (d + static_cast<double>(r) / rotations);
                 result[static_cast<std::size_t>(r)].push_back({std::lround(radius * size * std::cos(angle)),
                                                                std::lround(radius * size * std::sin(angle)),
                                                                radius});
@@ -48,30 +48,30 @@ std::array<Pattern, rotations> patterns(std::uint32_t size) {
     return result;
 }
 
-double openness_at(const Surfels& surfels, const Camera& camera, const Pattern& pattern, std::int64_t x,
-                   std::int64_t y) {
+double accessibility_at(const SurfelImage& surfels, const Camera& camera, const Pattern& pattern,
+                        std::int64_t x, std::int64_t y) {
     const auto size = static_cast<std::int64_t>(surfels.size);
-    const Surfel& here = surfels.at[static_cast<std::size_t>(y * size + x)];
+    const Surfel& here = surfels.pixels[static_cast<std::size_t>(y * size + x)];
     const Vector3 p = point(surfels, camera, x, y, here.inverse_depth), n = here.normal.cast<double>();
     double occluded = 0;
     for (const Offset& offset : pattern) {
         const std::int64_t u = x + offset.x, v = y + offset.y;
         if (u < 0 || v < 0 || u >= size || v >= size) continue;
-        const Surfel& there = surfels.at[static_cast<std::size_t>(v * size + u)];
+        const Surfel& there = surfels.pixels[static_cast<std::size_t>(v * size + u)];
         if (!(there.inverse_depth > 0)) continue;
         const Vector3 q = point(surfels, camera, u, v, there.inverse_depth) - p;
         const double distance = q.norm(), rise = q.dot(n);
-        if (!(rise > least_rise * distance)) continue;
-        const double reach = offset.radius * 2 * surfels.tangent / here.inverse_depth;
-        occluded += (rise / distance - least_rise) * std::max(0.0, 1 - distance / (3 * reach));
+        if (!(rise > min_elevation_sine * distance)) continue;
+        const double reach = offset.radius * 2 * surfels.tan_half_fov / here.inverse_depth;
+        occluded += (rise / distance - min_elevation_sine) * std::max(0.0, 1 - distance / (3 * reach));
     }
     return 1 - strength * std::min(1.0, occluded / (0.35 * static_cast<double>(pattern.size())));
 }
 
 }  // namespace
 
-std::vector<float> ambient_openness(const Surfels& surfels, const Camera& camera) {
-    std::vector<float> result(surfels.at.size(), 1.0f);
+std::vector<float> ambient_accessibility(const SurfelImage& surfels, const Camera& camera) {
+    std::vector<float> result(surfels.pixels.size(), 1.0f);
     const auto size = static_cast<std::int64_t>(surfels.size);
     const auto by_rotation = patterns(surfels.size);
     for (std::int64_t y = 0; y < size; ++y) {
@@ -79,11 +79,12 @@ std::vector<float> ambient_openness(const Surfels& surfels, const Camera& camera
             // A 4 x 4 tile of rotations; 2 x 2 of them are averaged into a pixel.
             const auto rotation = static_cast<std::size_t>(x % 4 * 4 + y % 4 * 5) % rotations;
             const auto i = static_cast<std::size_t>(y * size + x);
-            if (surfels.at[i].inverse_depth > 0)
-                result[i] = static_cast<float>(openness_at(surfels, camera, by_rotation[rotation], x, y));
+            if (surfels.pixels[i].inverse_depth > 0)
+                result[i] =
+                    static_cast<float>(accessibility_at(surfels, camera, by_rotation[rotation], x, y));
         }
     }
     return result;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

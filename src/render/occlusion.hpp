@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace faqem::tool {
+namespace faqem::render {
 
 struct Camera;
 
@@ -17,14 +17,14 @@ struct Surfel {
 };
 
 /// A square picture of surfels.
-struct Surfels {
+struct SurfelImage {
     std::uint32_t size = 0;
-    double tangent = 0;  ///< of half the field of view
-    std::vector<Surfel> at;
+    double tan_half_fov = 0;  ///< of half the field of view
+    std::vector<Surfel> pixels;
 };
 
 /// Share of the light from all around that reaches each pixel, in (0, 1]: how far neighbours on the screen
 /// rise above its tangent plane (after Crytek's screen-space ambient occlusion, Mittring 2007).
-std::vector<float> ambient_openness(const Surfels& surfels, const Camera& camera);
+std::vector<float> ambient_accessibility(const SurfelImage& surfels, const Camera& camera);
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

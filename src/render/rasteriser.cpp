@@ -8,7 +8,7 @@
 
 #include "render/occlusion.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
@@ -29,28 +29,28 @@ struct Corner {
 };
 
 /// What is the same all over one triangle.
-struct Face {
+struct ScreenTriangle {
     std::array<Corner, 3> corners;
     const Part* part;
     const Material* material;
-    Vector3 normal;  ///< of the plane, towards the eye
-    double side;     ///< 1: seen from the front, -1: from behind
-    double area;     ///< on the screen, twice, signed
+    Vector3 normal;      ///< of the plane, towards the eye
+    double facing;       ///< 1: seen from the front, -1: from behind
+    double screen_area;  ///< on the screen, twice, signed
 };
 
 const Material default_material;
 
-struct Target {
+struct RenderTarget {
     const Scene& scene;
     const Camera& camera;
     Shading shading;
     Edges edges;
-    Surfels surfels;               ///< depth and normals, for the occlusion
+    SurfelImage surfels;           ///< depth and normals, for the occlusion
     std::vector<Vector4f> colour;  ///< premultiplied
 };
 
 /// Perspective-correct weights of the corners.
-Vector3 weights_at(const Face& face, const Vector3& screen_weights) {
+Vector3 perspective_weights(const ScreenTriangle& face, const Vector3& screen_weights) {
     Vector3 w;
     for (int k = 0; k < 3; ++k)
         w[k] = screen_weights[k] * face.corners[static_cast<std::size_t>(k)].inverse_depth;
@@ -58,46 +58,49 @@ Vector3 weights_at(const Face& face, const Vector3& screen_weights) {
 }
 
 template <class Value>
-auto mix(const Face& face, const Vector3& w, Value&& value) {
+auto interpolate(const ScreenTriangle& face, const Vector3& w, Value&& value) {
     auto sum = (w[0] * value(face.corners[0])).eval();
     sum += w[1] * value(face.corners[1]);
     sum += w[2] * value(face.corners[2]);
     return sum;
 }
 
-bool has_uvs(const Face& face, const TextureRef& use) {
-    return use && use.uv_set < face.part->uvs.size() && !face.part->uvs[use.uv_set].empty();
+bool has_uvs(const ScreenTriangle& face, const TextureRef& texture_ref) {
+    return texture_ref && texture_ref.uv_set < face.part->uvs.size() &&
+           !face.part->uvs[texture_ref.uv_set].empty();
 }
 
 /// Transformed UV of a corner.
-Vector2d corner_uv(const Face& face, const TextureRef& use, std::size_t k) {
-    const Vec2f& uv = face.part->uvs[use.uv_set][face.corners[k].vertex];
-    return transformed(use, {uv[0], uv[1]});
+Vector2d corner_uv(const ScreenTriangle& face, const TextureRef& texture_ref, std::size_t k) {
+    const Vec2f& uv = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
+    return transform_uv(texture_ref, {uv[0], uv[1]});
 }
 
 /// Mip level: half the logarithm of texels per pixel. One per face, as faces are small.
-double level_of_detail(const Face& face, const Texture& texture, const std::array<Vector2d, 3>& uv) {
+double mip_level(const ScreenTriangle& face, const Texture& texture, const std::array<Vector2d, 3>& uv) {
     const Vector2d a = uv[1] - uv[0], b = uv[2] - uv[0];
     const double texels =
         std::abs(a.x() * b.y() - a.y() * b.x()) * texture.levels[0].width * texture.levels[0].height;
-    const double ratio = texels / std::max(std::abs(face.area), 1e-9);
+    const double ratio = texels / std::max(std::abs(face.screen_area), 1e-9);
     return ratio > 1 ? 0.5 * std::log2(ratio) : 0;
 }
 
 /// RGBA of a texture at a place on the face; nothing where there is no such texture.
-std::optional<Vector4f> fetch(const Face& face, const TextureRef& use, const std::vector<Texture>& textures,
-                              const Vector3& w) {
-    if (!has_uvs(face, use) || use.image >= textures.size() || !textures[use.image]) return std::nullopt;
-    const Texture& texture = textures[use.image];
-    const std::array<Vector2d, 3> uv = {corner_uv(face, use, 0), corner_uv(face, use, 1),
-                                        corner_uv(face, use, 2)};
+std::optional<Vector4f> sample_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
+                                       const std::vector<Texture>& textures, const Vector3& w) {
+    if (!has_uvs(face, texture_ref) || texture_ref.image >= textures.size() || !textures[texture_ref.image])
+        return std::nullopt;
+    const Texture& texture = textures[texture_ref.image];
+    const std::array<Vector2d, 3> uv = {corner_uv(face, texture_ref, 0), corner_uv(face, texture_ref, 1),
+                                        corner_uv(face, texture_ref, 2)};
     const Vector2d at = w[0] * uv[0] + w[1] * uv[1] + w[2] * uv[2];
-    return sample(texture, use, at, level_of_detail(face, texture, uv));
+    return sample(texture, texture_ref, at, mip_level(face, texture, uv));
 }
 
-Vector4f base_colour(const Target& target, const Face& face, const Vector3& w) {
+Vector4f base_colour(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
     Vector4f colour(face.material->base_color.data());
-    if (const auto texel = fetch(face, face.material->base_color_texture, target.scene.colours, w)) {
+    if (const auto texel =
+            sample_texture(face, face.material->base_color_texture, target.scene.color_textures, w)) {
         colour = colour.cwiseProduct(*texel);
     }
     if (!face.part->colors.empty()) {
@@ -112,42 +115,44 @@ Vector4f base_colour(const Target& target, const Face& face, const Vector3& w) {
 }
 
 /// Bends a normal by the material's normal map, in the frame of the face's own UVs.
-Vector3 bent_normal(const Target& target, const Face& face, const Vector3& w, const Vector3& normal) {
-    const TextureRef& use = face.material->normal_texture;
-    const auto texel = fetch(face, use, target.scene.normal_maps, w);
+Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
+                      const Vector3& normal) {
+    const TextureRef& texture_ref = face.material->normal_texture;
+    const auto texel = sample_texture(face, texture_ref, target.scene.normal_maps, w);
     if (!texel) return normal;
     const auto uv = [&](std::size_t k) {
-        const Vec2f& p = face.part->uvs[use.uv_set][face.corners[k].vertex];
+        const Vec2f& p = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
         return Vector2d(p[0], p[1]);
     };
     const Vector2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
     const Vector3 e1 = face.corners[1].world - face.corners[0].world,
                   e2 = face.corners[2].world - face.corners[0].world;
-    const double turn = d1.x() * d2.y() - d1.y() * d2.x() < 0 ? -1 : 1;
-    Vector3 tangent = turn * (d2.y() * e1 - d1.y() * e2);
+    const double handedness = d1.x() * d2.y() - d1.y() * d2.x() < 0 ? -1 : 1;
+    Vector3 tangent = handedness * (d2.y() * e1 - d1.y() * e2);
     tangent -= normal * normal.dot(tangent);
     tangent.stableNormalize();
     // glTF: the bitangent goes up in the picture, that is against v.
-    Vector3 bitangent = -turn * (d1.x() * e2 - d2.x() * e1);
+    Vector3 bitangent = -handedness * (d1.x() * e2 - d2.x() * e1);
     bitangent -= normal * normal.dot(bitangent);
     bitangent.stableNormalize();
     const Vector3 bump = texel->head<3>().cast<double>() * 2.0 - Vector3::Ones();
     const double scale = face.material->normal_scale;
-    const Vector3 bent =
+    const Vector3 perturbed =
         scale * (bump.x() * tangent + bump.y() * bitangent) + std::max(bump.z(), 0.05) * normal;
-    return bent.stableNormalized();
+    return perturbed.stableNormalized();
 }
 
-Vector3 shading_normal(const Target& target, const Face& face, const Vector3& w) {
-    Vector3 normal = mix(face, w, [](const Corner& c) -> const Vector3& { return c.normal; });
+Vector3 shading_normal(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
+    Vector3 normal = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.normal; });
     if (!(normal.squaredNorm() > 1e-12)) return face.normal;
     normal.normalize();
-    normal = bent_normal(target, face, w, normal);
-    return face.side * normal;
+    normal = normal_mapped(target, face, w, normal);
+    return face.facing * normal;
 }
 
 /// A key light from the upper left, a weak one from the right, sky above and ground below; a soft highlight.
-Vector3f lit(const Camera& camera, const Vector3f& albedo, const Vector3& normal, const Vector3& to_eye) {
+Vector3f lighting(const Camera& camera, const Vector3f& albedo, const Vector3& normal,
+                  const Vector3& to_eye) {
     const Vector3 key = (-0.55 * camera.right + 0.75 * camera.up + 0.75 * camera.back).normalized();
     const Vector3 fill = (0.9 * camera.right + 0.15 * camera.up + 0.45 * camera.back).normalized();
     const double up = 0.5 + 0.5 * normal.dot(camera.up);
@@ -162,7 +167,8 @@ Vector3f lit(const Camera& camera, const Vector3f& albedo, const Vector3& normal
 }
 
 /// Colour of a face at a place, alpha as in its material; nothing where a mask cuts it away.
-std::optional<Vector4f> shade(const Target& target, const Face& face, const Vector3& w, Vector3& normal) {
+std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
+                              Vector3& normal) {
     Vector4f colour = base_colour(target, face, w);
     const Material& material = *face.material;
     if (material.alpha_mode == AlphaMode::mask && !(colour[3] >= material.alpha_cutoff)) return std::nullopt;
@@ -170,11 +176,13 @@ std::optional<Vector4f> shade(const Target& target, const Face& face, const Vect
     normal = face.normal;
     if (target.shading == Shading::lit && !material.unlit) {
         normal = shading_normal(target, face, w);
-        const Vector3 world = mix(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
+        const Vector3 world = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
         const Vector3f glow(material.emissive.data());
-        Vector3f rgb = lit(target.camera, colour.head<3>(), normal, (target.camera.eye - world).normalized());
+        Vector3f rgb =
+            lighting(target.camera, colour.head<3>(), normal, (target.camera.eye - world).normalized());
         if (glow.maxCoeff() > 0) {
-            const auto texel = fetch(face, material.emissive_texture, target.scene.colours, w);
+            const auto texel =
+                sample_texture(face, material.emissive_texture, target.scene.color_textures, w);
             rgb += texel ? Vector3f(glow.cwiseProduct(texel->head<3>())) : glow;
         }
         colour.head<3>() = rgb;
@@ -183,25 +191,26 @@ std::optional<Vector4f> shade(const Target& target, const Face& face, const Vect
 }
 
 /// Distance in pixels from a place to the nearest edge of the face.
-double edge_distance(const Face& face, const Vector3& screen_weights) {
+double edge_distance(const ScreenTriangle& face, const Vector3& screen_weights) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
         const double length = (face.corners[(k + 2) % 3].screen - face.corners[(k + 1) % 3].screen).norm();
-        nearest =
-            std::min(nearest, screen_weights[static_cast<Eigen::Index>(k)] * std::abs(face.area) / length);
+        nearest = std::min(
+            nearest, screen_weights[static_cast<Eigen::Index>(k)] * std::abs(face.screen_area) / length);
     }
     return nearest;
 }
 
-void draw_pixel(Target& target, const Face& face, std::size_t pixel, const Vector3& screen_weights) {
+void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pixel,
+                const Vector3& screen_weights) {
     double inverse_depth = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         inverse_depth += screen_weights[static_cast<Eigen::Index>(k)] * face.corners[k].inverse_depth;
     }
-    Surfel& surfel = target.surfels.at[pixel];
+    Surfel& surfel = target.surfels.pixels[pixel];
     if (!(inverse_depth > surfel.inverse_depth)) return;
     Vector3 normal;
-    auto colour = shade(target, face, weights_at(face, screen_weights), normal);
+    auto colour = shade(target, face, perspective_weights(face, screen_weights), normal);
     if (!colour) return;
     if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
         *colour = 0.6f * edge_colour + 0.4f * *colour;
@@ -215,7 +224,7 @@ void draw_pixel(Target& target, const Face& face, std::size_t pixel, const Vecto
     surfel.normal = normal.cast<float>();
 }
 
-void draw_face(Target& target, const Face& face) {
+void draw_face(RenderTarget& target, const ScreenTriangle& face) {
     const Vector2d &a = face.corners[0].screen, &b = face.corners[1].screen, &c = face.corners[2].screen;
     const auto size = static_cast<double>(target.surfels.size);
     const auto range = [size](double low, double high) {
@@ -229,7 +238,7 @@ void draw_face(Target& target, const Face& face) {
         for (std::uint32_t x = x0; x < x1; ++x) {
             const Vector2d p(x + 0.5, y + 0.5);
             const Vector3 w =
-                Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / face.area;
+                Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / face.screen_area;
             if (w.minCoeff() >= 0) {
                 draw_pixel(target, face, std::size_t{y} * target.surfels.size + x, w);
             }
@@ -237,9 +246,10 @@ void draw_face(Target& target, const Face& face) {
     }
 }
 
-std::optional<Face> make_face(const Target& target, const Scene::PlacedPart& placed, std::size_t f) {
-    Face face;
-    face.part = &target.scene.asset.parts[placed.part];
+std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
+                                               const Scene::PartInstance& instance, std::size_t f) {
+    ScreenTriangle face;
+    face.part = &target.scene.asset.parts[instance.part];
     const Index material = face.part->face_material.empty() ? no_index : face.part->face_material[f];
     face.material = material < target.scene.asset.materials.size() ? &target.scene.asset.materials[material]
                                                                    : &default_material;
@@ -248,33 +258,33 @@ std::optional<Face> make_face(const Target& target, const Scene::PlacedPart& pla
     for (std::size_t k = 0; k < 3; ++k) {
         Corner& corner = face.corners[k];
         corner.vertex = face.part->triangles[f][k];
-        corner.world = placed.positions[corner.vertex];
-        corner.normal = placed.normals.empty() ? Vector3::Zero().eval() : placed.normals[corner.vertex];
+        corner.world = instance.positions[corner.vertex];
+        corner.normal = instance.normals.empty() ? Vector3::Zero().eval() : instance.normals[corner.vertex];
         const Vector3 d = corner.world - camera.eye;
         const double depth = -d.dot(camera.back);
         if (!(depth > 0)) return std::nullopt;
         corner.inverse_depth = 1 / depth;
-        corner.screen = {half + half * d.dot(camera.right) / (depth * camera.tangent),
-                         half - half * d.dot(camera.up) / (depth * camera.tangent)};
+        corner.screen = {half + half * d.dot(camera.right) / (depth * camera.tan_half_fov),
+                         half - half * d.dot(camera.up) / (depth * camera.tan_half_fov)};
     }
     const Vector2d u = face.corners[1].screen - face.corners[0].screen,
                    v = face.corners[2].screen - face.corners[0].screen;
-    face.area = u.x() * v.y() - u.y() * v.x();
-    if (!(std::abs(face.area) > 0)) return std::nullopt;
+    face.screen_area = u.x() * v.y() - u.y() * v.x();
+    if (!(std::abs(face.screen_area) > 0)) return std::nullopt;
     face.normal = engine::area_vector(face.corners[0].world, face.corners[1].world, face.corners[2].world)
                       .stableNormalized();
     if (face.normal.dot(camera.eye - face.corners[0].world) < 0) face.normal = -face.normal;
     // y points down on the screen, so what is counter-clockwise in the world has a negative area there.
-    face.side = (face.area < 0) != placed.mirrored ? 1 : -1;
+    face.facing = (face.screen_area < 0) != instance.mirrored ? 1 : -1;
     return face;
 }
 
 /// Opaque faces in any order, then those that let light through from the back to the front.
-void draw_scene(Target& target) {
-    std::vector<std::pair<double, Face>> blended;
-    for (const Scene::PlacedPart& placed : target.scene.parts) {
-        for (std::size_t f = 0; f < target.scene.asset.parts[placed.part].triangles.size(); ++f) {
-            const auto face = make_face(target, placed, f);
+void draw_scene(RenderTarget& target) {
+    std::vector<std::pair<double, ScreenTriangle>> blended;
+    for (const Scene::PartInstance& instance : target.scene.parts) {
+        for (std::size_t f = 0; f < target.scene.asset.parts[instance.part].triangles.size(); ++f) {
+            const auto face = project_triangle(target, instance, f);
             if (!face) continue;
             if (face->material->alpha_mode != AlphaMode::blend) {
                 draw_face(target, *face);
@@ -310,17 +320,17 @@ Frame downsample(const std::vector<Vector4f>& colour, std::uint32_t size) {
 
 Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges) {
     const std::uint32_t fine = size * samples_per_axis;
-    Target target{scene, camera, shading, edges, {}, {}};
+    RenderTarget target{scene, camera, shading, edges, {}, {}};
     target.surfels.size = fine;
-    target.surfels.tangent = camera.tangent;
-    target.surfels.at.resize(std::size_t{fine} * fine);
+    target.surfels.tan_half_fov = camera.tan_half_fov;
+    target.surfels.pixels.resize(std::size_t{fine} * fine);
     target.colour.assign(std::size_t{fine} * fine, Vector4f::Zero());
     draw_scene(target);
     if (shading == Shading::lit) {
-        const std::vector<float> openness = ambient_openness(target.surfels, camera);
-        for (std::size_t i = 0; i < openness.size(); ++i) target.colour[i].head<3>() *= openness[i];
+        const std::vector<float> accessibility = ambient_accessibility(target.surfels, camera);
+        for (std::size_t i = 0; i < accessibility.size(); ++i) target.colour[i].head<3>() *= accessibility[i];
     }
     return downsample(target.colour, size);
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

@@ -6,34 +6,34 @@
 #include "faqem/error.hpp"
 #include "render/rasteriser.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
 /// What an instance's transform does to positions, normals and winding.
-struct Placement {
+struct InstanceTransform {
     Eigen::Matrix3d linear, normal;
     Vector3 offset;
     bool mirrored;
 };
 
-Placement placement(const Instance& instance) {
+InstanceTransform instance_transform(const Instance& instance) {
     const auto& m = instance.transform;
-    Placement place;
-    place.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
-    place.offset = {m[12], m[13], m[14]};
+    InstanceTransform transform;
+    transform.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
+    transform.offset = {m[12], m[13], m[14]};
     // The cofactor matrix is det times the inverse transpose, and exists where the inverse does not.
-    const Vector3 x = place.linear.col(0), y = place.linear.col(1), z = place.linear.col(2);
-    place.normal << y.cross(z), z.cross(x), x.cross(y);
-    place.mirrored = x.dot(y.cross(z)) < 0;
-    if (place.mirrored) place.normal = -place.normal;
-    return place;
+    const Vector3 x = transform.linear.col(0), y = transform.linear.col(1), z = transform.linear.col(2);
+    transform.normal << y.cross(z), z.cross(x), x.cross(y);
+    transform.mirrored = x.dot(y.cross(z)) < 0;
+    if (transform.mirrored) transform.normal = -transform.normal;
+    return transform;
 }
 
-std::optional<Texture> load_texture(const Image& image, Encoding encoding,
+std::optional<Texture> load_texture(const Image& image, ColorSpace color_space,
                                     std::vector<std::string>& warnings) {
     try {
-        return make_texture(decode(image), encoding);
+        return make_texture(decode(image), color_space);
     } catch (const Error& error) {
         warnings.push_back("image '" + image.name + "' is drawn white: " + error.what());
         return std::nullopt;
@@ -42,18 +42,19 @@ std::optional<Texture> load_texture(const Image& image, Encoding encoding,
 
 void load_textures(Scene& scene) {
     const std::size_t count = scene.asset.images.size();
-    scene.colours.resize(count);
+    scene.color_textures.resize(count);
     scene.normal_maps.resize(count);
-    const auto load = [&](const TextureRef& use, std::vector<Texture>& textures, Encoding encoding) {
-        if (use.image >= count || textures[use.image]) return;
-        if (auto texture = load_texture(scene.asset.images[use.image], encoding, scene.warnings)) {
-            textures[use.image] = std::move(*texture);
+    const auto load = [&](const TextureRef& texture_ref, std::vector<Texture>& textures,
+                          ColorSpace color_space) {
+        if (texture_ref.image >= count || textures[texture_ref.image]) return;
+        if (auto texture = load_texture(scene.asset.images[texture_ref.image], color_space, scene.warnings)) {
+            textures[texture_ref.image] = std::move(*texture);
         }
     };
     for (const Material& material : scene.asset.materials) {
-        load(material.base_color_texture, scene.colours, Encoding::srgb);
-        load(material.emissive_texture, scene.colours, Encoding::srgb);
-        load(material.normal_texture, scene.normal_maps, Encoding::linear);
+        load(material.base_color_texture, scene.color_textures, ColorSpace::srgb);
+        load(material.emissive_texture, scene.color_textures, ColorSpace::srgb);
+        load(material.normal_texture, scene.normal_maps, ColorSpace::linear);
     }
 }
 
@@ -64,24 +65,25 @@ Scene make_scene(Asset asset) {
     scene.asset = std::move(asset);
     for (const Instance& instance : instances(scene.asset)) {
         const Part& part = scene.asset.parts[instance.part];
-        const Placement place = placement(instance);
-        Scene::PlacedPart placed;
-        placed.part = instance.part;
-        placed.mirrored = place.mirrored;
+        const InstanceTransform transform = instance_transform(instance);
+        Scene::PartInstance part_instance;
+        part_instance.part = instance.part;
+        part_instance.mirrored = transform.mirrored;
         for (const Vec3& p : part.positions) {
-            placed.positions.push_back(place.linear * engine::to_eigen(p) + place.offset);
+            part_instance.positions.push_back(transform.linear * engine::to_eigen(p) + transform.offset);
         }
         for (const Vec3f& n : part.normals) {
-            placed.normals.push_back((place.normal * Vector3(n[0], n[1], n[2])).stableNormalized());
+            part_instance.normals.push_back(
+                (transform.normal * Vector3(n[0], n[1], n[2])).stableNormalized());
         }
         scene.faces += part.triangles.size();
-        scene.parts.push_back(std::move(placed));
+        scene.parts.push_back(std::move(part_instance));
     }
     load_textures(scene);
     return scene;
 }
 
-Camera looking_at(const Vector3& centre, double azimuth, double elevation) {
+Camera orbit_camera(const Vector3& centre, double azimuth, double elevation) {
     Camera camera;
     camera.back = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                    std::cos(azimuth) * std::cos(elevation)};
@@ -95,9 +97,9 @@ namespace {
 
 template <class Visit>
 void for_each_corner(const Scene& scene, Visit&& visit) {
-    for (const Scene::PlacedPart& placed : scene.parts) {
-        for (const Triangle& t : scene.asset.parts[placed.part].triangles) {
-            for (const Index v : t) visit(placed.positions[v]);
+    for (const Scene::PartInstance& part_instance : scene.parts) {
+        for (const Triangle& t : scene.asset.parts[part_instance.part].triangles) {
+            for (const Index v : t) visit(part_instance.positions[v]);
         }
     }
 }
@@ -109,12 +111,12 @@ double fitting_distance(const Scene& scene, const Camera& camera, const Vector3&
     for_each_corner(scene, [&](const Vector3& p) {
         const Vector3 d = p - centre;
         const double off_axis = std::max(std::abs(d.dot(camera.right)), std::abs(d.dot(camera.up)));
-        distance = std::max(distance, d.dot(camera.back) + off_axis / camera.tangent);
+        distance = std::max(distance, d.dot(camera.back) + off_axis / camera.tan_half_fov);
     });
     return distance;
 }
 
-bool bounds(const Scene& scene, Vector3& low, Vector3& high) {
+bool bounding_box(const Scene& scene, Vector3& low, Vector3& high) {
     bool any = false;
     for_each_corner(scene, [&](const Vector3& p) {
         low = any ? low.cwiseMin(p) : p;
@@ -124,4 +126,4 @@ bool bounds(const Scene& scene, Vector3& low, Vector3& high) {
     return any;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

@@ -7,14 +7,14 @@
 
 #include "asset/image/srgb.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
 // Coarser levels than this mix unrelated charts of an atlas, whose gutters are a few texels wide.
-constexpr std::size_t most_levels = 4;
+constexpr std::size_t max_levels = 4;
 
-const std::array<float, 256>& decode_table() {
+const std::array<float, 256>& srgb_to_linear_table() {
     static const auto table = [] {
         std::array<float, 256> t{};
         for (std::size_t i = 0; i < t.size(); ++i) {
@@ -31,14 +31,14 @@ std::uint8_t to_byte(double x) {
 
 Eigen::Vector4f texel(const Texture& texture, const Texture::Level& level, std::uint32_t x, std::uint32_t y) {
     const std::uint8_t* p = &level.rgba[(std::size_t{y} * level.width + x) * 4];
-    if (texture.encoding == Encoding::linear) {
+    if (texture.color_space == ColorSpace::linear) {
         return Eigen::Vector4f(p[0], p[1], p[2], p[3]) / 255.0f;
     }
-    const auto& decode = decode_table();
+    const auto& decode = srgb_to_linear_table();
     return {decode[p[0]], decode[p[1]], decode[p[2]], static_cast<float>(p[3]) / 255.0f};
 }
 
-Texture::Level half(const Texture& texture, const Texture::Level& from) {
+Texture::Level downsampled(const Texture& texture, const Texture::Level& from) {
     Texture::Level to;
     to.width = std::max(1u, from.width / 2);
     to.height = std::max(1u, from.height / 2);
@@ -53,7 +53,7 @@ Texture::Level half(const Texture& texture, const Texture::Level& from) {
                          texel(texture, from, 2 * x, y1) + texel(texture, from, x1, y1));
             for (int k = 0; k < 4; ++k) {
                 const double c = mean[k];
-                const bool encode = k < 3 && texture.encoding == Encoding::srgb;
+                const bool encode = k < 3 && texture.color_space == ColorSpace::srgb;
                 to.rgba[out++] = to_byte(encode ? detail::srgb_from_linear(c) : c);
             }
         }
@@ -61,7 +61,7 @@ Texture::Level half(const Texture& texture, const Texture::Level& from) {
     return to;
 }
 
-std::uint32_t wrapped(std::int64_t i, std::uint32_t size, Wrap wrap) {
+std::uint32_t wrap_index(std::int64_t i, std::uint32_t size, Wrap wrap) {
     const auto n = static_cast<std::int64_t>(size);
     if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
     const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
@@ -70,18 +70,18 @@ std::uint32_t wrapped(std::int64_t i, std::uint32_t size, Wrap wrap) {
     return static_cast<std::uint32_t>(r < n ? r : 2 * n - 1 - r);
 }
 
-Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, const TextureRef& use,
+Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, const TextureRef& texture_ref,
                          const Eigen::Vector2d& uv) {
     // Coordinates far outside say nothing any more, and must not overflow.
-    const auto place = [](double u, std::uint32_t size) {
+    const auto texel_coordinate = [](double u, std::uint32_t size) {
         const double x = u * size;
         return std::isfinite(x) && std::abs(x) < 1e15 ? x : 0.0;
     };
-    double x = place(uv.x(), level.width), y = place(uv.y(), level.height);
-    if (use.filter == Filter::nearest) {
+    double x = texel_coordinate(uv.x(), level.width), y = texel_coordinate(uv.y(), level.height);
+    if (texture_ref.filter == Filter::nearest) {
         return texel(texture, level,
-                     wrapped(static_cast<std::int64_t>(std::floor(x)), level.width, use.wrap_u),
-                     wrapped(static_cast<std::int64_t>(std::floor(y)), level.height, use.wrap_v));
+                     wrap_index(static_cast<std::int64_t>(std::floor(x)), level.width, texture_ref.wrap_u),
+                     wrap_index(static_cast<std::int64_t>(std::floor(y)), level.height, texture_ref.wrap_v));
     }
     x -= 0.5;
     y -= 0.5;
@@ -89,8 +89,8 @@ Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, co
     const auto s = static_cast<float>(x - static_cast<double>(x0)),
                t = static_cast<float>(y - static_cast<double>(y0));
     const auto at = [&](int i, int j) {
-        return texel(texture, level, wrapped(x0 + i, level.width, use.wrap_u),
-                     wrapped(y0 + j, level.height, use.wrap_v));
+        return texel(texture, level, wrap_index(x0 + i, level.width, texture_ref.wrap_u),
+                     wrap_index(y0 + j, level.height, texture_ref.wrap_v));
     };
     const Eigen::Vector4f top = (1 - s) * at(0, 0) + s * at(1, 0), bottom = (1 - s) * at(0, 1) + s * at(1, 1);
     return (1 - t) * top + t * bottom;
@@ -98,32 +98,33 @@ Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, co
 
 }  // namespace
 
-Texture make_texture(Pixels pixels, Encoding encoding) {
+Texture make_texture(Pixels pixels, ColorSpace color_space) {
     Texture texture;
-    texture.encoding = encoding;
+    texture.color_space = color_space;
     if (pixels.width == 0 || pixels.height == 0) return texture;
     texture.levels.push_back({pixels.width, pixels.height, std::move(pixels.rgba)});
-    while (texture.levels.size() < most_levels &&
+    while (texture.levels.size() < max_levels &&
            (texture.levels.back().width > 1 || texture.levels.back().height > 1)) {
-        texture.levels.push_back(half(texture, texture.levels.back()));
+        texture.levels.push_back(downsampled(texture, texture.levels.back()));
     }
     return texture;
 }
 
-Eigen::Vector2d transformed(const TextureRef& use, const Eigen::Vector2d& uv) {
-    const double c = std::cos(use.rotation), s = std::sin(use.rotation);
-    const double u = use.scale[0] * uv.x(), v = use.scale[1] * uv.y();
-    return {use.offset[0] + c * u + s * v, use.offset[1] - s * u + c * v};
+Eigen::Vector2d transform_uv(const TextureRef& texture_ref, const Eigen::Vector2d& uv) {
+    const double c = std::cos(texture_ref.rotation), s = std::sin(texture_ref.rotation);
+    const double u = texture_ref.scale[0] * uv.x(), v = texture_ref.scale[1] * uv.y();
+    return {texture_ref.offset[0] + c * u + s * v, texture_ref.offset[1] - s * u + c * v};
 }
 
-Eigen::Vector4f sample(const Texture& texture, const TextureRef& use, const Eigen::Vector2d& uv, double lod) {
+Eigen::Vector4f sample(const Texture& texture, const TextureRef& texture_ref, const Eigen::Vector2d& uv,
+                       double lod) {
     const double last = static_cast<double>(texture.levels.size() - 1);
     const double clamped = lod > 0 ? std::min(lod, last) : 0;
     const auto level = static_cast<std::size_t>(clamped);
     const auto t = static_cast<float>(clamped - static_cast<double>(level));
-    Eigen::Vector4f fine = bilinear(texture, texture.levels[level], use, uv);
+    Eigen::Vector4f fine = bilinear(texture, texture.levels[level], texture_ref, uv);
     if (!(t > 0)) return fine;
-    return (1 - t) * fine + t * bilinear(texture, texture.levels[level + 1], use, uv);
+    return (1 - t) * fine + t * bilinear(texture, texture.levels[level + 1], texture_ref, uv);
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

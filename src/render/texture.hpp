@@ -8,9 +8,9 @@
 
 #include "faqem/asset.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
-enum class Encoding {
+enum class ColorSpace {
     srgb,   ///< colours: averaged and interpolated in linear light
     linear  ///< data: normals
 };
@@ -22,19 +22,20 @@ struct Texture {
         std::vector<std::uint8_t> rgba;
     };
     std::vector<Level> levels;
-    Encoding encoding = Encoding::srgb;
+    ColorSpace color_space = ColorSpace::srgb;
 
     explicit operator bool() const { return !levels.empty(); }
 };
 
-Texture make_texture(Pixels pixels, Encoding encoding);
+Texture make_texture(Pixels pixels, ColorSpace color_space);
 
 /// KHR_texture_transform.
-Eigen::Vector2d transformed(const TextureRef& use, const Eigen::Vector2d& uv);
+Eigen::Vector2d transform_uv(const TextureRef& texture_ref, const Eigen::Vector2d& uv);
 
-/// \param uv   transformed, v pointing down, (0, 0) the outer corner of the first texel
+/// \param uv   transform_uv, v pointing down, (0, 0) the outer corner of the first texel
 /// \param lod  0: the full image, 1: half of it ...
 /// \return RGBA in [0, 1], colours in linear light
-Eigen::Vector4f sample(const Texture& texture, const TextureRef& use, const Eigen::Vector2d& uv, double lod);
+Eigen::Vector4f sample(const Texture& texture, const TextureRef& texture_ref, const Eigen::Vector2d& uv,
+                       double lod);
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

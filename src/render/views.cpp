@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <array>
 
-#include "faqem/error.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 namespace {
 
-constexpr double turn = 6.283185307179586, first_azimuth = 0.35, margin = 1.04;
-constexpr std::array<double, 2> elevations = {0.16, 0.42};  // in turn: from the side, and a little into it
+constexpr double two_pi = 6.283185307179586, first_azimuth = 0.35, margin = 1.04;
+constexpr std::array<double, 2> elevations = {0.16, 0.42};  // in two_pi: from the side, and a little into it
 
 }  // namespace
 
 std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views) {
     Vector3 low, high;
-    if (!bounds(scene, low, high)) throw InputError(file, "", "has no triangles");
+    if (!bounding_box(scene, low, high)) throw InputError(file, "", "has no triangles");
     const Vector3 centre = 0.5 * low + 0.5 * high;
     std::vector<Camera> result;
     double distance = 0;
     for (std::uint32_t i = 0; i < views; ++i) {
         result.push_back(
-            looking_at(centre, first_azimuth + turn * i / views, elevations[i % elevations.size()]));
+            orbit_camera(centre, first_azimuth + two_pi * i / views, elevations[i % elevations.size()]));
         distance = std::max(distance, fitting_distance(scene, result.back(), centre));
     }
     if (!(distance > 0)) distance = 1;
@@ -31,9 +31,9 @@ std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, 
     return result;
 }
 
-std::vector<SheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
-                                std::uint32_t size, Shading shading, Edges edges) {
-    std::vector<SheetRow> rows(scenes.size());
+std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
+                                       std::uint32_t size, Shading shading, Edges edges) {
+    std::vector<ContactSheetRow> rows(scenes.size());
     for (std::size_t r = 0; r < rows.size(); ++r) {
         rows[r].frames.resize(cameras.size());
         rows[r].label = with_commas(scenes[r].faces) + " faces";
@@ -51,4 +51,4 @@ std::string with_commas(std::uint64_t number) {
     return text;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "render/rasteriser.hpp"
 #include "render/contact_sheet.hpp"
+#include "render/rasteriser.hpp"
 
-namespace faqem::tool {
+namespace faqem::render {
 
 /// Cameras around a scene. All have the same distance, so that sizes can be compared, and the scene fits.
 /// \param file  of the scene, for errors
@@ -18,10 +18,10 @@ std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, 
 
 /// Draws each scene in a row of a sheet, with a view for each camera and the number of faces for a label.
 /// \param size  side of a view, pixels
-std::vector<SheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
-                                std::uint32_t size, Shading shading, Edges edges);
+std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
+                                       std::uint32_t size, Shading shading, Edges edges);
 
 /// `1,234,567`
 std::string with_commas(std::uint64_t number);
 
-}  // namespace faqem::tool
+}  // namespace faqem::render

@@ -220,9 +220,10 @@ TEST_CASE("references are found inside the folder", "[file]") {
     const fs::path expected = fs::canonical(folder / "sub dir/a b.png");
     CHECK(resolve_inside(folder.path(), "sub%20dir/a%20b.png") == expected);
     CHECK(resolve_inside(folder.path(), "./sub dir/../sub dir/a b.png") == expected);
-    CHECK(resolve_inside(folder.path(), "sub dir\\a b.png", Reference::file_name) == expected);
+    CHECK(resolve_inside(folder.path(), "sub dir\\a b.png", ReferenceSyntax::file_name) == expected);
     CHECK(resolve_inside(folder.path(), "100%.png").filename() == "100%.png");
-    CHECK_THROWS_AS(resolve_inside(folder.path(), "sub%20dir/a%20b.png", Reference::file_name), ReadError);
+    CHECK_THROWS_AS(resolve_inside(folder.path(), "sub%20dir/a%20b.png", ReferenceSyntax::file_name),
+                    ReadError);
     CHECK_THROWS_AS(resolve_inside(folder.path(), "sub dir\\a b.png"), ReadError);
 }
 
@@ -248,7 +249,7 @@ TEST_CASE("references that lead outside are refused before anything is looked at
         }
         CHECK(refused);
     }
-    CHECK_THROWS_AS(resolve_inside(folder / "in", "..\\secret", Reference::file_name), InputError);
+    CHECK_THROWS_AS(resolve_inside(folder / "in", "..\\secret", ReferenceSyntax::file_name), InputError);
     CHECK_THROWS_AS(resolve_inside(folder / "in", "none"), ReadError);
     CHECK(resolve_inside(folder / "in", "good").filename() == "a");
     // A folder whose name only starts like the asset's folder is outside.

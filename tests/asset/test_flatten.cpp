@@ -100,8 +100,8 @@ TEST_CASE("parts with different attributes are joined with neutral values", "[fl
     CHECK(flat.name.empty());
 }
 
-TEST_CASE("all_floats tells floats from doubles", "[flatten]") {
-    CHECK(all_floats({{0.5, -3, 1e30f}, {0.1f, 0, 0}}));
-    CHECK(!all_floats({{0.5, -3, 0.1}}));
-    CHECK(!all_floats({{0.5, -3, 1e300}}));
+TEST_CASE("is_float_representable tells floats from doubles", "[flatten]") {
+    CHECK(is_float_representable({{0.5, -3, 1e30f}, {0.1f, 0, 0}}));
+    CHECK(!is_float_representable({{0.5, -3, 0.1}}));
+    CHECK(!is_float_representable({{0.5, -3, 1e300}}));
 }

@@ -1,11 +1,11 @@
 #include <catch2/catch.hpp>
 
-#include "support/format_support.hpp"
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/formats/off.hpp"
 #include "asset/formats/ply.hpp"
 #include "asset/formats/stl.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -8,8 +8,8 @@
 
 #include <optional>
 
-#include "simplifier.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "simplifier.hpp"
 
 namespace faqem::bench {
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "simplifier.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "simplifier.hpp"
 
 namespace faqem::bench {
 

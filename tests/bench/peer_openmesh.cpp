@@ -3,8 +3,8 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include "simplifier.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "simplifier.hpp"
 
 namespace faqem::bench {
 

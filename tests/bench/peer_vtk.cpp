@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "simplifier.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "simplifier.hpp"
 
 namespace faqem::bench {
 

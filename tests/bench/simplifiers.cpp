@@ -34,7 +34,7 @@ void set(Options& options, std::string_view key, std::string_view value, std::st
         options.topology.link = link_named(value, spec);
     } else if (key == "border") {
         if (value != "free" && value != "locked") refuse(spec, "border is free or locked");
-        options.topology.border = value == "locked" ? Border::locked : Border::free;
+        options.topology.boundary = value == "locked" ? Boundary::locked : Boundary::free;
     } else if (key == "area") {
         options.weights.area = number(value, spec);
     } else if (key == "boundary") {

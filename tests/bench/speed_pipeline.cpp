@@ -2,9 +2,9 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/report_json.hpp"
 #include "speed.hpp"
-#include "faqem/detail/base/stopwatch.hpp"
 
 namespace faqem::bench {
 
@@ -116,7 +116,7 @@ void measure_pipeline(const FloatMesh& mesh, const fs::path& folder, const Write
             const detail::Stopwatch total;
             const Asset source = load(in);
             const double loaded = total.seconds();
-            LightAsset light = simplify(source, options);
+            SimplifiedAsset light = simplify(source, options);
             const detail::Stopwatch saving;
             save(light.asset, out, Overwrite::yes);
             PhaseSeconds& s = light.report.seconds;

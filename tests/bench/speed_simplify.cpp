@@ -10,13 +10,13 @@
 
 #include "allocations.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 #include "faqem/simplify.hpp"
 #include "isosurface.hpp"
 #include "simplifier.hpp"
 #include "speed.hpp"
-#include "faqem/detail/base/stopwatch.hpp"
 #include "wasm.hpp"
 
 namespace faqem::bench {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "faqem/error.hpp"
 #include "cli/temporary_folder.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::bench {
 
@@ -63,7 +63,7 @@ WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::st
     const fs::path index = fs::path(FAQEM_BENCH_WASM) / "node_modules" / package / "index.js";
     if (!fs::exists(index)) throw OptionError("simplifier " + name + ": " + index.string() + " is not there");
 
-    const tool::TemporaryFolder folder("faqem-bench");
+    const cli::TemporaryFolder folder("faqem-bench");
     const std::string before = folder.path() / "in", after = folder.path() / "out";
     {
         std::ofstream file(before, std::ios::binary);

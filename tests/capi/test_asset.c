@@ -29,7 +29,7 @@ static void a_model_is_saved_loaded_and_simplified(void) {
 
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_faces(options, 50) == FAQEM_OK);
-    CHECK(faqem_options_set_visibility(options, FAQEM_VISIBILITY_WEIGHS) == FAQEM_OK);
+    CHECK(faqem_options_set_visibility(options, FAQEM_VISIBILITY_WEIGHTED) == FAQEM_OK);
     CHECK(faqem_options_set_visibility(options, (faqem_visibility)2) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_bake(options, FAQEM_BAKE_NONE) == FAQEM_OK);
     CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);

@@ -4,7 +4,9 @@
 #include "check.h"
 #include "faqem/faqem_asset.h"
 
-static float height(const float* at, int part) { return (float)((part + 0.2) * sin(at[0] / 2) * cos(at[1] / 3)); }
+static float height(const float* at, int part) {
+    return (float)((part + 0.2) * sin(at[0] / 2) * cos(at[1] / 3));
+}
 
 /* A painted square with a wave in it. */
 static faqem_asset* painted_wave(void) {
@@ -35,9 +37,11 @@ static faqem_asset* two_waves(void) {
         "{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":2}]}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":169,\"type\":\"VEC3\","
         "\"min\":[0,0,-2],\"max\":[12,12,2]},"
-        "{\"bufferView\":1,\"componentType\":5126,\"count\":169,\"type\":\"VEC3\",\"min\":[0,0,-2],\"max\":[12,12,2]},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":169,\"type\":\"VEC3\",\"min\":[0,0,-2],\"max\":["
+        "12,12,2]},"
         "{\"bufferView\":2,\"componentType\":5125,\"count\":864,\"type\":\"SCALAR\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":2028},{\"buffer\":0,\"byteOffset\":2028,\"byteLength\":2028},"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":2028},{\"buffer\":0,\"byteOffset\":2028,"
+        "\"byteLength\":2028},"
         "{\"buffer\":0,\"byteOffset\":4056,\"byteLength\":3456}],"
         "\"buffers\":[{\"uri\":\"test_c.bin\",\"byteLength\":7512}]}";
     const faqem_mesh mesh = flat_grid(12);
@@ -105,9 +109,10 @@ static int same_parts(const faqem_asset* a, const faqem_asset* b) {
     int same = faqem_asset_part_count(a) == faqem_asset_part_count(b);
     for (size_t p = 0; same && p < faqem_asset_part_count(a); ++p) {
         const size_t v = faqem_asset_vertex_count(a, p), f = faqem_asset_face_count(a, p);
-        same = v == faqem_asset_vertex_count(b, p) && f == faqem_asset_face_count(b, p) &&
-               memcmp(faqem_asset_positions(a, p), faqem_asset_positions(b, p), 3 * v * sizeof(double)) == 0 &&
-               memcmp(faqem_asset_triangles(a, p), faqem_asset_triangles(b, p), 3 * f * sizeof(uint32_t)) == 0;
+        same =
+            v == faqem_asset_vertex_count(b, p) && f == faqem_asset_face_count(b, p) &&
+            memcmp(faqem_asset_positions(a, p), faqem_asset_positions(b, p), 3 * v * sizeof(double)) == 0 &&
+            memcmp(faqem_asset_triangles(a, p), faqem_asset_triangles(b, p), 3 * f * sizeof(uint32_t)) == 0;
     }
     return same;
 }
@@ -119,8 +124,8 @@ static void a_history_of_several_meshes_gives_every_level_again(void) {
     const faqem_level wanted[2] = {{FAQEM_LEVEL_FACES, 300}, {FAQEM_LEVEL_FACES, 60}};
     faqem_asset* levels[2] = {NULL, NULL};
     faqem_error error;
-    CHECK(faqem_asset_simplify_levels(source, options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, levels, &error) ==
-          FAQEM_OK);
+    CHECK(faqem_asset_simplify_levels(source, options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, levels,
+                                      &error) == FAQEM_OK);
     faqem_history *made = NULL, *history = NULL;
     CHECK(faqem_asset_history_create((const faqem_asset* const*)levels, 2, &made, &error) == FAQEM_OK);
     size_t size = 0;
@@ -129,30 +134,32 @@ static void a_history_of_several_meshes_gives_every_level_again(void) {
     CHECK(faqem_history_part_count(history) == 2 && faqem_history_level_count(history) == 2);
     for (int i = 0; i < 2; ++i) {
         faqem_asset* cut = NULL;
-        CHECK(faqem_asset_cut(source, history, (uint64_t)wanted[i].value, options, &cut, &error) == FAQEM_OK);
+        CHECK(faqem_asset_bake_truncated(source, history, (uint64_t)wanted[i].value, options, &cut, &error) ==
+              FAQEM_OK);
         CHECK(same_parts(cut, levels[i]));
         faqem_asset_destroy(cut);
     }
     faqem_result* parts[2] = {NULL, NULL};
-    CHECK(faqem_history_cut(history, 150, parts, &error) == FAQEM_ERROR_OPTION && parts[0] == NULL);
+    CHECK(faqem_history_truncate(history, 150, parts, &error) == FAQEM_ERROR_OPTION && parts[0] == NULL);
     CHECK(strstr(error.message, "2 meshes") != NULL);
-    CHECK(faqem_history_cut_parts(history, 150, parts, &error) == FAQEM_OK);
+    CHECK(faqem_history_truncate_parts(history, 150, parts, &error) == FAQEM_OK);
     const size_t faces = faqem_result_face_count(parts[0]) + faqem_result_face_count(parts[1]);
     CHECK(faces <= 150 && faces > 140);
     for (int i = 0; i < 2; ++i) faqem_result_destroy(parts[i]);
 
     faqem_asset* none = NULL;
-    CHECK(faqem_asset_cut(other, history, 150, options, &none, &error) == FAQEM_ERROR_INPUT);
-    CHECK(faqem_asset_cut(levels[0], history, 150, options, &none, &error) == FAQEM_ERROR_INPUT);
-    CHECK(faqem_asset_cut(source, history, 0, options, &none, &error) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_asset_cut(source, NULL, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_asset_bake_truncated(other, history, 150, options, &none, &error) == FAQEM_ERROR_INPUT);
+    CHECK(faqem_asset_bake_truncated(levels[0], history, 150, options, &none, &error) == FAQEM_ERROR_INPUT);
+    CHECK(faqem_asset_bake_truncated(source, history, 0, options, &none, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_asset_bake_truncated(source, NULL, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_bake(options, FAQEM_BAKE_KEEP) == FAQEM_OK);
-    CHECK(faqem_asset_cut(source, history, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_asset_bake_truncated(source, history, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
     CHECK(none == NULL && faqem_history_part_count(NULL) == 0);
     faqem_history* no_history = NULL;
     CHECK(faqem_asset_history_create((const faqem_asset* const*)&source, 1, &no_history, &error) ==
           FAQEM_ERROR_OPTION);
-    CHECK(faqem_asset_history_create(NULL, 1, &no_history, &error) == FAQEM_ERROR_OPTION && no_history == NULL);
+    CHECK(faqem_asset_history_create(NULL, 1, &no_history, &error) == FAQEM_ERROR_OPTION &&
+          no_history == NULL);
     faqem_history_destroy(made);
     faqem_history_destroy(history);
     for (int i = 0; i < 2; ++i) faqem_asset_destroy(levels[i]);
@@ -166,11 +173,12 @@ static void levels_are_saved_in_one_file(void) {
     faqem_options* options = small_textures();
     const faqem_level wanted[2] = {{FAQEM_LEVEL_RATIO, 0.5}, {FAQEM_LEVEL_FACES, 40}};
     faqem_error error;
-    CHECK(faqem_asset_simplify_levels(chain[0], options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, chain + 1, &error) ==
-          FAQEM_OK);
+    CHECK(faqem_asset_simplify_levels(chain[0], options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, chain + 1,
+                                      &error) == FAQEM_OK);
     const char* const path = "test_c_lod.gltf";
     CHECK(faqem_asset_save_levels(chain, 3, 1.0 / 1080, path, FAQEM_OVERWRITE_YES, &error) == FAQEM_OK);
-    CHECK(faqem_asset_save_levels(chain, 3, 1.0 / 1080, path, FAQEM_OVERWRITE_NO, &error) == FAQEM_ERROR_WRITE);
+    CHECK(faqem_asset_save_levels(chain, 3, 1.0 / 1080, path, FAQEM_OVERWRITE_NO, &error) ==
+          FAQEM_ERROR_WRITE);
     CHECK(faqem_asset_save_levels(chain, 3, NAN, path, FAQEM_OVERWRITE_YES, &error) == FAQEM_ERROR_OPTION);
     CHECK(faqem_asset_save_levels(chain, 3, 0, path, FAQEM_OVERWRITE_YES, &error) == FAQEM_ERROR_OPTION);
     CHECK(faqem_asset_save_levels(chain, 0, 1, path, FAQEM_OVERWRITE_YES, &error) == FAQEM_ERROR_OPTION);
@@ -185,7 +193,7 @@ static void levels_are_saved_in_one_file(void) {
     CHECK(strstr(text, "MSFT_lod") != NULL && strstr(text, "MSFT_screencoverage") != NULL);
     faqem_asset* read = NULL;
     CHECK(faqem_asset_load(path, &read, &error) == FAQEM_OK);
-    CHECK(faqem_asset_part_count(read) == 6);  /* those of the first level come first */
+    CHECK(faqem_asset_part_count(read) == 6); /* those of the first level come first */
     for (size_t p = 0; p < 2; ++p) CHECK(faqem_asset_face_count(read, p) == 288);
     size_t faces = 0;
     for (size_t p = 0; p < 6; ++p) faces += faqem_asset_face_count(read, p);

@@ -84,7 +84,7 @@ static void a_history_gives_every_level_again(void) {
     CHECK(faqem_history_level_count(history) == 2);
     for (int i = 0; i < 2; ++i) {
         faqem_result* cut = NULL;
-        CHECK(faqem_history_cut(history, (uint64_t)levels[i].value, &cut, NULL) == FAQEM_OK);
+        CHECK(faqem_history_truncate(history, (uint64_t)levels[i].value, &cut, NULL) == FAQEM_OK);
         CHECK(same_mesh(cut, results[i]));
         CHECK(memcmp(faqem_result_face_origin(cut), faqem_result_face_origin(results[i]),
                      faqem_result_face_count(cut) * sizeof(uint32_t)) == 0);
@@ -92,14 +92,14 @@ static void a_history_gives_every_level_again(void) {
         faqem_result_destroy(cut);
     }
     faqem_result* between = NULL;
-    CHECK(faqem_history_cut(history, 150, &between, NULL) == FAQEM_OK);
+    CHECK(faqem_history_truncate(history, 150, &between, NULL) == FAQEM_OK);
     CHECK(faqem_result_face_count(between) <= 150 && faqem_result_face_count(between) > 140);
     faqem_result_destroy(between);
 
     faqem_history* broken = NULL;
     CHECK(faqem_history_read(bytes, size - 1, &broken, &error) == FAQEM_ERROR_INPUT && broken == NULL);
     CHECK(faqem_history_read(bytes, 0, &broken, &error) == FAQEM_ERROR_INPUT);
-    CHECK(faqem_history_cut(history, 0, &between, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_history_truncate(history, 0, &between, &error) == FAQEM_ERROR_OPTION);
     faqem_history_destroy(made);
     faqem_history_destroy(history);
     faqem_history_destroy(NULL);
@@ -117,12 +117,14 @@ static void points_of_a_flat_grid_are_mapped_to_themselves(void) {
         const double weights[3] = {0.5, 0.25, 0.25};
         uint32_t face = 0;
         double there[3];
-        CHECK(faqem_result_map(result, FAQEM_MAPPING_PROJECTION, &f, weights, 1, &face, there, NULL) == FAQEM_OK);
+        CHECK(faqem_result_map(result, FAQEM_MAPPING_PROJECTION, &f, weights, 1, &face, there, NULL) ==
+              FAQEM_OK);
         CHECK(face < mesh.face_count);
         for (int k = 0; k < 2; ++k) {
             double here = 0, mapped = 0;
             for (int c = 0; c < 3; ++c) {
-                here += weights[c] * faqem_result_positions(result)[3 * faqem_result_triangles(result)[3 * f + c] + k];
+                here += weights[c] *
+                        faqem_result_positions(result)[3 * faqem_result_triangles(result)[3 * f + c] + k];
                 mapped += there[c] * mesh.double_positions[3 * mesh.triangles[3 * face + c] + k];
             }
             CHECK(fabs(here - mapped) < 1e-6);
@@ -131,18 +133,23 @@ static void points_of_a_flat_grid_are_mapped_to_themselves(void) {
     uint32_t face = count;
     double weights[3] = {1, 0, 0}, there[3];
     faqem_error error;
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_INPUT);
+    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
+          FAQEM_ERROR_INPUT);
     face = 0;
     weights[0] = NAN;
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_INPUT);
+    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
+          FAQEM_ERROR_INPUT);
     weights[0] = 1;
-    CHECK(faqem_result_map(result, (faqem_mapping)3, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_result_map(result, (faqem_mapping)3, &face, weights, 1, &face, there, &error) ==
+          FAQEM_ERROR_OPTION);
     faqem_result_destroy(result);
 
-    CHECK(faqem_simplify(&mesh, NULL, &result, NULL) == FAQEM_OK);  /* without a history */
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_simplify(&mesh, NULL, &result, NULL) == FAQEM_OK); /* without a history */
+    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
+          FAQEM_ERROR_OPTION);
     faqem_history* history = NULL;
-    CHECK(faqem_history_create((const faqem_result* const*)&result, 1, &history, &error) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_history_create((const faqem_result* const*)&result, 1, &history, &error) ==
+          FAQEM_ERROR_OPTION);
     faqem_result_destroy(result);
     faqem_options_destroy(options);
 }
@@ -151,7 +158,8 @@ static void corner_values_come_along(void) {
     faqem_mesh mesh = flat_grid_of_doubles(20);
     static float uv[2 * 3 * 800];
     for (size_t c = 0; c < 3 * mesh.face_count; ++c)
-        for (int k = 0; k < 2; ++k) uv[2 * c + k] = (float)(mesh.double_positions[3 * mesh.triangles[c] + k] / 20);
+        for (int k = 0; k < 2; ++k)
+            uv[2 * c + k] = (float)(mesh.double_positions[3 * mesh.triangles[c] + k] / 20);
     mesh.corner_values = uv;
     mesh.corner_width = 2;
     faqem_result* result = NULL;

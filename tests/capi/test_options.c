@@ -30,8 +30,8 @@ static void every_option_can_be_set(void) {
     }
     for (int link = FAQEM_LINK_AS_PRESET; link <= FAQEM_LINK_STRICT; ++link)
         CHECK(faqem_options_set_link(options, (faqem_link)link) == FAQEM_OK);
-    CHECK(faqem_options_set_border(options, FAQEM_BORDER_KEPT) == FAQEM_OK);
-    CHECK(faqem_options_set_group_border(options, FAQEM_BORDER_KEPT) == FAQEM_OK);
+    CHECK(faqem_options_set_boundary(options, FAQEM_BOUNDARY_KEPT) == FAQEM_OK);
+    CHECK(faqem_options_set_group_boundaries(options, FAQEM_BOUNDARY_KEPT) == FAQEM_OK);
     CHECK(faqem_options_set_weld_distance(options, 1e-9) == FAQEM_OK);
     CHECK(faqem_options_set_virtual_edges(options, 0.01) == FAQEM_OK);
     CHECK(faqem_options_set_prune(options, 0.1, FAQEM_UNIT_MODEL) == FAQEM_OK);
@@ -45,7 +45,7 @@ static void what_is_out_of_range_is_refused(void) {
     CHECK(faqem_options_set_preset(options, (faqem_preset)6) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_preset(options, (faqem_preset)-1) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_link(options, (faqem_link)99) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_border(options, (faqem_border)2) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set_boundary(options, (faqem_boundary)2) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_max_error(options, 1, (faqem_unit)2) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_prune(options, 1, (faqem_unit)-1) == FAQEM_ERROR_OPTION);
     CHECK(faces_with(options) <= 80);  // nothing was changed

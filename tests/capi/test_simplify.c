@@ -55,7 +55,8 @@ static void arrays_may_lie_anyhow(void) {
     CHECK(packed.vertex_count == vertices && packed.face_count == faces);
     for (size_t v = 0; v < vertices; ++v) {
         vertex[v].normal[0] = vertex[v].weight = NAN;
-        for (size_t k = 0; k < 3; ++k) columns[k * vertices + v] = vertex[v].at[k] = packed.positions[3 * v + k];
+        for (size_t k = 0; k < 3; ++k)
+            columns[k * vertices + v] = vertex[v].at[k] = packed.positions[3 * v + k];
     }
     for (size_t f = 0; f < faces; ++f) {
         face[f].material = UINT32_MAX;
@@ -82,13 +83,17 @@ static void arrays_may_lie_anyhow(void) {
 static void indices_of_16_bits_are_read_where_they_are(void) {
     enum { faces = 800 };
     static uint16_t corners[3 * faces], columns[3 * faces];
-    static struct { uint8_t flags[2]; uint16_t corners[3]; } face[faces];
+    static struct {
+        uint8_t flags[2];
+        uint16_t corners[3];
+    } face[faces];
     const faqem_mesh wide = flat_grid(20);
     CHECK(wide.face_count == faces);
     memset(face, 0xff, sizeof face);
     for (size_t f = 0; f < faces; ++f)
         for (size_t k = 0; k < 3; ++k)
-            corners[3 * f + k] = face[f].corners[k] = columns[k * faces + f] = (uint16_t)wide.triangles[3 * f + k];
+            corners[3 * f + k] = face[f].corners[k] = columns[k * faces + f] =
+                (uint16_t)wide.triangles[3 * f + k];
     faqem_mesh mesh = wide;
     mesh.triangles = NULL;
     mesh.short_triangles = corners;
@@ -129,7 +134,7 @@ static void groups_locks_and_weights_are_used(void) {
     mesh.vertex_locks = locks;
     mesh.vertex_weights = weights;
     faqem_options* options = faqem_options_create();
-    faqem_options_set_border(options, FAQEM_BORDER_KEPT);
+    faqem_options_set_boundary(options, FAQEM_BOUNDARY_KEPT);
     faqem_result* result = NULL;
     CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
     CHECK(faqem_result_face_count(result) == 128);  // all are locked

@@ -61,7 +61,7 @@ TEST_CASE("a byte budget is shared between faces and images, and the report says
     const std::size_t faces = out.parts[0].triangles.size();
     CHECK(faces < 6480);
     CHECK(faces > 300);
-    const auto size = faqem::tool::model_bytes(out, "x.glb");
+    const auto size = faqem::cli::model_bytes(out, "x.glb");
     CHECK(size.geometry <= 30000);
     CHECK(size.images == out.images[0].encoded.size());
 }

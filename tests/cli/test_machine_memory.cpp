@@ -5,7 +5,7 @@
 
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using namespace tool_test;
 
 TEST_CASE("the machine has memory") { CHECK(machine_memory() > 100'000'000); }
@@ -14,10 +14,10 @@ TEST_CASE("the least limit of all groups above counts, in both versions of contr
     const Folder folder;
     const auto group = [&](const std::string& text) {
         write(folder / "membership", text);
-        return group_memory(folder / "membership", folder / "mounts");
+        return cgroup_memory_limit(folder / "membership", folder / "mounts");
     };
     constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
-    CHECK(group_memory(folder / "membership", folder / "mounts") == none);
+    CHECK(cgroup_memory_limit(folder / "membership", folder / "mounts") == none);
     CHECK(group("0::/a/b\n") == none);
     fs::create_directories(folder / "mounts/a/b");
     fs::create_directories(folder / "mounts/memory/c/d");

@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "support/sanitizers.hpp"
 #include "cli/exit_code.hpp"
 #include "support/cli_support.hpp"
+#include "support/sanitizers.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using namespace tool_test;
 using Catch::Matchers::Contains;
 
@@ -16,8 +16,8 @@ TEST_CASE("the peak of a model grows with its faces, what is kept of it, its ima
     options.bake.kind = faqem::Bake::none;
     const faqem::Asset small = sheet(20);
     const auto more = [&](const faqem::Asset& asset, const faqem::Options& with) {
-        return static_cast<double>(predicted_peak(asset, with)) -
-               static_cast<double>(predicted_peak(small, options));
+        return static_cast<double>(estimated_peak_memory(asset, with)) -
+               static_cast<double>(estimated_peak_memory(small, options));
     };
     CHECK(more(sheet(40), options) > 0);
     faqem::Options other = options;
@@ -38,7 +38,7 @@ TEST_CASE("the peak of a model grows with its faces, what is kept of it, its ima
     faqem::Asset claims = small;
     for (std::size_t i = 16; i < 24; ++i) claims.images[0].encoded[i] = 0xFF;
     other.bake.kind = faqem::Bake::vertex;
-    CHECK(predicted_peak(claims, other) < std::uint64_t{1} << 40);
+    CHECK(estimated_peak_memory(claims, other) < std::uint64_t{1} << 40);
 }
 
 TEST_CASE("too much memory is an error with the file and both numbers") {
@@ -52,10 +52,10 @@ TEST_CASE("too much memory is an error with the file and both numbers") {
 
 TEST_CASE("files that are large are refused before they are read, and what is no file is not opened") {
     const Folder folder;
-    std::uint64_t before = loading_peak(folder / "none.glb");
+    std::uint64_t before = estimated_loading_memory(folder / "none.glb");
     write(folder / "a.glb", "not a model");
     fs::resize_file(folder / "a.glb", std::uint64_t{1} << 40);  // a hole
-    CHECK(loading_peak(folder / "a.glb") >= before + (std::uint64_t{1} << 40));
+    CHECK(estimated_loading_memory(folder / "a.glb") >= before + (std::uint64_t{1} << 40));
     const Outcome outcome = run(folder, "simplify a.glb out.glb --max-memory 1TB");
     CHECK(outcome.code == exit_no_memory);
     CHECK_THAT(outcome.err, Contains("faqem: a.glb: may take ") && Contains("(--max-memory)"));
@@ -64,10 +64,10 @@ TEST_CASE("files that are large are refused before they are read, and what is no
     write(folder / "a.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":1}]})");
     write(folder / "a.bin", "");
     fs::resize_file(folder / "a.bin", std::uint64_t{1} << 40);
-    CHECK(loading_peak(folder / "a.gltf") >= before + (std::uint64_t{1} << 40));
+    CHECK(estimated_loading_memory(folder / "a.gltf") >= before + (std::uint64_t{1} << 40));
     REQUIRE(std::system(("mkfifo '" + (folder / "pipe.glb").string() + "'").c_str()) == 0);
-    before = loading_peak(folder / "none.glb");
-    CHECK(loading_peak(folder / "pipe.glb") == before);
+    before = estimated_loading_memory(folder / "none.glb");
+    CHECK(estimated_loading_memory(folder / "pipe.glb") == before);
 }
 
 #ifndef FAQEM_SANITIZED
@@ -75,9 +75,9 @@ TEST_CASE("files that are large are refused before they are read, and what is no
 TEST_CASE("a run stays below the peak that was predicted, and the prediction is no more than thrice that") {
     const Folder folder;
     faqem::save(sheet(150), folder / "in.glb");  // 45,000 faces
-    for (const std::string options : {"--preset fast --bake none", "--preset balanced --bake vertex",
-                                      "--preset balanced --bake keep", "--preset qem --bake none",
-                                      "--visibility weighs --bake none"}) {
+    for (const std::string options :
+         {"--preset fast --bake none", "--preset balanced --bake vertex", "--preset balanced --bake keep",
+          "--preset qem --bake none", "--visibility weighted --bake none"}) {
         CAPTURE(options);
         const auto simplify = [&](const std::string& memory) {
             return run(folder, "simplify in.glb out.glb --force --report r.json " + options + memory);

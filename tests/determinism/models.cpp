@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "support/scenes.hpp"
 #include "faqem/asset.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 

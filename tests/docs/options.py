@@ -6,7 +6,7 @@ import sys
 import pages
 
 # What a section leaves to another one in words.
-SAME_AS_SIMPLIFY = {"lod", "batch", "cut"}
+SAME_AS_SIMPLIFY = {"lod", "batch", "truncate"}
 
 
 def options_of_tool(tool):

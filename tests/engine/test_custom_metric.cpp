@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/simplify_with.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -15,13 +15,12 @@ namespace {
 // Runs QEM with an adjustment.
 template <class Adjust>
 CustomResult adjusted(const TriangleMesh& mesh, std::size_t faces, Adjust adjust) {
-    return simplify_with(mesh.view(), CustomMetric(MemoryMetric({}), adjust),
-                         {.target_faces = faces, .ladder = Ladder::stay});
+    return simplify_with(mesh.view(), CustomMetric(AccumulatedMetric({}), adjust),
+                         {.target_faces = faces, .ladder = Ladder::off});
 }
 
-const auto nothing = [](const MemoryMetric&, const Complex&, Index, Index, Freedom, const Candidate& found) {
-    return std::optional(found);
-};
+const auto nothing = [](const AccumulatedMetric&, const CollapseMesh&, Index, Index, AllowedPosition,
+                        const Candidate& found) { return std::optional(found); };
 
 }  // namespace
 
@@ -29,7 +28,7 @@ TEST_CASE("an adjustment that changes nothing changes nothing") {
     const TriangleMesh mesh = shaken(torus(24, 12), 0.02, 1);
     const CustomResult with = adjusted(mesh, 100, nothing);
     const CustomResult without =
-        simplify_with(mesh.view(), MemoryMetric({}), {.target_faces = 100, .ladder = Ladder::stay});
+        simplify_with(mesh.view(), AccumulatedMetric({}), {.target_faces = 100, .ladder = Ladder::off});
     CHECK(with.mesh.triangles.size() == 100);
     CHECK(with.mesh.positions == without.mesh.positions);
     CHECK(with.mesh.triangles == without.mesh.triangles);
@@ -38,13 +37,14 @@ TEST_CASE("an adjustment that changes nothing changes nothing") {
 TEST_CASE("a veto holds: nothing crosses the plane that it guards") {
     const TriangleMesh mesh = icosphere(3);
     const auto is_upper = [](const Vector3& p) { return p.z() > 0; };
-    const CustomResult out = adjusted(
-        mesh, 4,
-        [&](const MemoryMetric&, const Complex& c, Index u, Index v, Freedom, const Candidate& found) {
-            const bool same = is_upper(c.position(u)) == is_upper(c.position(v)) &&
-                              is_upper(c.position(u)) == is_upper(found.point);
-            return same ? std::optional(found) : std::nullopt;
-        });
+    const CustomResult out = adjusted(mesh, 4,
+                                      [&](const AccumulatedMetric&, const CollapseMesh& c, Index u, Index v,
+                                          AllowedPosition, const Candidate& found) {
+                                          const bool same =
+                                              is_upper(c.position(u)) == is_upper(c.position(v)) &&
+                                              is_upper(c.position(u)) == is_upper(found.point);
+                                          return same ? std::optional(found) : std::nullopt;
+                                      });
     for (std::size_t v = 0; v < out.mesh.positions.size(); ++v) {
         const Vec3& grew_from = mesh.positions[out.vertex_origin[v]];
         CHECK((out.mesh.positions[v][2] > 0) == (grew_from[2] > 0));
@@ -53,12 +53,14 @@ TEST_CASE("a veto holds: nothing crosses the plane that it guards") {
 
 TEST_CASE("a placement holds: new vertices lie where it says") {
     const TriangleMesh mesh = shaken(torus(24, 12), 0.02, 1);
-    const CustomResult out = adjusted(
-        mesh, 200, [](const MemoryMetric& m, const Complex&, Index u, Index v, Freedom, Candidate found) {
-            for (double& x : found.point) x = std::round(8 * x) / 8;
-            found.cost = std::max((m.quadric(u) + m.quadric(v))(found.point), 0.0);
-            return std::optional(found);
-        });
+    const CustomResult out = adjusted(mesh, 200,
+                                      [](const AccumulatedMetric& m, const CollapseMesh&, Index u, Index v,
+                                         AllowedPosition, Candidate found) {
+                                          for (double& x : found.point) x = std::round(8 * x) / 8;
+                                          found.cost =
+                                              std::max((m.quadric(u) + m.quadric(v))(found.point), 0.0);
+                                          return std::optional(found);
+                                      });
     std::size_t moved = 0;
     for (std::size_t v = 0; v < out.mesh.positions.size(); ++v) {
         const Vec3& p = out.mesh.positions[v];
@@ -71,11 +73,12 @@ TEST_CASE("a placement holds: new vertices lie where it says") {
 
 TEST_CASE("a term counts: where it is dear, faces stay") {
     const TriangleMesh mesh = shaken(icosphere(4), 0.002, 5);
-    const CustomResult out = adjusted(
-        mesh, 1000, [](const MemoryMetric&, const Complex& c, Index u, Index, Freedom, Candidate found) {
-            if (c.position(u).x() > 0) found.cost *= 100;
-            return std::optional(found);
-        });
+    const CustomResult out = adjusted(mesh, 1000,
+                                      [](const AccumulatedMetric&, const CollapseMesh& c, Index u, Index,
+                                         AllowedPosition, Candidate found) {
+                                          if (c.position(u).x() > 0) found.cost *= 100;
+                                          return std::optional(found);
+                                      });
     std::size_t right = 0;
     for (const Vec3& p : out.mesh.positions) right += p[0] > 0;
     CHECK(right > 2 * (out.mesh.positions.size() - right));
@@ -83,8 +86,9 @@ TEST_CASE("a term counts: where it is dear, faces stay") {
 
 TEST_CASE("a cost that is no number is a veto") {
     const TriangleMesh mesh = icosphere(1);
-    const CustomResult out =
-        adjusted(mesh, 4, [](const MemoryMetric&, const Complex&, Index, Index, Freedom, Candidate found) {
+    const CustomResult out = adjusted(
+        mesh, 4,
+        [](const AccumulatedMetric&, const CollapseMesh&, Index, Index, AllowedPosition, Candidate found) {
             found.cost = std::numeric_limits<double>::quiet_NaN();
             return std::optional(found);
         });

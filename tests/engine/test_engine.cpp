@@ -57,7 +57,7 @@ TEST_CASE("the collapses are those of the paper's algorithm, done from its equat
             const std::size_t target = mesh.triangles.size() / 5;
             const std::vector<Collapse> expected =
                 test::Naive(mesh, preset.weights, preset.rules).run(target);
-            Play<MemoryMetric> play(mesh, MemoryMetric(preset.weights));
+            Play<AccumulatedMetric> play(mesh, AccumulatedMetric(preset.weights));
             play.run(target, preset.rules);
             const CollapseHistory history = play.recorder.take();
             // Beyond `expected` the engine climbs its ladder.
@@ -82,22 +82,22 @@ TEST_CASE("on a flat hexagon qem takes the first of equal pairs, the others keep
     // equally good places the first end, the hub, is taken. The area term of both others is 0 only at the rim
     // vertex.
     const TriangleMesh hexagon = test::fan(6);
-    Play<MemoryMetric> plain(hexagon, MemoryMetric(qem().weights));
+    Play<AccumulatedMetric> plain(hexagon, AccumulatedMetric(qem().weights));
     CHECK(plain.run(4, qem().rules).collapses == 1);
     const CollapseHistory history = plain.recorder.take();
     CHECK(history.collapses[0].first == 0);
     CHECK(history.collapses[0].second == 1);
     CHECK(history.collapses[0].position == Vec3{0, 0, 0});
     for (const Named& preset : {paper(), stmw()}) {
-        Play<MemoryMetric> play(hexagon, MemoryMetric(preset.weights));
+        Play<AccumulatedMetric> play(hexagon, AccumulatedMetric(preset.weights));
         CHECK(play.run(4, preset.rules).collapses == 1);
         const Collapse first = play.recorder.take().collapses.at(0);
         REQUIRE(std::min(first.first, first.second) == 0);
         const Vector3 rim = to_eigen(hexagon.positions[std::max(first.first, first.second)]);
         CHECK((to_eigen(first.position) - rim).norm() < 1e-9);
         double area = 0;
-        for (Index f = 0; f < play.complex.face_slots(); ++f) {
-            if (play.complex.alive(f)) area += play.complex.area_vector(f).z() / 2;
+        for (Index f = 0; f < play.collapse_mesh.face_slots(); ++f) {
+            if (play.collapse_mesh.is_alive(f)) area += play.collapse_mesh.area_vector(f).z() / 2;
         }
         CHECK(area == Approx(1.5 * std::sqrt(3.0)));
     }
@@ -112,7 +112,7 @@ TEST_CASE("the cheapest pair goes first, and the loop ends at the target") {
     CHECK(result.collapses == 2);
     const CollapseHistory history = play.recorder.take();
     CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(0, 1));
-    CHECK(play.complex.face_count() == 5);
+    CHECK(play.collapse_mesh.face_count() == 5);
     CHECK(result.rungs == decltype(result.rungs){});
 }
 
@@ -121,12 +121,12 @@ namespace {
 // As Script, but some pairs turn out dearer when it comes to it.
 struct Surprise : Script {
     std::map<Ends, double> real;
-    double refine(const Complex&, const PairTable&, Index u, Index v, const Candidate& candidate) {
+    double exact_cost(const CollapseMesh&, const PairTable&, Index u, Index v, const Candidate& candidate) {
         const auto at = real.find(ends(u, v));
         return at == real.end() ? candidate.cost : at->second;
     }
 };
-static_assert(RefiningMetric<Surprise> && !RefiningMetric<Script>);
+static_assert(LowerBoundMetric<Surprise> && !LowerBoundMetric<Script>);
 
 }  // namespace
 
@@ -157,7 +157,7 @@ TEST_CASE("locked vertices hold the new point, two of them the pair") {
     const LoopResult& result = play.run(1, {LinkCondition::off, 0, 0});
     CHECK(result.collapses == 1);
     CHECK(refused(result, Refusal::locked) > 0);
-    CHECK(play.complex.position(1) == Vector3(1, 0, 0));
+    CHECK(play.collapse_mesh.position(1) == Vector3(1, 0, 0));
     const CollapseHistory history = play.recorder.take();
     CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(1, 2));
     CHECK(history.collapses[0].position == Vec3{1, 0, 0});
@@ -170,7 +170,7 @@ TEST_CASE("a virtual pair joins two parts into one") {
     script.offers = {{{1, 4}, {1.25, 0, 0}}, {{2, 3}, {0.5, 1, 0}}};
     Play<Script> play(mesh, script, extra);
     CHECK(play.run(3, {LinkCondition::off, 0, 0}).collapses == 2);
-    CHECK(components(play.complex).size() == 1);
+    CHECK(components(play.collapse_mesh).size() == 1);
 }
 
 TEST_CASE("the last faces are not collapsed away") {
@@ -181,7 +181,7 @@ TEST_CASE("the last faces are not collapsed away") {
     Play<Script> play(test::quad(), script);
     const LoopResult& result = play.run(0, {LinkCondition::off, 0, 0});
     CHECK(result.stop == StopReason::no_legal_collapse);
-    CHECK(play.complex.face_count() > 0);
+    CHECK(play.collapse_mesh.face_count() > 0);
     CHECK(refused(result, Refusal::last_faces) > 0);
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("the last face with an area is not collapsed away while others have no
     const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});
     CHECK(result.stop == StopReason::reached_target);
     CHECK(refused(result, Refusal::last_faces) == 1);
-    CHECK(play.complex.alive(0));
+    CHECK(play.collapse_mesh.is_alive(0));
 }
 
 TEST_CASE("the end of a border waits for its distance to the next one") {

@@ -119,7 +119,7 @@ TEST_CASE("a strict link condition is kept on every rung") {
     CHECK(result.stop == StopReason::no_legal_collapse);
     CHECK(taken(result, Rung::without_link) == 0);
     CHECK(taken(result, Rung::flip_any) == 1);
-    CHECK(play.complex.face_count() == 4);
+    CHECK(play.collapse_mesh.face_count() == 4);
 }
 
 TEST_CASE("pairs shorter than the limit cost nothing because they are not collapsed, until flips are free") {
@@ -141,21 +141,21 @@ TEST_CASE("small parts are deleted early, larger ones last, the largest never") 
     CHECK(taken(one, Rung::tiny_components) == 1);
     CHECK(taken(one, Rung::any_component) == 0);
     CHECK(one.components_deleted == 1);
-    CHECK_FALSE(tiny.complex.alive(2));
+    CHECK_FALSE(tiny.collapse_mesh.is_alive(2));
     Play<Script> all(mesh, {});
     const LoopResult& three = all.run(1, {LinkCondition::on, 0, 0}, 1.5);
     CHECK(three.stop == StopReason::no_legal_collapse);
     CHECK(taken(three, Rung::any_component) == 1);
     CHECK(three.components_deleted == 3);
-    CHECK(all.complex.face_count() == 2);
-    CHECK(all.complex.alive(4));
+    CHECK(all.collapse_mesh.face_count() == 2);
+    CHECK(all.collapse_mesh.is_alive(4));
     const CollapseHistory history = all.recorder.take();
     REQUIRE(history.deleted_faces.size() == 6);
     CHECK(history.deleted_faces[0].face == 2);
     CHECK(history.deleted_faces[5].face == 1);
     Play<Script> some(mesh, {});
     CHECK(some.run(4, {LinkCondition::on, 0, 0}).components_deleted == 2);
-    CHECK(some.complex.alive(0));
+    CHECK(some.collapse_mesh.is_alive(0));
 }
 
 TEST_CASE("parts with locked vertices are not deleted, nor any part where UVs are kept") {
@@ -165,7 +165,7 @@ TEST_CASE("parts with locked vertices are not deleted, nor any part where UVs ar
     CHECK(play.run(2, {LinkCondition::off, 0, 0}, 2).components_deleted == 0);
     CHECK(play.result.stop == StopReason::no_legal_collapse);
     Play<Script> kept(mesh, {});
-    kept.wedges = Wedges(kept.complex, {std::vector<float>(12, 0.5f), 1});
+    kept.wedges = Wedges(kept.collapse_mesh, {std::vector<float>(12, 0.5f), 1});
     CHECK(kept.run(2, {LinkCondition::off, 0, 0}).components_deleted == 0);
 }
 
@@ -176,12 +176,12 @@ TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as
     for (const std::size_t target : {std::size_t{1}, std::size_t{4}}) {
         Play<Script> play(mesh, Script());
         const LoopResult& result = play.run(target, {LinkCondition::off, 0, 0});
-        CHECK(play.complex.face_count() == std::max<std::size_t>(target, 3));
-        CHECK(taken(result, Rung::double_faces) == 1);
-        CHECK(play.complex.alive(0));  // the first of each stays
-        CHECK(play.complex.alive(2));
-        CHECK(play.complex.alive(4));
-        CHECK(play.complex.alive(3) == (target == 4));
+        CHECK(play.collapse_mesh.face_count() == std::max<std::size_t>(target, 3));
+        CHECK(taken(result, Rung::duplicate_faces) == 1);
+        CHECK(play.collapse_mesh.is_alive(0));  // the first of each stays
+        CHECK(play.collapse_mesh.is_alive(2));
+        CHECK(play.collapse_mesh.is_alive(4));
+        CHECK(play.collapse_mesh.is_alive(3) == (target == 4));
         play.pairs.for_each_pair(1, [&](Neighbour n) {
             if (n.vertex == 2) CHECK(play.pairs.face_count(n.pair) == (target == 4 ? 2 : 1));
         });
@@ -195,5 +195,5 @@ TEST_CASE("components without area are deleted first, however long they are") {
     CHECK(result.stop == StopReason::reached_target);
     CHECK(result.components_deleted == 1);
     CHECK(taken(result, Rung::tiny_components) == 1);
-    CHECK_FALSE(play.complex.alive(0));
+    CHECK_FALSE(play.collapse_mesh.is_alive(0));
 }

@@ -13,14 +13,14 @@ static_assert(std::is_empty_v<NoRecorder>, "recording nothing takes no room");
 
 TEST_CASE("a collapse is recorded with both versions, the point and the faces at either end") {
     const TriangleMesh mesh = test::grid(2);
-    Complex complex = test::complex_of(mesh);
-    HistoryRecorder recorder(complex);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    HistoryRecorder recorder(collapse_mesh);
     CHECK(recorder.version(4) == 4);
-    recorder.collapsing(complex, 4, 0, {{1, 2, 3}, 0});
-    complex.collapse(4, 0, {1, 2, 3});
-    recorder.collapsing(complex, 1, 4, {{4, 5, 6}, 0});
-    complex.collapse(1, 4, {4, 5, 6});
-    recorder.deleting(7);
+    recorder.before_collapse(collapse_mesh, 4, 0, {{1, 2, 3}, 0});
+    collapse_mesh.collapse(4, 0, {1, 2, 3});
+    recorder.before_collapse(collapse_mesh, 1, 4, {{4, 5, 6}, 0});
+    collapse_mesh.collapse(1, 4, {4, 5, 6});
+    recorder.before_deletion(7);
     CHECK(recorder.version(1) == 10);
     const CollapseHistory h = recorder.take();
     REQUIRE(h.collapses.size() == 2);
@@ -46,17 +46,17 @@ TEST_CASE("the history goes on with a complex of other slots under the same name
     //     3---2    Vertices are called 10, 11, 12, 13, faces 20 and 21; the first collapse makes 30.
     //     | / |
     //     0---1
-    Complex complex = test::complex_of(test::quad());
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(test::quad());
     HistoryRecorder recorder({10, 11, 12, 13}, {20, 21}, 30);
-    const Triangle& first = complex.triangle(0);
+    const Triangle& first = collapse_mesh.triangle(0);
     const Index other = first[0] != 1 && first[1] != 1 && first[2] != 1 ? 0 : 1;  // the face without vertex 1
-    recorder.collapsed(0, 1, {5, 5, 5}, std::vector<Index>{0, 1});
+    recorder.add_collapse(0, 1, {5, 5, 5}, std::vector<Index>{0, 1});
     // What is left is a triangle of slots 2, 0, 3, which have become 0, 1, 2.
     recorder.renumber(std::vector<Index>{2, 0, 3}, std::vector<Index>{other});
     CHECK(recorder.version(0) == 12);
     CHECK(recorder.version(1) == 30);
-    const Complex left({{1, 1, 0}, {5, 5, 5}, {0, 1, 0}}, {{0, 2, 1}});
-    recorder.collapsing(left, 2, 1, {{6, 6, 6}, 0});
+    const CollapseMesh left({{1, 1, 0}, {5, 5, 5}, {0, 1, 0}}, {{0, 2, 1}});
+    recorder.before_collapse(left, 2, 1, {{6, 6, 6}, 0});
     CHECK(recorder.version(2) == 31);
     const CollapseHistory h = recorder.take();
     REQUIRE(h.collapses.size() == 2);

@@ -14,7 +14,7 @@ TEST_CASE("vertices at one place are one, and a face that they close is dropped"
     // A square of two faces with corners of their own, and a sliver between two vertices at one place.
     const TriangleMesh split = make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                                     {{0, 1, 2}, {3, 4, 5}, {0, 3, 1}});
-    const CustomResult out = simplify_with(split.view(), MemoryMetric({}), {.target_faces = 2});
+    const CustomResult out = simplify_with(split.view(), AccumulatedMetric({}), {.target_faces = 2});
     CHECK(out.mesh.positions.size() == 4);
     CHECK(out.mesh.triangles.size() == 2);
     CHECK(out.face_origin == std::vector<Index>{0, 1});
@@ -28,7 +28,7 @@ TEST_CASE("locked vertices stay where they are, also one of several at a place")
     locks[3] = 1;
     MeshView view = mesh.view();
     view.vertex_locks = locks;
-    const CustomResult out = simplify_with(view, MemoryMetric({}), {.target_faces = 20});
+    const CustomResult out = simplify_with(view, AccumulatedMetric({}), {.target_faces = 20});
     CHECK(out.mesh.triangles.size() <= 20);
     bool found = false;
     for (const Vec3& p : out.mesh.positions) found = found || p == mesh.positions[3];
@@ -38,13 +38,15 @@ TEST_CASE("locked vertices stay where they are, also one of several at a place")
 TEST_CASE("bad input is refused with the element that is wrong") {
     TriangleMesh mesh = quad();
     mesh.triangles[1][2] = 4;
-    CHECK_THROWS_WITH(simplify_with(mesh.view(), MemoryMetric({}), {}), "face 1: vertex index out of range");
+    CHECK_THROWS_WITH(simplify_with(mesh.view(), AccumulatedMetric({}), {}),
+                      "face 1: vertex index out of range");
     mesh = quad();
     mesh.positions[2][1] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(simplify_with(mesh.view(), MemoryMetric({}), {}), "vertex 2: position is not finite");
+    CHECK_THROWS_WITH(simplify_with(mesh.view(), AccumulatedMetric({}), {}),
+                      "vertex 2: position is not finite");
     mesh = quad();
     MeshView view = mesh.view();
     const std::vector<std::uint8_t> few(3, 0);
     view.vertex_locks = few;
-    CHECK_THROWS_AS(simplify_with(view, MemoryMetric({}), {}), InputError);
+    CHECK_THROWS_AS(simplify_with(view, AccumulatedMetric({}), {}), InputError);
 }

@@ -6,9 +6,9 @@
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::GapsBack;
-using detail::GapsThere;
-using detail::StillSurface;
+using detail::MeshToReferenceTracker;
+using detail::ReferenceSurface;
+using detail::ReferenceToMeshTracker;
 using engine::Vector3;
 
 namespace {
@@ -20,99 +20,99 @@ const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
 }  // namespace
 
 TEST_CASE("gaps: from a square that was lifted, and back to it") {
-    const StillSurface original({square, halves});
+    const ReferenceSurface original({square, halves});
     std::vector<Vector3> lifted = square;
     for (Vector3& p : lifted) p.z() = 0.25;
-    GapsThere there(original, halves, {{0, {0.5, 0.25, 0.25}}, {1, {0, 0.5, 0.5}}});
-    GapsBack back({{{0.5, 0.25, 0}, {0, 0, 1}}}, halves);
-    there.move_to(lifted, 1);
-    back.move_to(lifted, 1);
+    MeshToReferenceTracker there(original, halves, {{0, {0.5, 0.25, 0.25}}, {1, {0, 0.5, 0.5}}});
+    ReferenceToMeshTracker back({{{0.5, 0.25, 0}, {0, 0, 1}}}, halves);
+    there.update(lifted, 1);
+    back.update(lifted, 1);
     for (std::size_t i = 0; i < 2; ++i) {
-        CHECK((there.gap(i) - Vector3(0, 0, -0.25)).norm() < 1e-15);
-        CHECK(there.pull(i).normal == Vector3(0, 0, 1));
+        CHECK((there.residual(i) - Vector3(0, 0, -0.25)).norm() < 1e-15);
+        CHECK(there.correspondence(i).normal == Vector3(0, 0, 1));
     }
-    CHECK((back.gap(0) - Vector3(0, 0, -0.25)).norm() < 1e-15);
-    CHECK(back.spot(0).face == 0);
-    CHECK((back.spot(0).on(lifted, halves) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
+    CHECK((back.residual(0) - Vector3(0, 0, -0.25)).norm() < 1e-15);
+    CHECK(back.sample(0).face == 0);
+    CHECK((back.sample(0).position(lifted, halves) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
 }
 
-TEST_CASE("gaps: faces that are swapped take other spots, the others keep theirs") {
-    const StillSurface original({square, halves});
+TEST_CASE("gaps: faces that are flipped take other samples, the others keep theirs") {
+    const ReferenceSurface original({square, halves});
     const std::vector<Vector3> bent = {{0, 0, 0.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}};
-    GapsThere there(original, faces, {{0, {1, 0, 0}}, {2, {0, 0, 1}}, {1, {0.5, 0.5, 0}}});
-    there.move_to(bent, 1);
+    MeshToReferenceTracker there(original, faces, {{0, {1, 0, 0}}, {2, {0, 0, 1}}, {1, {0.5, 0.5, 0}}});
+    there.update(bent, 1);
     faces[0] = {3, 1, 2}, faces[1] = {3, 0, 1};
-    const std::vector<detail::Spot> spots = {{0, {0.5, 0.5, 0}}, {1, {0, 0.5, 0.5}}};
-    there.replace(std::vector<std::uint8_t>{1, 1, 0}, spots);
-    there.move_to(bent, 1);
+    const std::vector<detail::SurfaceSample> samples = {{0, {0.5, 0.5, 0}}, {1, {0, 0.5, 0.5}}};
+    there.replace_samples(std::vector<std::uint8_t>{1, 1, 0}, samples);
+    there.update(bent, 1);
     REQUIRE(there.size() == 3);
-    CHECK(there.spot(0).face == 2);
-    CHECK(there.gap(0) == Vector3::Zero());
-    CHECK(there.gap(1) == Vector3::Zero());
-    CHECK((there.gap(2) - Vector3(0, 0, -0.25)).norm() < 1e-15);
+    CHECK(there.sample(0).face == 2);
+    CHECK(there.residual(0) == Vector3::Zero());
+    CHECK(there.residual(1) == Vector3::Zero());
+    CHECK((there.residual(2) - Vector3(0, 0, -0.25)).norm() < 1e-15);
 }
 
 TEST_CASE("gaps: turns are distances between unit normals, at an edge to the nearest of them") {
     // A step: a wall below the edge x = 0 that looks to x, and a floor beyond it that looks up.
     const std::vector<Vector3> step = {{0, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
     const std::vector<Triangle> sides = {{0, 2, 1}, {0, 3, 1}};
-    const StillSurface original({step, sides});
+    const ReferenceSurface original({step, sides});
     REQUIRE((original.normals[0] - Vector3(1, 0, 0)).norm() < 1e-15);
     REQUIRE((original.normals[1] - Vector3(0, 0, 1)).norm() < 1e-15);
-    // A face that looks up, with a spot that is first on the edge, then on the wall.
+    // A face that looks up, with a sample that is first on the edge, then on the wall.
     const std::vector<Vector3> below = {{-1, 0, -0.5}, {1, 0, -0.5}, {0, 1, -0.5}};
     const std::vector<Triangle> one = {{0, 1, 2}};
-    GapsThere there(original, one, {{0, {0.5, 0.5, 0}}});
+    MeshToReferenceTracker there(original, one, {{0, {0.5, 0.5, 0}}});
     std::vector<Vector3> at_edge = below;
     for (Vector3& p : at_edge) p.z() = 0;
-    there.move_to(at_edge, 1);
-    there.measure_turns(1e-9, 1);
-    CHECK(there.turn(0) == Approx(0).margin(1e-7));
-    there.move_to(below, 1);
-    there.measure_turns(1e-9, 1);
-    CHECK(there.turn(0) == Approx(std::sqrt(2.0)));
+    there.update(at_edge, 1);
+    there.measure_normal_deviations(1e-9, 1);
+    CHECK(there.normal_deviation(0) == Approx(0).margin(1e-7));
+    there.update(below, 1);
+    there.measure_normal_deviations(1e-9, 1);
+    CHECK(there.normal_deviation(0) == Approx(std::sqrt(2.0)));
 }
 
 TEST_CASE(
     "gaps: of two faces upon each other that look apart, the one that looks the same way tells the turn") {
     const std::vector<Triangle> back_first = {{0, 2, 1}, {0, 1, 2}};
-    const StillSurface original({square, back_first});
+    const ReferenceSurface original({square, back_first});
     const std::vector<Triangle> one = {{0, 1, 2}};
-    GapsThere there(original, one, {{0, {0.5, 0.25, 0.25}}});
-    there.move_to(square, 1);
-    there.measure_turns(1e-9, 1);
-    CHECK(there.turn(0) == Approx(0).margin(1e-7));
+    MeshToReferenceTracker there(original, one, {{0, {0.5, 0.25, 0.25}}});
+    there.update(square, 1);
+    there.measure_normal_deviations(1e-9, 1);
+    CHECK(there.normal_deviation(0) == Approx(0).margin(1e-7));
 }
 
 TEST_CASE("gaps: kept up over many moves they are what they would be measured anew, or a little longer") {
-    const TriangleMesh sphere = test::icosphere(3), light = test::icosphere(1);
+    const TriangleMesh sphere = test::icosphere(3), simplified = test::icosphere(1);
     const std::vector<Vector3> fixed_points = test::vectors(sphere);
-    const StillSurface original({fixed_points, sphere.triangles});
+    const ReferenceSurface original({fixed_points, sphere.triangles});
     std::vector<detail::OrientedPoint> points = detail::oriented_vertices(original.mesh);
-    const auto spots = detail::corners_and_middles(light.triangles);
+    const auto samples = detail::vertex_and_midpoint_samples(simplified.triangles);
     for (const double reach : {0.02, 0.2}) {
-        std::vector<Vector3> positions = test::vectors(light);
-        GapsThere there(original, light.triangles, spots);
-        GapsBack back(points, light.triangles);
+        std::vector<Vector3> positions = test::vectors(simplified);
+        MeshToReferenceTracker there(original, simplified.triangles, samples);
+        ReferenceToMeshTracker back(points, simplified.triangles);
         test::Random random(7);
         double sum = 0, sum_anew = 0;
         for (int round = 0; round < 12; ++round) {
-            there.move_to(positions, 1 + round % 3);
-            back.move_to(positions, 1 + round % 3);
-            GapsThere there_anew(original, light.triangles, spots);
-            GapsBack back_anew(points, light.triangles);
-            there_anew.move_to(positions, 1);
-            back_anew.move_to(positions, 1);
+            there.update(positions, 1 + round % 3);
+            back.update(positions, 1 + round % 3);
+            MeshToReferenceTracker there_anew(original, simplified.triangles, samples);
+            ReferenceToMeshTracker back_anew(points, simplified.triangles);
+            there_anew.update(positions, 1);
+            back_anew.update(positions, 1);
             const auto check = [&](const Vector3& kept_up, const Vector3& anew) {
                 CHECK(kept_up.norm() >= anew.norm() - 1e-14);
                 sum += kept_up.norm(), sum_anew += anew.norm();
             };
-            for (std::size_t i = 0; i < there.size(); ++i) check(there.gap(i), there_anew.gap(i));
+            for (std::size_t i = 0; i < there.size(); ++i) check(there.residual(i), there_anew.residual(i));
             for (std::size_t i = 0; i < back.size(); ++i) {
-                check(back.gap(i), back_anew.gap(i));
-                const Vector3 on = back.spot(i).on(positions, light.triangles);
-                CHECK((on + back.gap(i) - points[i].position).norm() < 1e-14);
+                check(back.residual(i), back_anew.residual(i));
+                const Vector3 on = back.sample(i).position(positions, simplified.triangles);
+                CHECK((on + back.residual(i) - points[i].position).norm() < 1e-14);
             }
             // A few vertices at first, all of them in the end.
             for (Index v = 0; v < positions.size(); ++v) {
@@ -125,21 +125,21 @@ TEST_CASE("gaps: kept up over many moves they are what they would be measured an
 }
 
 TEST_CASE("gaps: a point that moves past a corner is followed to the faces behind it") {
-    //  A fan of six faces around vertex 0; the spot goes around it, and back over it.
+    //  A fan of six faces around vertex 0; the sample goes around it, and back over it.
     std::vector<Vector3> fan = {{0, 0, 0.2}};
     std::vector<Triangle> faces;
     for (Index k = 0; k < 6; ++k) {
         fan.push_back({std::cos(k * test::pi / 3), std::sin(k * test::pi / 3), 0});
         faces.push_back({0, 1 + k, 1 + (k + 1) % 6});
     }
-    const StillSurface original({fan, faces});
+    const ReferenceSurface original({fan, faces});
     const std::vector<Triangle> one = {{0, 1, 2}};
-    GapsThere there(original, one, {{0, {1, 0, 0}}});
+    MeshToReferenceTracker there(original, one, {{0, {1, 0, 0}}});
     for (const double angle : {0.1, 0.7, 3.5, 0.4}) {
         const Vector3 p(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.3);
         const std::vector<Vector3> at = {p, p + Vector3(1, 0, 0), p + Vector3(0, 1, 0)};
-        there.move_to(at, 1);
+        there.update(at, 1);
         const auto hit = original.tree.closest(engine::to_array(p));
-        CHECK((p + there.gap(0) - engine::to_eigen(hit.point)).norm() < 1e-15);
+        CHECK((p + there.residual(0) - engine::to_eigen(hit.point)).norm() < 1e-15);
     }
 }

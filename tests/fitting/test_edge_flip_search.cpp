@@ -4,11 +4,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "support/meshes.hpp"
 #include "faqem/detail/geometry/edge_flip.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::EdgeSwap;
+using detail::EdgeFlip;
 using engine::Vector3;
 
 namespace {
@@ -19,23 +19,23 @@ struct Setting {
     std::vector<Index> groups;
 };
 
-std::vector<EdgeSwap> better_edges(const Setting& s, std::uint32_t threads = 1) {
+std::vector<EdgeFlip> find_edge_flips(const Setting& s, std::uint32_t threads = 1) {
     const std::vector<Vector3> from = test::vectors(s.original), at = test::vectors(s.light);
-    const detail::Patchwork surface{from, s.original.triangles};
-    const detail::StillSurface original(surface);
+    const detail::MeshRef surface{from, s.original.triangles};
+    const detail::ReferenceSurface original(surface);
     std::vector<detail::OrientedPoint> points;
     double area = 0;
-    for (const auto& spot : detail::evenly_spread(surface, 5000))
-        points.push_back({spot.on(from, s.original.triangles), original.normals[spot.face]});
+    for (const auto& sample : detail::area_uniform_samples(surface, 5000))
+        points.push_back({sample.position(from, s.original.triangles), original.normals[sample.face]});
     for (const Triangle& t : s.original.triangles) area += detail::area_vector(from, t).norm() / 2;
-    detail::GapsBack even(points, s.light.triangles),
+    detail::ReferenceToMeshTracker even(points, s.light.triangles),
         corners(detail::oriented_vertices(surface), s.light.triangles);
     even.move_to(at, 1);
     corners.move_to(at, 1);
     std::vector<std::uint8_t> fixed = s.fixed;
     fixed.resize(at.size(), 0);
-    return detail::better_edges({at, s.light.triangles, fixed, s.groups}, original, even, corners, area,
-                                threads);
+    return detail::find_edge_flips({at, s.light.triangles, fixed, s.groups}, original, even, corners, area,
+                                   threads);
 }
 
 // A roof over the square [-1, 1]^2 whose ridge goes from corner 0 to corner 2, and the same square with a
@@ -51,26 +51,26 @@ Setting wrong_diagonal() {
 
 }  // namespace
 
-TEST_CASE("better edges: a valley where the original has a ridge is swapped") {
-    CHECK(better_edges(wrong_diagonal()) == std::vector<EdgeSwap>{{0, 1}});
+TEST_CASE("better edges: a valley where the original has a ridge is flipped") {
+    CHECK(find_edge_flips(wrong_diagonal()) == std::vector<EdgeFlip>{{0, 1}});
 }
 
 TEST_CASE("better edges: what fits stays") {
     Setting s = wrong_diagonal();
     s.light = s.original;
-    CHECK(better_edges(s).empty());
+    CHECK(find_edge_flips(s).empty());
 }
 
 TEST_CASE("better edges: fixed edges and those between groups stay") {
     Setting s = wrong_diagonal();
     s.fixed = {0, 1, 0, 1};
-    CHECK(better_edges(s).empty());
+    CHECK(find_edge_flips(s).empty());
     s.fixed = {1, 1, 1, 0};
-    CHECK(better_edges(s).size() == 1);
+    CHECK(find_edge_flips(s).size() == 1);
     s.groups = {4, 4};
-    CHECK(better_edges(s).size() == 1);
+    CHECK(find_edge_flips(s).size() == 1);
     s.groups = {4, 5};
-    CHECK(better_edges(s).empty());
+    CHECK(find_edge_flips(s).empty());
 }
 
 TEST_CASE("better edges: no edge comes a second time") {
@@ -78,27 +78,27 @@ TEST_CASE("better edges: no edge comes a second time") {
     Setting s = wrong_diagonal();
     s.light.positions.push_back({0, 0, 2});
     s.light.triangles.push_back({0, 2, 4});
-    CHECK(better_edges(s).empty());
+    CHECK(find_edge_flips(s).empty());
 }
 
-TEST_CASE("better edges: no sliver comes of a swap") {
+TEST_CASE("better edges: no sliver comes of a flip") {
     // Corner 1 nearly lies between 0 and 2: one of the new faces would have hardly any area.
     Setting s = wrong_diagonal();
     for (TriangleMesh* mesh : {&s.original, &s.light}) mesh->positions[1] = {1e-4, -1e-4, 0};
-    CHECK(better_edges(s).empty());
+    CHECK(find_edge_flips(s).empty());
 }
 
-TEST_CASE("better edges: swaps do not touch each other, and the number of threads does not matter") {
+TEST_CASE("better edges: flips do not touch each other, and the number of threads does not matter") {
     const Setting s = {
         test::shaken(test::icosphere(5), 0.02, 4), test::shaken(test::icosphere(2), 0.1, 5), {}, {}};
-    const std::vector<EdgeSwap> swaps = better_edges(s);
-    CHECK(swaps.size() > 5);
-    CHECK(swaps == better_edges(s, 3));
+    const std::vector<EdgeFlip> flips = find_edge_flips(s);
+    CHECK(flips.size() > 5);
+    CHECK(flips == find_edge_flips(s, 3));
     std::vector<int> times(s.light.triangles.size(), 0);
     std::vector<Triangle> triangles = s.light.triangles;
-    for (const EdgeSwap& swap : swaps) {
-        ++times[swap[0]], ++times[swap[1]];
-        CHECK(detail::swap_edge(triangles[swap[0]], triangles[swap[1]]));
+    for (const EdgeFlip& flip : flips) {
+        ++times[flip[0]], ++times[flip[1]];
+        CHECK(detail::flip_edge(triangles[flip[0]], triangles[flip[1]]));
     }
     CHECK(*std::max_element(times.begin(), times.end()) == 1);
     // Still a closed surface: each half-edge has its opposite, once.

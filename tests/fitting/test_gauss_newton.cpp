@@ -7,7 +7,7 @@
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::Pull;
+using detail::Correspondence;
 using engine::Vector3;
 
 namespace {
@@ -17,71 +17,77 @@ const Vector3 up(0, 0, 1);
 
 }  // namespace
 
-TEST_CASE("fit: pulls of the same height at all corners lift the triangle by that, nearly") {
-    std::vector<Pull> pulls;
+TEST_CASE("fit: correspondences of the same height at all corners lift the triangle by that, nearly") {
+    std::vector<Correspondence> correspondences;
     for (std::size_t k = 0; k < 3; ++k) {
-        Pull pull{{0, {0, 0, 0}}, 0.5 * up, up};
-        pull.spot.weight[k] = 1;
-        pulls.push_back(pull);
+        Correspondence correspondence{{0, {0, 0, 0}}, 0.5 * up, up};
+        correspondence.sample.barycentric[k] = 1;
+        correspondences.push_back(correspondence);
     }
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::fitting_step(one, pulls, free, 0.5, 1)) {
-        // Each vertex: (w + hold) step = w gap, with hold = 0.02 * 1.2 w / 3 and 2e-4 of the same.
+    for (const Vector3& step : detail::gauss_newton_step(one, correspondences, free, 0.5, 1)) {
+        // Each vertex: (w + hold) step = w residual, with hold = 0.02 * 1.2 w / 3 and 2e-4 of the same.
         CHECK(step.z() == Approx(0.5 / (1 + 0.0202 * 1.2 / 3)).epsilon(1e-3));
         CHECK(step.head<2>().norm() < 1e-12);
     }
 }
 
 TEST_CASE("fit: fixed vertices stay, the others make up for them") {
-    const std::vector<Pull> pulls = {{{0, {0.5, 0.5, 0}}, up, up}};
+    const std::vector<Correspondence> correspondences = {{{0, {0.5, 0.5, 0}}, up, up}};
     const std::vector<std::uint8_t> fixed = {1, 0, 0};
-    const std::vector<Vector3> steps = detail::fitting_step(one, pulls, fixed, 0.5, 1);
+    const std::vector<Vector3> steps = detail::gauss_newton_step(one, correspondences, fixed, 0.5, 1);
     CHECK(steps[0] == Vector3::Zero());
     // Alone it would need to go twice as far: half of its move arrives at the middle of the edge.
     CHECK(steps[1].z() == Approx(2).epsilon(0.02));
     CHECK(steps[2].norm() < 1e-9);
 }
 
-TEST_CASE("fit: far pulls weigh more than near ones") {
-    // Two pulls at one corner, up by 4 and down by 1: weights 2 and 1, so (2 * 4 - 1) / 3.
-    const std::vector<Pull> pulls = {{{0, {1, 0, 0}}, 4 * up, up}, {{0, {1, 0, 0}}, -1 * up, up}};
+TEST_CASE("fit: far correspondences weigh more than near ones") {
+    // Two correspondences at one corner, up by 4 and down by 1: weights 2 and 1, so (2 * 4 - 1) / 3.
+    const std::vector<Correspondence> correspondences = {{{0, {1, 0, 0}}, 4 * up, up},
+                                                         {{0, {1, 0, 0}}, -1 * up, up}};
     const std::vector<std::uint8_t> free(3, 0);
-    CHECK(detail::fitting_step(one, pulls, free, 0.5, 1)[0].z() == Approx(7.0 / 3).epsilon(0.02));
+    CHECK(detail::gauss_newton_step(one, correspondences, free, 0.5, 1)[0].z() ==
+          Approx(7.0 / 3).epsilon(0.02));
 }
 
-TEST_CASE("fit: without pulls nothing moves") {
+TEST_CASE("fit: without correspondences nothing moves") {
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::fitting_step(one, {}, free, 0.5, 1)) CHECK(step == Vector3::Zero());
+    for (const Vector3& step : detail::gauss_newton_step(one, {}, free, 0.5, 1))
+        CHECK(step == Vector3::Zero());
 }
 
 TEST_CASE("fit: the step solves the system written out as a dense matrix") {
-    // Two triangles on an edge, one vertex fixed, pulls with all kinds of weights and normals.
+    // Two triangles on an edge, one vertex fixed, correspondences with all kinds of weights and normals.
     const std::vector<Triangle> two = {{0, 1, 2}, {2, 1, 3}};
     const std::vector<std::uint8_t> fixed = {0, 0, 0, 1};
     test::Random random(3);
-    std::vector<Pull> pulls;
+    std::vector<Correspondence> correspondences;
     for (int i = 0; i < 40; ++i) {
         const double a = random.between(0, 1), b = random.between(0, 1 - a);
         const auto any = [&] {
             return Vector3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
         };
-        pulls.push_back({{static_cast<Index>(i % 2), {a, b, 1 - a - b}}, any(), any().normalized()});
+        correspondences.push_back(
+            {{static_cast<Index>(i % 2), {a, b, 1 - a - b}}, any(), any().normalized()});
     }
     double mean = 0;
-    for (const Pull& pull : pulls) mean += pull.gap.norm() / 40;
+    for (const Correspondence& correspondence : correspondences) mean += correspondence.residual.norm() / 40;
     Eigen::Matrix<double, 12, 12> matrix = Eigen::Matrix<double, 12, 12>::Zero();
     Eigen::Matrix<double, 12, 1> right = Eigen::Matrix<double, 12, 1>::Zero();
-    for (const Pull& pull : pulls) {
+    for (const Correspondence& correspondence : correspondences) {
         Eigen::Matrix<double, 3, 12> there = Eigen::Matrix<double, 3, 12>::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
-            const Index v = two[pull.spot.face][k];
-            if (!fixed[v]) there.block<3, 3>(0, 3 * v) += pull.spot.weight[k] * Eigen::Matrix3d::Identity();
+            const Index v = two[correspondence.sample.face][k];
+            if (!fixed[v])
+                there.block<3, 3>(0, 3 * v) +=
+                    correspondence.sample.barycentric[k] * Eigen::Matrix3d::Identity();
         }
-        const double w = std::sqrt(std::max(pull.gap.norm() / mean, 0.1));
-        const Eigen::Matrix3d metric =
-            w * (0.9 * pull.normal * pull.normal.transpose() + 0.1 * Eigen::Matrix3d::Identity());
+        const double w = std::sqrt(std::max(correspondence.residual.norm() / mean, 0.1));
+        const Eigen::Matrix3d metric = w * (0.9 * correspondence.normal * correspondence.normal.transpose() +
+                                            0.1 * Eigen::Matrix3d::Identity());
         matrix += there.transpose() * metric * there;
-        right += there.transpose() * metric * pull.gap;
+        right += there.transpose() * metric * correspondence.residual;
     }
     const double all = matrix.trace();
     for (Eigen::Index v = 0; v < 4; ++v) {
@@ -91,16 +97,17 @@ TEST_CASE("fit: the step solves the system written out as a dense matrix") {
         own += hold * Eigen::Matrix3d::Identity();
     }
     const Eigen::Matrix<double, 12, 1> solution = matrix.ldlt().solve(right);
-    const std::vector<Vector3> steps = detail::fitting_step(two, pulls, fixed, 0.5, 1);
+    const std::vector<Vector3> steps = detail::gauss_newton_step(two, correspondences, fixed, 0.5, 1);
     for (Eigen::Index v = 0; v < 4; ++v) {
         CHECK((steps[static_cast<std::size_t>(v)] - solution.segment<3>(3 * v)).norm() <
               5e-3 * solution.norm());
     }
     CHECK(steps[3] == Vector3::Zero());
-    CHECK(detail::fitting_step(two, pulls, fixed, 0.5, 3) == steps);
+    CHECK(detail::gauss_newton_step(two, correspondences, fixed, 0.5, 3) == steps);
 }
 
-TEST_CASE("fit: a spot is where its weights say") {
+TEST_CASE("fit: a sample is where its weights say") {
     const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
-    CHECK((detail::Spot{0, {0.25, 0.25, 0.5}}.on(x, one) - Vector3(0.25, 1, 0)).norm() < 1e-15);
+    CHECK((detail::SurfaceSample{0, {0.25, 0.25, 0.5}}.position(x, one) - Vector3(0.25, 1, 0)).norm() <
+          1e-15);
 }

@@ -2,21 +2,22 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using engine::Vector3;
 
 namespace {
 
-TriangleMesh relaxed(const TriangleMesh& original, const TriangleMesh& light,
-                     std::vector<std::uint8_t> fixed = {}, std::uint32_t threads = 1) {
+TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& light,
+                    std::vector<std::uint8_t> fixed = {}, std::uint32_t threads = 1) {
     fixed.resize(light.positions.size(), 0);
     const std::vector<Vector3> from = test::vectors(original), to = test::vectors(light);
     TriangleMesh result = light;
-    const auto moved = detail::relax({from, original.triangles}, {to, light.triangles}, fixed, 0.3, threads);
+    const auto moved =
+        detail::fit_vertices({from, original.triangles}, {to, light.triangles}, fixed, 0.3, threads);
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);
     return result;
 }
@@ -29,7 +30,7 @@ Comparison distance(const TriangleMesh& a, const TriangleMesh& b) {
 
 TEST_CASE("relax: an inscribed icosahedron comes closer to the sphere") {
     const TriangleMesh sphere = test::icosphere(4), light = test::icosphere(1);
-    const TriangleMesh result = relaxed(sphere, light);
+    const TriangleMesh result = fitted(sphere, light);
     const Comparison before = distance(sphere, light), after = distance(sphere, result);
     CHECK(after.chamfer < 0.6 * before.chamfer);
     CHECK(after.hausdorff <= before.hausdorff);
@@ -38,7 +39,7 @@ TEST_CASE("relax: an inscribed icosahedron comes closer to the sphere") {
 
 TEST_CASE("relax: what fits already stays where it is") {
     const TriangleMesh cube = test::cube();
-    const TriangleMesh result = relaxed(cube, cube);
+    const TriangleMesh result = fitted(cube, cube);
     for (std::size_t v = 0; v < cube.positions.size(); ++v) {
         CHECK((engine::to_eigen(result.positions[v]) - engine::to_eigen(cube.positions[v])).norm() < 1e-9);
     }
@@ -51,7 +52,7 @@ TEST_CASE("relax: fixed vertices and open borders do not move") {
     for (Vec3& p : scaled.positions) p = {p[0] * 6, p[1] * 6, p[2]};
     std::vector<std::uint8_t> fixed(scaled.positions.size(), 0);
     fixed[12] = 1;  // the middle of five by five
-    const TriangleMesh result = relaxed(bumpy, scaled, fixed);
+    const TriangleMesh result = fitted(bumpy, scaled, fixed);
     std::size_t moved = 0;
     for (std::size_t v = 0; v < 25; ++v) {
         const bool inner = v % 5 != 0 && v % 5 != 4 && v / 5 != 0 && v / 5 != 4;
@@ -69,7 +70,7 @@ TEST_CASE("relax: flat sides do not tilt for a gain in distance that is smaller 
         for (double& x : p) x = std::clamp(1.1 * x / most, -1.0, 1.0);
     }
     const TriangleMesh cube = test::moved(test::scaled(test::cube(), 2), {-1, -1, -1});
-    const Comparison before = distance(rounded, cube), after = distance(rounded, relaxed(rounded, cube));
+    const Comparison before = distance(rounded, cube), after = distance(rounded, fitted(rounded, cube));
     const double distances = after.chamfer / before.chamfer;
     const double normals = after.mean_normal_degrees / before.mean_normal_degrees;
     CHECK(distances * normals * normals <= 1.001);
@@ -77,14 +78,14 @@ TEST_CASE("relax: flat sides do not tilt for a gain in distance that is smaller 
 
 TEST_CASE("relax: the result does not depend on the number of threads") {
     const TriangleMesh sphere = test::shaken(test::icosphere(3), 0.03, 1), light = test::icosphere(1);
-    CHECK(relaxed(sphere, light, {}, 1).positions == relaxed(sphere, light, {}, 3).positions);
+    CHECK(fitted(sphere, light, {}, 1).positions == fitted(sphere, light, {}, 3).positions);
 }
 
 TEST_CASE("relax: no face turns over or vanishes") {
     const TriangleMesh rough = test::shaken(test::icosphere(4), 0.1, 9);
     const SimplifyResult balanced =
         simplify(rough.view(), {.target = faces(120), .preset = Preset::balanced});
-    const TriangleMesh moved = relaxed(rough, balanced.mesh);
+    const TriangleMesh moved = fitted(rough, balanced.mesh);
     CHECK(moved.positions != balanced.mesh.positions);
     for (const Triangle& t : moved.triangles) {
         const auto normal = [&](const TriangleMesh& mesh) {
@@ -99,19 +100,19 @@ TEST_CASE("relax: no face turns over or vanishes") {
     CHECK(distance(rough, moved).chamfer < distance(rough, balanced.mesh).chamfer);
 }
 
-TEST_CASE("relax: edges swapped in between bring the surface closer still, and it stays closed") {
+TEST_CASE("relax: edges flipped in between bring the surface closer still, and it stays closed") {
     const TriangleMesh rough = test::shaken(test::icosphere(4), 0.1, 9);
     const SimplifyResult balanced =
         simplify(rough.view(), {.target = faces(120), .preset = Preset::balanced});
     const SimplifyResult best = simplify(rough.view(), {.target = faces(120), .preset = Preset::best});
-    CHECK(best.report.vertices_relaxed > 0);
-    CHECK(best.report.edges_swapped > 0);
-    CHECK(balanced.report.vertices_relaxed == 0);
-    CHECK(balanced.report.edges_swapped == 0);
+    CHECK(best.report.vertices_fitted > 0);
+    CHECK(best.report.edges_flipped > 0);
+    CHECK(balanced.report.vertices_fitted == 0);
+    CHECK(balanced.report.edges_flipped == 0);
     CHECK(best.mesh.triangles.size() == 120);
     CHECK(test::euler(best.mesh.triangles) == test::euler(balanced.mesh.triangles));
     CHECK(info(best.mesh.view()).boundary_edges == 0);
-    const TriangleMesh moved = relaxed(rough, balanced.mesh);
+    const TriangleMesh moved = fitted(rough, balanced.mesh);
     CHECK(distance(rough, best.mesh).chamfer < distance(rough, moved).chamfer);
 }
 
@@ -126,7 +127,7 @@ TEST_CASE("relax: the history knows where the vertices went, and its versions st
     CHECK(plain.history.kept_positions.empty());
     CHECK(replay(r.history).positions == r.mesh.positions);
     CHECK(replay(r.history).triangles == r.mesh.triangles);
-    CHECK(r.history.patch_count() == r.history.collapses.size() + r.report.edges_swapped);
+    CHECK(r.history.patch_count() == r.history.collapses.size() + r.report.edges_flipped);
     for (std::size_t i = 0; i < plain.mesh.positions.size(); ++i) {
         CHECK(r.history.position(r.history.kept_versions[i]) == plain.mesh.positions[i]);
     }

@@ -16,10 +16,10 @@
 #include <span>
 #include <string>
 
-#include "support/meshes.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -97,11 +97,11 @@ inline Options options_of(Input& in) {
     o.topology.link = static_cast<LinkCondition>(bits % 5);
     if (bits & 32) o.topology.weld = Weld::none;
     if (bits & 64) o.topology.virtual_edges = VirtualEdges::on, o.topology.virtual_edge_distance = 0.5;
-    if (bits & 128) o.topology.border = Border::locked;
-    if (more & 1) o.topology.group_borders = GroupBorders::kept;
+    if (bits & 128) o.topology.boundary = Boundary::locked;
+    if (more & 1) o.topology.group_boundaries = GroupBoundaries::kept;
     if (more & 2) o.topology.weld_distance = std::abs(in.real());
     if (more & 4) o.topology.prune = of_diagonal(0.25);
-    if (more & 16) o.visibility = Visibility::weighs;
+    if (more & 16) o.visibility = Visibility::weighted;
     if (more & 8) {
         o.weights = {in.real(), in.real(), in.real(), in.real(), in.real()};
     }

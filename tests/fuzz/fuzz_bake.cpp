@@ -106,7 +106,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < 2; ++i) asset.materials.push_back(material_of(in, asset.images.size()));
     for (std::size_t i = 0; i < 1u + (bits >> 6) % 2; ++i) asset.parts.push_back(part_of(in, 2));
     try {
-        const LightAsset light = simplify(asset, options);
+        const SimplifiedAsset light = simplify(asset, options);
         fuzz::expect_sound(light.asset);
         for (const PageOrigins& page : light.correspondence)
             fuzz::expect(page.texels.size() == std::size_t{page.width} * page.height, "every texel's origin");

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "faqem/detail/simplify/block_decimation.hpp"
-#include "fuzz/fuzz.hpp"
-#include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/detail/simplify/presets.hpp"
+#include "faqem/detail/simplify/run_state.hpp"
+#include "fuzz/fuzz.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
-using engine::Complex;
+using engine::CollapseMesh;
 
 namespace {
 
@@ -50,12 +50,12 @@ TriangleMesh surface_of(fuzz::Input& in) {
     return in.flag() ? mesh : test::both(std::move(mesh), fuzz::mesh_of(in));
 }
 
-engine::LoopOptions loop_of(fuzz::Input& in, const Ground& ground) {
+engine::LoopOptions loop_of(fuzz::Input& in, const RunState& state) {
     constexpr LinkCondition links[] = {LinkCondition::by_size, LinkCondition::on, LinkCondition::off};
     engine::LoopOptions loop;
     const std::uint8_t bits = in.byte();
     loop.rules = {links[bits % 3], bits & 4 ? 0.3 : -1, 1e-8, bits & 8 ? -0.9 : -1};
-    if (bits & 16) loop.distance_weight = ground.area() / (1 + in.byte());
+    if (bits & 16) loop.distance_weight = state.area() / (1 + in.byte());
     return loop;
 }
 
@@ -89,9 +89,9 @@ int euler(std::span<const Triangle> triangles) {
 }
 
 /// Does the steps one after the other, as an engine would have.
-void expect_steps(const BlockInput& input, const BlockSteps& found, const Reduced& reduced) {
-    Complex complex({input.positions.begin(), input.positions.end()},
-                    {input.triangles.begin(), input.triangles.end()});
+void expect_steps(const BlockInput& input, const BlockSteps& found, const CompactedMesh& compacted) {
+    CollapseMesh collapse_mesh({input.positions.begin(), input.positions.end()},
+                               {input.triangles.begin(), input.triangles.end()});
     std::vector<std::uint8_t> waits(input.locked.begin(), input.locked.end());
     for (const Triangle& t : input.triangles) {
         if (!input.is_between_blocks(t)) continue;
@@ -101,12 +101,13 @@ void expect_steps(const BlockInput& input, const BlockSteps& found, const Reduce
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
         expect(survivor < input.positions.size() && gone < input.positions.size(), "slots in range");
-        expect(complex.degree(survivor) > 0 && complex.degree(gone) > 0, "vertices that are there");
+        expect(collapse_mesh.degree(survivor) > 0 && collapse_mesh.degree(gone) > 0,
+               "vertices that are there");
         expect(!waits[gone], "what is locked or between blocks stays");
-        expect(!waits[survivor] || to == complex.position(survivor), "what is locked does not move");
+        expect(!waits[survivor] || to == collapse_mesh.position(survivor), "what is locked does not move");
         expect(std::isfinite(to.squaredNorm()), "finite places");
         std::vector<Index> patch;
-        complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.push_back(f); });
+        collapse_mesh.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.push_back(f); });
         const std::size_t begin = found.patch_begin[i];
         const std::size_t end =
             i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
@@ -116,24 +117,27 @@ void expect_steps(const BlockInput& input, const BlockSteps& found, const Reduce
         std::sort(patch.begin(), patch.end());
         std::sort(told.begin(), told.end());
         expect(patch == told, "the faces of a step");
-        complex.collapse(survivor, gone, to);
+        collapse_mesh.collapse(survivor, gone, to);
     }
-    expect(reduced.triangles.size() == complex.face_count(), "the same number of faces");
-    expect(reduced.positions.size() == reduced.vertices.size() &&
-               reduced.places.size() == reduced.vertices.size() &&
-               reduced.into.size() == input.positions.size() &&
-               reduced.faces.size() == reduced.triangles.size(),
+    expect(compacted.triangles.size() == collapse_mesh.face_count(), "the same number of faces");
+    expect(compacted.positions.size() == compacted.vertices.size() &&
+               compacted.source_slots.size() == compacted.vertices.size() &&
+               compacted.vertex_map.size() == input.positions.size() &&
+               compacted.faces.size() == compacted.triangles.size(),
            "whole arrays");
-    for (std::size_t f = 0; f < reduced.faces.size(); ++f) {
-        expect(complex.alive(reduced.faces[f]), "faces that are left");
+    for (std::size_t f = 0; f < compacted.faces.size(); ++f) {
+        expect(collapse_mesh.is_alive(compacted.faces[f]), "faces that are left");
         for (std::size_t k = 0; k < 3; ++k) {
-            const Index v = reduced.triangles[f][k];
-            expect(v < reduced.vertices.size(), "vertices in range");
-            expect(reduced.vertices[v] == complex.triangle(reduced.faces[f])[k], "the same corners");
-            expect(reduced.positions[v] == complex.position(reduced.vertices[v]), "the same places");
+            const Index v = compacted.triangles[f][k];
+            expect(v < compacted.vertices.size(), "vertices in range");
+            expect(compacted.vertices[v] == collapse_mesh.triangle(compacted.faces[f])[k],
+                   "the same corners");
+            expect(compacted.positions[v] == collapse_mesh.position(compacted.vertices[v]),
+                   "the same places");
         }
     }
-    for (const Index v : reduced.into) expect(v == no_index || v < reduced.vertices.size(), "lineages");
+    for (const Index v : compacted.vertex_map)
+        expect(v == no_index || v < compacted.vertices.size(), "lineages");
 }
 
 bool same_steps(const BlockSteps& a, const BlockSteps& b) {
@@ -146,23 +150,23 @@ bool same_steps(const BlockSteps& a, const BlockSteps& b) {
 }
 
 /// One stage of simplify(): blocks, and what they leave.
-void reduce_in_blocks(Ground& ground, const engine::LoopOptions& loop, std::size_t per_block,
+void reduce_in_blocks(RunState& state, const engine::LoopOptions& loop, std::size_t per_block,
                       std::size_t least, const BlockTracking* tracking) {
-    const BlockInput input{ground.now().positions, ground.now().triangles, ground.locked(), per_block};
+    const BlockInput input{state.mesh().positions, state.mesh().triangles, state.locked(), per_block};
     const auto steps = [&](std::uint32_t threads) {
         return simplify_in_blocks(input, loop, least, tracking, Recording::on, threads);
     };
     const BlockSteps found = steps(1);
     for (const std::uint32_t threads : {2u, 3u})
         expect(same_steps(found, steps(threads)), "the same with any number of threads");
-    Reduced reduced = reduce(input, found.steps);
-    expect_steps(input, found, reduced);
-    expect(found.steps.empty() || reduced.triangles.size() >= least, "as many faces as wanted");
+    CompactedMesh compacted = apply_steps(input, found.steps);
+    expect_steps(input, found, compacted);
+    expect(found.steps.empty() || compacted.triangles.size() >= least, "as many faces as wanted");
     if (loop.rules.link == LinkCondition::on && is_closed_manifold(input.triangles)) {
-        expect(is_closed_manifold(reduced.triangles), "a closed manifold stays one");
-        expect(euler(reduced.triangles) == euler(input.triangles), "the same topology");
+        expect(is_closed_manifold(compacted.triangles), "a closed manifold stays one");
+        expect(euler(compacted.triangles) == euler(input.triangles), "the same topology");
     }
-    ground.take(std::move(reduced));
+    state.advance_to(std::move(compacted));
 }
 
 }  // namespace
@@ -175,19 +179,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t bits = in.byte();
     const TriangleMesh mesh = surface_of(in);
     try {
-        const Prepared prepared = prepare(mesh.view(), settings({}));
+        const PreprocessedMesh prepared = preprocess(mesh.view(), settings({}));
         std::vector<std::uint8_t> locked(prepared.positions.size(), 0);
         if (bits & 1)
             for (std::uint8_t& l : locked) l = in.byte() < 32;
-        Ground ground(prepared, locked, bits & 2 ? Border::locked : Border::free);
-        ground.remember_original();
-        const engine::LoopOptions loop = loop_of(in, ground);
+        RunState state(prepared, locked, bits & 2 ? Boundary::locked : Boundary::free);
+        state.track_original();
+        const engine::LoopOptions loop = loop_of(in, state);
         const auto least = [&] {
-            return static_cast<std::size_t>(share * static_cast<double>(ground.now().triangles.size()));
+            return static_cast<std::size_t>(share * static_cast<double>(state.mesh().triangles.size()));
         };
-        if (!(bits & 4)) reduce_in_blocks(ground, loop, per_block, least(), nullptr);
-        const BlockTracking tracking{*ground.original(), ground.into()};
-        reduce_in_blocks(ground, loop, per_block, least(), &tracking);
+        if (!(bits & 4)) reduce_in_blocks(state, loop, per_block, least(), nullptr);
+        const BlockTracking tracking{*state.original(), state.vertex_map()};
+        reduce_in_blocks(state, loop, per_block, least(), &tracking);
     } catch (const InputError&) {
     }
     return 0;

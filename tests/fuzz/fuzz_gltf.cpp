@@ -1,7 +1,7 @@
 // JSON, a zero byte, and the BIN chunk: the frame is always right, so that what is inside gets its share.
 
-#include "asset/gltf/gltf.hpp"
 #include "asset/gltf/framing.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "faqem/bake.hpp"
 #include "fuzz/fuzz.hpp"
 

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "faqem/bake.hpp"
 #include "support/gltf_compressed_builder.hpp"
 #include "support/scenes.hpp"
-#include "faqem/bake.hpp"
 
 using namespace faqem;
 

@@ -219,16 +219,16 @@ TEST_CASE("a ray meets what is before it, and tells the side it comes from") {
         sides.push_back(side);
         return true;
     };
-    CHECK(tree.meets({1, 0.5, 3}, {0, 0, -1}, seen));
-    CHECK(tree.meets({1, 0.5, -3}, {0, 0, 1}, seen));
+    CHECK(tree.any_hit({1, 0.5, 3}, {0, 0, -1}, seen));
+    CHECK(tree.any_hit({1, 0.5, -3}, {0, 0, 1}, seen));
     CHECK(sides == std::vector{Bvh::Side::front, Bvh::Side::back});
-    CHECK(tree.meets({0, 0, 1}, {0, 0, -1}, seen));              // a corner
-    CHECK(tree.meets({2, 0, 1}, {0, 0, -1}, seen));              // an edge
-    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, 1}, seen));       // behind it
-    CHECK_FALSE(tree.meets({3, 1.5, 3}, {0, 0, -1}, seen));      // beside it
-    CHECK_FALSE(tree.meets({-1, 0.5, 0}, {1, 0, 0}, seen));      // in its plane
-    CHECK_FALSE(tree.meets({1, 0.5, 3}, {0, 0, -1}, [](Index, Bvh::Side) { return false; }));
-    CHECK_FALSE(Bvh().meets({0, 0, 0}, {0, 0, 1}, seen));
+    CHECK(tree.any_hit({0, 0, 1}, {0, 0, -1}, seen));          // a corner
+    CHECK(tree.any_hit({2, 0, 1}, {0, 0, -1}, seen));          // an edge
+    CHECK_FALSE(tree.any_hit({1, 0.5, 3}, {0, 0, 1}, seen));   // behind it
+    CHECK_FALSE(tree.any_hit({3, 1.5, 3}, {0, 0, -1}, seen));  // beside it
+    CHECK_FALSE(tree.any_hit({-1, 0.5, 0}, {1, 0, 0}, seen));  // in its plane
+    CHECK_FALSE(tree.any_hit({1, 0.5, 3}, {0, 0, -1}, [](Index, Bvh::Side) { return false; }));
+    CHECK_FALSE(Bvh().any_hit({0, 0, 0}, {0, 0, 1}, seen));
 }
 
 TEST_CASE("a ray meets what a search over all faces meets") {
@@ -254,14 +254,15 @@ TEST_CASE("a ray meets what a search over all faces meets") {
                 const Vector3 p = origin + t * direction;
                 bool inside = true;
                 for (std::size_t k = 0; k < 3; ++k)
-                    inside = inside && (corner((k + 1) % 3) - corner(k)).cross(p - corner(k)).dot(normal) >= 0;
+                    inside =
+                        inside && (corner((k + 1) % 3) - corner(k)).cross(p - corner(k)).dot(normal) >= 0;
                 if (inside) expected[f] = slope < 0 ? 1 : 2;
             }
-            const bool any = tree.meets(faqem::engine::to_array(origin), faqem::engine::to_array(direction),
-                                        [&](Index f, Bvh::Side side) {
-                                            found[f] = side == Bvh::Side::front ? 1 : 2;
-                                            return false;
-                                        });
+            const bool any = tree.any_hit(faqem::engine::to_array(origin), faqem::engine::to_array(direction),
+                                          [&](Index f, Bvh::Side side) {
+                                              found[f] = side == Bvh::Side::front ? 1 : 2;
+                                              return false;
+                                          });
             CHECK_FALSE(any);
             CHECK(found == expected);
             met += static_cast<std::size_t>(std::count(found.begin(), found.end(), 0)) < faces;
@@ -326,7 +327,7 @@ TEST_CASE("a tree whose triangles have moved answers as a new one would") {
         CHECK(tree.closest(p).distance_squared == Approx(anew.closest(p).distance_squared).margin(1e-30));
         const auto near = static_cast<Index>(soup.triangles.size() - 1 - v / 3);
         const auto [a0, b0, c0] = soup.triangles[near];
-        CHECK(tree.closest_from(p, near, positions[a0], positions[b0], positions[c0]).distance_squared ==
+        CHECK(tree.closest_with_hint(p, near, positions[a0], positions[b0], positions[c0]).distance_squared ==
               tree.closest(p).distance_squared);
     }
 }

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 using namespace faqem;
-using detail::swap_edge;
+using detail::flip_edge;
 
 //    2            2
 //   / \          /|\       the edge 0-1 becomes 2-3
@@ -14,7 +14,7 @@ using detail::swap_edge;
 
 TEST_CASE("edge swap: the diagonal moves, and the winding stays") {
     Triangle s = {0, 1, 2}, t = {1, 0, 3};
-    REQUIRE(swap_edge(s, t));
+    REQUIRE(flip_edge(s, t));
     CHECK(s == Triangle{0, 3, 2});
     CHECK(t == Triangle{1, 2, 3});
 }
@@ -24,7 +24,7 @@ TEST_CASE("edge swap: it does not matter where the corners begin") {
         Triangle s = {0, 1, 2}, t = {1, 0, 3};
         std::rotate(s.begin(), s.begin() + k % 3, s.end());
         std::rotate(t.begin(), t.begin() + k / 3, t.end());
-        REQUIRE(swap_edge(s, t));
+        REQUIRE(flip_edge(s, t));
         CHECK(s == Triangle{0, 3, 2});
         CHECK(t == Triangle{1, 2, 3});
     }
@@ -32,8 +32,8 @@ TEST_CASE("edge swap: it does not matter where the corners begin") {
 
 TEST_CASE("edge swap: two of them give the faces back, each as the other") {
     Triangle s = {0, 1, 2}, t = {1, 0, 3};
-    swap_edge(s, t);
-    REQUIRE(swap_edge(s, t));
+    flip_edge(s, t);
+    REQUIRE(flip_edge(s, t));
     CHECK(s == Triangle{3, 1, 0});
     CHECK(t == Triangle{2, 0, 1});
 }
@@ -41,7 +41,7 @@ TEST_CASE("edge swap: two of them give the faces back, each as the other") {
 TEST_CASE("edge swap: nothing happens where no single edge is shared in opposite directions") {
     const auto stays = [](Triangle s, Triangle t) {
         const Triangle old_s = s, old_t = t;
-        return !swap_edge(s, t) && s == old_s && t == old_t;
+        return !flip_edge(s, t) && s == old_s && t == old_t;
     };
     CHECK(stays({0, 1, 2}, {3, 4, 5}));
     CHECK(stays({0, 1, 2}, {1, 3, 4}));

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/error.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using detail::Surface;
@@ -13,22 +13,22 @@ TEST_CASE("a surface leaves out faces without area, and unused and repeated posi
     TriangleMesh mesh = test::both(test::quad(), test::quad());
     mesh.positions.push_back({9, 9, 9});
     mesh.triangles.push_back({0, 0, 1});
-    const Surface surface = detail::make_surface(mesh.view(), "mesh");
+    const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
     CHECK(surface.positions.size() == 4);
     CHECK(surface.triangles.size() == 4);
     CHECK(surface.faces == std::vector<Index>{0, 1, 2, 3});
-    CHECK(surface.area_up_to.back() == Approx(2));
+    CHECK(surface.cumulative_area.back() == Approx(2));
     CHECK(surface.diagonal() == Approx(std::sqrt(2.0)));
-    CHECK_THROWS_AS(detail::make_surface(TriangleMesh().view(), "mesh"), InputError);
+    CHECK_THROWS_AS(detail::extract_nonempty_surface(TriangleMesh().view(), "mesh"), InputError);
 }
 
 TEST_CASE("at an edge the best of the normals on both sides counts, off it the face's own") {
     // The edge of a cube: nearest to a point beyond it are a face of the top and one of the front.
     const TriangleMesh cube = test::cube();
-    const Surface surface = detail::make_surface(cube.view(), "cube");
+    const Surface surface = detail::extract_nonempty_surface(cube.view(), "cube");
     const detail::Bvh tree(surface.positions, surface.triangles);
     const auto cosine = [&](const Vec3& p, const Vector3& normal) {
-        return detail::best_cosine(tree, surface.normals, p, tree.closest(p), normal, 1e-9);
+        return detail::max_normal_cosine(tree, surface.normals, p, tree.closest(p), normal, 1e-9);
     };
     CHECK(cosine({0.4, -1, 2}, {0, 0, 1}) == 1);
     CHECK(cosine({0.4, -1, 2}, {0, -1, 0}) == 1);
@@ -39,7 +39,7 @@ TEST_CASE("at an edge the best of the normals on both sides counts, off it the f
 
 TEST_CASE("coherent queries find what the tree finds") {
     const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.05, 4);
-    const Surface surface = detail::make_surface(mesh.view(), "mesh");
+    const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
     const detail::Bvh tree(surface.positions, surface.triangles);
     detail::CoherentQuery query(surface, tree);
     test::Random random(1);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 using namespace faqem;
-using detail::Spot;
+using detail::SurfaceSample;
 using engine::Vector3;
 
 namespace {
@@ -20,33 +20,35 @@ const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, 
 }  // namespace
 
 TEST_CASE("spots: points are spread by area, in the order of the faces") {
-    const std::vector<Spot> spots = detail::evenly_spread({places, faces}, 400);
-    REQUIRE(spots.size() == 400);
-    CHECK(std::count_if(spots.begin(), spots.end(), [](const Spot& s) { return s.face == 0; }) == 300);
-    CHECK(std::is_sorted(spots.begin(), spots.end(),
-                         [](const Spot& a, const Spot& b) { return a.face < b.face; }));
+    const std::vector<SurfaceSample> samples = detail::area_uniform_samples({places, faces}, 400);
+    REQUIRE(samples.size() == 400);
+    CHECK(std::count_if(samples.begin(), samples.end(), [](const SurfaceSample& s) { return s.face == 0; }) ==
+          300);
+    CHECK(std::is_sorted(samples.begin(), samples.end(),
+                         [](const SurfaceSample& a, const SurfaceSample& b) { return a.face < b.face; }));
     Vector3 mean = Vector3::Zero();
-    for (const Spot& spot : spots) {
-        CHECK(spot.face != 1);
-        CHECK(std::min({spot.weight[0], spot.weight[1], spot.weight[2]}) >= 0);
-        CHECK(spot.weight[0] + spot.weight[1] + spot.weight[2] == Approx(1));
-        if (spot.face == 0) mean += spot.on(places, faces) / 300;
+    for (const SurfaceSample& sample : samples) {
+        CHECK(sample.face != 1);
+        CHECK(std::min({sample.barycentric[0], sample.barycentric[1], sample.barycentric[2]}) >= 0);
+        CHECK(sample.barycentric[0] + sample.barycentric[1] + sample.barycentric[2] == Approx(1));
+        if (sample.face == 0) mean += sample.position(places, faces) / 300;
     }
     CHECK((mean - Vector3(1, 2.0 / 3, 0)).norm() < 0.01);
 }
 
 TEST_CASE("spots: without area there are none") {
     const std::vector<Triangle> flat = {{0, 1, 3}};
-    CHECK(detail::evenly_spread({places, flat}, 10).empty());
-    CHECK(detail::evenly_spread({places, {}}, 10).empty());
+    CHECK(detail::area_uniform_samples({places, flat}, 10).empty());
+    CHECK(detail::area_uniform_samples({places, {}}, 10).empty());
 }
 
 TEST_CASE("spots: every corner once, every middle of an edge once for each face") {
-    const std::vector<Spot> spots = detail::corners_and_middles(faces);
-    CHECK(spots.size() == 5 + 6);
+    const std::vector<SurfaceSample> samples = detail::vertex_and_midpoint_samples(faces);
+    CHECK(samples.size() == 5 + 6);
     const auto at = [&](const Vector3& p) {
-        return std::count_if(spots.begin(), spots.end(),
-                             [&](const Spot& s) { return (s.on(places, faces) - p).norm() < 1e-15; });
+        return std::count_if(samples.begin(), samples.end(), [&](const SurfaceSample& s) {
+            return (s.position(places, faces) - p).norm() < 1e-15;
+        });
     };
     for (const Vector3& p : places) CHECK(at(p) == 1);
     CHECK(at({1.5, 1, 0}) == 1);

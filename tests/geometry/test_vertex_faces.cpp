@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 
 using namespace faqem;
-using detail::FacesAround;
+using detail::VertexFaces;
 
 namespace {
 
-std::vector<Index> list(const FacesAround& around, Index v) { return {around[v].begin(), around[v].end()}; }
+std::vector<Index> list(const VertexFaces& around, Index v) { return {around[v].begin(), around[v].end()}; }
 
 }  // namespace
 
@@ -16,7 +16,7 @@ TEST_CASE("faces around vertices come in their order, and those that are none do
     //  | / |    and vertex 4 on its own
     //  0---1
     const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {0, 2, 3}};
-    const FacesAround around = detail::faces_around(5, faces);
+    const VertexFaces around = detail::make_vertex_faces(5, faces);
     CHECK(list(around, 0) == std::vector<Index>{0, 2});
     CHECK(list(around, 1) == std::vector<Index>{0});
     CHECK(list(around, 2) == std::vector<Index>{0, 2});

@@ -2,7 +2,7 @@
 # An engine header may include those of a lower rank; a door may not include the engine at all.
 cmake_minimum_required(VERSION 3.22)
 
-set(ranks "vector=0;poll=0;lists=0;quadric=1;distance=1;scrambled=1;disjoint_sets=1;complex=1;weld=1;queue=1;bucket_queue=2;round_queue=3;pairs=2;folds=2;double_faces=2;open_edges=3;original=4;bindings=4;border_loops=4;border_bindings=4;terms=3;placement=3;degenerate=3;components=3;legality=4"
+set(ranks "vector=0;poll=0;lists=0;quadric=1;distance=1;scrambled=1;disjoint_sets=1;complex=1;weld=1;queue=1;bucket_queue=2;round_queue=3;pairs=2;folds=2;duplicate_faces=2;boundary_edges=3;original=4;bindings=4;border_loops=4;border_bindings=4;terms=3;placement=3;degenerate=3;components=3;legality=4"
           "metric=4;memoryless=4;tracked=5;wedges=4;recorder=4;group_curves=4;importance=4;custom_metric=5;ladder=5;loop=5;engine=6;simplify_with=7")
 foreach(entry IN LISTS ranks)
     string(REPLACE "=" ";" entry ${entry})

@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "support/meshes.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 
@@ -165,7 +165,7 @@ TEST_CASE("where the kept vertices went is written and read, or refused where th
           "history: kept_positions: needs one entry per kept version or none");
 }
 
-TEST_CASE("a swap is written, read and replayed") {
+TEST_CASE("a flip is written, read and replayed") {
     CollapseHistory history = swapped();
     const TriangleMesh mesh = replay(read(bytes(history)));
     //  3---2        3---2
@@ -178,19 +178,19 @@ TEST_CASE("a swap is written, read and replayed") {
     CHECK(replay(history).triangles == std::vector<Triangle>{{3, 0, 2}, {1, 2, 0}});
 }
 
-TEST_CASE("a swap needs two faces with one edge in common") {
+TEST_CASE("a flip needs two faces with one edge in common") {
     CollapseHistory history = swapped();
     history.patch_faces = {0, 0};
     CHECK(complaint([&] { validate(history); }) ==
-          "history: patch_begin[0]: a swap of faces that share no edge");
+          "history: patch_begin[0]: a flip of faces that share no edge");
     history.patch_faces = {0};
     history.patch_begin = {0, 1};
-    CHECK(complaint([&] { validate(history); }) == "history: patch_begin[0]: a swap has two faces");
+    CHECK(complaint([&] { validate(history); }) == "history: patch_begin[0]: a flip has two faces");
     history = small();  // face 0 is not kept
     history.patch_faces.insert(history.patch_faces.end(), {0, 1});
     history.patch_begin.push_back(4);
     CHECK(complaint([&] { validate(history); }) ==
-          "history: patch_begin[1]: a swap of faces that share no edge");
+          "history: patch_begin[1]: a flip of faces that share no edge");
 }
 
 TEST_CASE("columns of different length are refused, empty ones too") {

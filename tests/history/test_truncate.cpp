@@ -1,12 +1,12 @@
-#include "faqem/cut.hpp"
+#include "faqem/truncate.hpp"
 
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
 
-#include "support/meshes.hpp"
 #include "faqem/error.hpp"
 #include "faqem/levels.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 
@@ -76,9 +76,9 @@ TEST_CASE("a stored chain gives every level as its run did") {
         REQUIRE(chain.level_count() == 3);
         for (std::size_t i = 0; i < 3; ++i) {
             const SimplifyResult& level = levels[i].result;
-            check_same(restore(cut_at_level(chain, i)), level);
-            check_same(restore(cut_to(chain, level.report.faces_out)), level);
-            check_same(restore(cut_to(chain, level.report.target_faces)), level);
+            check_same(restore(truncate_to_level(chain, i)), level);
+            check_same(restore(truncate_to_faces(chain, level.report.faces_out)), level);
+            check_same(restore(truncate_to_faces(chain, level.report.target_faces)), level);
         }
     }
 }
@@ -93,7 +93,7 @@ TEST_CASE("a cut where the order does not depend on the target is a run of its o
             options.preset = preset;
             options.history = Recording::on;
             options.target = faqem::faces(static_cast<double>(faces));
-            check_same(restore(cut_to(chain, faces)), simplify(mesh.view(), options));
+            check_same(restore(truncate_to_faces(chain, faces)), simplify(mesh.view(), options));
         }
     }
 }
@@ -101,7 +101,7 @@ TEST_CASE("a cut where the order does not depend on the target is a run of its o
 TEST_CASE("between levels a cut has no more faces than asked for and is valid") {
     const ChainHistory chain = chain_of(levels_of(lump(), Preset::best));
     for (const std::uint64_t faces : {1279, 900, 303, 123}) {
-        const CollapseHistory cut = cut_to(chain, faces);
+        const CollapseHistory cut = truncate_to_faces(chain, faces);
         validate(cut);
         CHECK(cut.kept_faces.size() <= faces);
         CHECK(cut.kept_faces.size() + 2 > faces);
@@ -112,10 +112,10 @@ TEST_CASE("between levels a cut has no more faces than asked for and is valid") 
 TEST_CASE("a cut above the original is the original, and one below the last level that level") {
     const TriangleMesh mesh = lump();
     const ChainHistory chain = chain_of(levels_of(mesh, Preset::balanced));
-    const TriangleMesh all = restore(cut_to(chain, 1'000'000)).mesh;
+    const TriangleMesh all = restore(truncate_to_faces(chain, 1'000'000)).mesh;
     CHECK(all.positions == mesh.positions);
     CHECK(all.triangles == mesh.triangles);
-    CHECK(bytes(cut_to(chain, 4)) == bytes(chain.last));
+    CHECK(bytes(truncate_to_faces(chain, 4)) == bytes(chain.last));
 }
 
 TEST_CASE("faces that were deleted are gone in a cut") {
@@ -128,8 +128,8 @@ TEST_CASE("faces that were deleted are gone in a cut") {
     const ChainHistory chain = read(bytes(chain_of(levels)));
     CHECK(chain.last.deleted_faces.size() == 4);
     for (const SimplifiedLevel& level : levels)
-        check_same(restore(cut_to(chain, level.result.report.faces_out)), level.result);
-    CHECK(cut_to(chain, 1'000'000).kept_faces.size() == 1280);
+        check_same(restore(truncate_to_faces(chain, level.result.report.faces_out)), level.result);
+    CHECK(truncate_to_faces(chain, 1'000'000).kept_faces.size() == 1280);
 }
 
 TEST_CASE("parts are cut together to a level, and between levels in proportion") {
@@ -140,19 +140,20 @@ TEST_CASE("parts are cut together to a level, and between levels in proportion")
     const auto b = simplify_levels(small.view(), {ratio(0.5), ratio(0.25), ratio(0.1)}, options);
     const std::vector<ChainHistory> parts = {chain_of(a), chain_of(b)};
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto cuts = cut_to(parts, a[i].result.report.faces_out + b[i].result.report.faces_out);
+        const auto cuts =
+            truncate_to_faces(parts, a[i].result.report.faces_out + b[i].result.report.faces_out);
         CHECK(bytes(cuts[0]) == bytes(a[i].result.history));
         CHECK(bytes(cuts[1]) == bytes(b[i].result.history));
     }
-    const auto between = cut_to(parts, 600);
+    const auto between = truncate_to_faces(parts, 600);
     const std::size_t faces[] = {between[0].kept_faces.size(), between[1].kept_faces.size()};
     CHECK(faces[0] + faces[1] <= 600);
     CHECK(faces[0] + faces[1] + 4 > 600);
     CHECK(faces[1] <= 160);
     CHECK(faces[1] >= 80);
-    CHECK(bytes(cut_to(parts, 4)[0]) == bytes(a[2].result.history));
+    CHECK(bytes(truncate_to_faces(parts, 4)[0]) == bytes(a[2].result.history));
     const auto one = simplify_levels(small.view(), {ratio(0.5)}, options);
-    CHECK_THROWS_AS(cut_to(std::vector<ChainHistory>{parts[0], chain_of(one)}, 100), InputError);
+    CHECK_THROWS_AS(truncate_to_faces(std::vector<ChainHistory>{parts[0], chain_of(one)}, 100), InputError);
 }
 
 TEST_CASE("histories of other runs are not joined") {
@@ -168,7 +169,7 @@ TEST_CASE("one history alone is a chain of one level") {
     const auto levels = levels_of(lump(), Preset::best);
     const ChainHistory chain = read(bytes(levels[1].result.history));
     CHECK(chain.level_count() == 1);
-    check_same(restore(cut_to(chain, 300)), levels[1].result);
+    check_same(restore(truncate_to_faces(chain, 300)), levels[1].result);
     CHECK(read(bytes(join(std::vector<CollapseHistory>(3)))).level_count() == 3);
 }
 
@@ -188,6 +189,6 @@ TEST_CASE("a stored chain that is cut off or forged is refused") {
     forged.before[1].kept_versions[0] = chain.last.collapses[0].first;
     CHECK(complaint(bytes(forged)) == "history: kept_versions[0]: not a living version");
     forged = chain;
-    forged.before[1].swaps.push_back({0, 1});
+    forged.before[1].flips.push_back({0, 1});
     CHECK(complaint(bytes(forged)).find("history: patch_begin") == 0);
 }

@@ -3,12 +3,12 @@
 #include <limits>
 #include <vector>
 
-#include "support/mapped_points.hpp"
-#include "support/meshes.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/forward_map.hpp"
 #include "faqem/simplify.hpp"
 #include "support/hand_history.hpp"
-#include "faqem/detail/geometry/triangle.hpp"
+#include "support/mapped_points.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::test;
@@ -59,10 +59,10 @@ TEST_CASE("without collapses every point stays on its face") {
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
     const CollapseHistory history = hand.finish();
     const ForwardMap map(history);
-    CHECK(small_vertices(history) == std::vector<Index>{0, 1, 2, 3});
+    CHECK(vertex_map(history) == std::vector<Index>{0, 1, 2, 3});
     for (Index f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(5)) {
-            const SmallPoint p = map.map(f, w);
+            const SimplifiedPoint p = map.map(f, w);
             CHECK(distance(small_point(small_mesh(history), p.face, p.barycentric),
                            original_point(history, {f, w})) < 1e-15);
         }
@@ -80,7 +80,7 @@ TEST_CASE("vertices follow the collapses to the vertex they ended in") {
     const CollapseHistory history = hand.finish();
     REQUIRE(history.kept_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});
     // 8 lost both its faces
-    CHECK(small_vertices(history) == std::vector<Index>{0, 1, 2, 3, 5, 5, 4, 5, no_index});
+    CHECK(vertex_map(history) == std::vector<Index>{0, 1, 2, 3, 5, 5, 4, 5, no_index});
 }
 
 TEST_CASE("a point of a flat sheet stays where it is, if the sheet covers it") {
@@ -88,13 +88,13 @@ TEST_CASE("a point of a flat sheet stays where it is, if the sheet covers it") {
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
         Options options{.target = ratio(0.1), .preset = preset};
-        options.topology.border = Border::locked;
+        options.topology.boundary = Boundary::locked;
         const SimplifyResult small = simplified(mesh, options);
         const ForwardMap map(small.history);
         double farthest = 0;
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
             for (const Vec3& w : spread(3)) {
-                const SmallPoint p = map.map(f, w);
+                const SimplifiedPoint p = map.map(f, w);
                 REQUIRE(p.face < small.mesh.triangles.size());
                 farthest = std::max(farthest, distance(small_point(small.mesh, p.face, p.barycentric),
                                                        original_point(small.history, {f, w})));
@@ -114,7 +114,7 @@ TEST_CASE("on a smooth surface nothing of the small mesh is nearer than what is 
         for (Index f = 0; f < mesh.triangles.size(); f += 3) {
             const Vec3 w = {0.2, 0.5, 0.3};
             const Vec3 at = original_point(small.history, {f, w});
-            const SmallPoint p = map.map(f, w);
+            const SimplifiedPoint p = map.map(f, w);
             REQUIRE(p.face != no_index);
             const double found = distance(small_point(small.mesh, p.face, p.barycentric), at);
             nearer += brute_force_distance(at, small.mesh) < found - 1e-12;
@@ -131,7 +131,7 @@ TEST_CASE("the other side of a thin wall is not taken for this one") {
     const ForwardMap map(small.history);
     const Index side = 2 * n * n;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        const SmallPoint p = map.map(f, {0.3, 0.3, 0.4});
+        const SimplifiedPoint p = map.map(f, {0.3, 0.3, 0.4});
         REQUIRE(p.face != no_index);
         CHECK((small.face_origin[p.face] < side) == (f < side));
     }
@@ -144,7 +144,7 @@ TEST_CASE("there and back again is about where it was") {
     const ForwardMap there(small.history);
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const Vec3 w = {0.25, 0.25, 0.5};
-        const SmallPoint on_small = there.map(f, w);
+        const SimplifiedPoint on_small = there.map(f, w);
         const SurfacePoint again = back.map(on_small.face, on_small.barycentric);
         CHECK(distance(original_point(small.history, again), original_point(small.history, {f, w})) < 0.1);
     }
@@ -164,7 +164,7 @@ TEST_CASE("what was dropped or deleted has no place, and says so") {
     CHECK(map.map(0, {1, 0, 0}).face != no_index);
     CHECK(map.map(32, {1, 0, 0}).face == no_index);
     CHECK(map.map(33, {1, 0, 0}).face == no_index);
-    const std::vector<Index> vertices = small_vertices(small.history);
+    const std::vector<Index> vertices = vertex_map(small.history);
     REQUIRE(vertices.size() == small.history.positions.size());
     CHECK(vertices.back() == no_index);
 }

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "support/mapped_points.hpp"
 #include "support/hand_history.hpp"
+#include "support/mapped_points.hpp"
 
 using namespace faqem;
 using namespace faqem::test;

@@ -4,9 +4,9 @@
 #include <thread>
 #include <vector>
 
-#include "support/mapped_points.hpp"
 #include "faqem/surface_map.hpp"
 #include "support/hand_history.hpp"
+#include "support/mapped_points.hpp"
 
 using namespace faqem;
 using namespace faqem::test;

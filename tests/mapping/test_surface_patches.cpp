@@ -4,13 +4,13 @@
 #include <cmath>
 
 using namespace faqem;
-using detail::find_sheets;
-using detail::Sheets;
+using detail::find_surface_patches;
+using detail::SurfacePatches;
 
 namespace {
 
 // Triangles around the edge from (0, 0, 0) to (0, 0, 1), each at an angle in degrees.
-Sheets around_an_edge(const std::vector<double>& angles, std::span<const Triangle> unwelded = {}) {
+SurfacePatches around_an_edge(const std::vector<double>& angles, std::span<const Triangle> unwelded = {}) {
     std::vector<Vec3> positions = {{0, 0, 0}, {0, 0, 1}};
     std::vector<Triangle> triangles;
     for (const double angle : angles) {
@@ -18,37 +18,38 @@ Sheets around_an_edge(const std::vector<double>& angles, std::span<const Triangl
         const double a = angle * std::acos(-1.0) / 180;
         positions.push_back({std::cos(a), std::sin(a), 0.3});
     }
-    return find_sheets(positions, triangles, unwelded);
+    return find_surface_patches(positions, triangles, unwelded);
 }
 
 }  // namespace
 
-TEST_CASE("two faces on an edge are one sheet at any angle") {
-    CHECK(around_an_edge({0, 180}).sheet == std::vector<Index>{0, 0});
-    CHECK(around_an_edge({0, 5}).sheet == std::vector<Index>{0, 0});
+TEST_CASE("two faces on an edge are one surface_patch at any angle") {
+    CHECK(around_an_edge({0, 180}).surface_patch == std::vector<Index>{0, 0});
+    CHECK(around_an_edge({0, 5}).surface_patch == std::vector<Index>{0, 0});
 }
 
-TEST_CASE("a sheet goes on under a fin, and two that cross stay two") {
-    CHECK(around_an_edge({0, 90, 180}).sheet == std::vector<Index>{0, 1, 0});
-    CHECK(around_an_edge({0, 70, 165}).sheet == std::vector<Index>{0, 1, 0});
-    CHECK(around_an_edge({0, 90, 180, 270}).sheet == std::vector<Index>{0, 1, 0, 1});
+TEST_CASE("a surface_patch goes on under a fin, and two that cross stay two") {
+    CHECK(around_an_edge({0, 90, 180}).surface_patch == std::vector<Index>{0, 1, 0});
+    CHECK(around_an_edge({0, 70, 165}).surface_patch == std::vector<Index>{0, 1, 0});
+    CHECK(around_an_edge({0, 90, 180, 270}).surface_patch == std::vector<Index>{0, 1, 0, 1});
 }
 
 TEST_CASE("where it is not clear which face continues which, all are sheets of their own") {
-    CHECK(around_an_edge({0, 3, 180}).sheet ==
+    CHECK(around_an_edge({0, 3, 180}).surface_patch ==
           std::vector<Index>{0, 1, 2});  // a thin wall that ends in a fin
-    CHECK(around_an_edge({0, 120, 240}).sheet == std::vector<Index>{0, 1, 2});
-    CHECK(around_an_edge({0, 0, 180, 180}).sheet == std::vector<Index>{0, 1, 2, 3});
+    CHECK(around_an_edge({0, 120, 240}).surface_patch == std::vector<Index>{0, 1, 2});
+    CHECK(around_an_edge({0, 0, 180, 180}).surface_patch == std::vector<Index>{0, 1, 2, 3});
 }
 
-TEST_CASE("faces that had an edge to themselves before vertices were joined stay one sheet") {
+TEST_CASE("faces that had an edge to themselves before vertices were joined stay one surface_patch") {
     const std::vector<Triangle> unwelded = {{0, 1, 2}, {3, 4, 5}, {0, 1, 6}, {3, 4, 7}};
-    CHECK(around_an_edge({0, 0, 180, 180}, unwelded).sheet == std::vector<Index>{0, 1, 0, 1});
-    CHECK(around_an_edge({0, 180, 90, 270}, unwelded).sheet == std::vector<Index>{0, 1, 0, 1});
+    CHECK(around_an_edge({0, 0, 180, 180}, unwelded).surface_patch == std::vector<Index>{0, 1, 0, 1});
+    CHECK(around_an_edge({0, 180, 90, 270}, unwelded).surface_patch == std::vector<Index>{0, 1, 0, 1});
 }
 
-TEST_CASE("every sheet knows its faces, and which are wound against most of it") {
-    const Sheets sheets = around_an_edge({0, 90, 180});  // wound alike around the edge: against each other
+TEST_CASE("every surface_patch knows its faces, and which are wound against most of it") {
+    const SurfacePatches sheets =
+        around_an_edge({0, 90, 180});  // wound alike around the edge: against each other
     REQUIRE(sheets.begin.size() == 3);
     CHECK(std::vector<Index>(sheets.of(0).begin(), sheets.of(0).end()) == std::vector<Index>{0, 2});
     CHECK(std::vector<Index>(sheets.of(1).begin(), sheets.of(1).end()) == std::vector<Index>{1});

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using test::globe;

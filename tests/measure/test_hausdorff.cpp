@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "faqem/compare.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/error.hpp"
 #include "support/brute_force.hpp"
 #include "support/meshes.hpp"
-#include "faqem/compare.hpp"
-#include "faqem/error.hpp"
-#include "faqem/detail/measure/hausdorff.hpp"
 
 using namespace faqem;
 using test::square;

@@ -142,7 +142,7 @@ TEST_CASE("the OpenMesh door swaps the edges that the array door swaps") {
     faqem::Options options{.target = faqem::ratio(0.1), .preset = faqem::Preset::best};
     Mesh mesh = build(soup);
     const faqem::Report report = faqem::simplify(mesh, options);
-    CHECK(report.edges_swapped > 0);
+    CHECK(report.edges_flipped > 0);
     options.topology.link = faqem::LinkCondition::strict;
     options.topology.weld = faqem::Weld::none;
     CHECK(face_set(mesh) == face_set(faqem::simplify({soup.positions, soup.triangles}, options).mesh));
@@ -254,7 +254,7 @@ TEST_CASE("weights and groups come from properties, and the result is that of th
         mesh.property(properties.group, f) = groups.back();
     }
     faqem::Options options{.target = faqem::ratio(0.1)};
-    options.topology.group_borders = faqem::GroupBorders::kept;
+    options.topology.group_boundaries = faqem::GroupBoundaries::kept;
     const faqem::Report report = faqem::simplify(mesh, options, faqem::Region::all, properties);
     CHECK(report.faces_out <= report.target_faces);
     options.topology.link = faqem::LinkCondition::strict;
@@ -309,7 +309,7 @@ TEST_CASE("border vertices stay put when the border is locked") {
     for (const auto v : mesh.vertices()) {
         if (mesh.valence(v) > 0 && mesh.is_boundary(v)) border.emplace_back(v, mesh.point(v));
     }
-    faqem::simplify(mesh, {.target = faqem::ratio(0.1), .topology = {.border = faqem::Border::locked}});
+    faqem::simplify(mesh, {.target = faqem::ratio(0.1), .topology = {.boundary = faqem::Boundary::locked}});
     for (const auto& [v, p] : border) {
         REQUIRE_FALSE(mesh.status(v).deleted());
         CHECK(mesh.point(v) == p);

@@ -13,7 +13,7 @@ for files in "$@"; do
     list=$(echo "$files" | tr ',' ' ')
     "$nm" -C --defined-only $list 2>/dev/null | sed -nE 's/^[0-9a-f]+ [A-Za-z] //p' | sort -u >"$defined"
     needed=$("$nm" -C -u $list 2>/dev/null | sed -nE 's/^ +U //p' | sort -u | comm -23 - "$defined" |
-        grep -v '^faqem::tool::')
+        grep -v '^faqem::\(cli\|render\)::')
     names=$(printf '%s\n' "$needed" | sed -nE 's/^((typeinfo|vtable)( name)? for )?faqem::([a-z_]+::)?([A-Za-z_0-9]+).*/\5/p' |
         sort -u)
     [ -n "$names" ] || { echo "$files: takes nothing from the others?"; exit 1; }

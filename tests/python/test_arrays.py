@@ -101,9 +101,9 @@ class Arrays(unittest.TestCase):
         for preset in ("qem", "paper", "stmw", "fast", "balanced", "best"):
             out = faqem.simplify(vertices, triangles, preset=preset, threads=1)
             self.assertEqual(out.report["preset"], preset)
-        out = faqem.simplify(vertices, triangles, link="strict", border="kept", group_borders="kept",
+        out = faqem.simplify(vertices, triangles, link="strict", boundary="kept", group_boundaries="kept",
                              weld_distance=1e-9, virtual_edges=0.01, prune="1%")
-        self.assertEqual(len(out.triangles), 38)  # the border's 40 corners and nothing else
+        self.assertEqual(len(out.triangles), 38)  # the boundary's 40 corners and nothing else
 
     def test_nothing_gives_nothing(self):
         for empty in (numpy.zeros((0, 3)), []):
@@ -115,7 +115,7 @@ class Arrays(unittest.TestCase):
         vertices, triangles = flat_grid(4)
         for option, value in [("ratio", 0), ("ratio", float("nan")), ("faces", 0), ("faces", -1), ("faces", 2.5),
                               ("max_error", "1 percent"), ("max_error", -1), ("preset", "bestest"),
-                              ("link", "maybe"), ("border", 1), ("threads", 2**32), ("prune", "x%")]:
+                              ("link", "maybe"), ("boundary", 1), ("threads", 2**32), ("prune", "x%")]:
             with self.subTest(option=option, value=value):
                 with self.assertRaisesRegex(faqem.OptionError, option.replace("faces", "faces|face count")):
                     faqem.simplify(vertices, triangles, **{option: value})

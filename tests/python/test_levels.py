@@ -57,14 +57,14 @@ class Levels(unittest.TestCase):
                 faqem.History.load(path)
         self.assertEqual(len(history), 2)
         for level in levels:
-            cut = history.cut(len(level.triangles))
+            cut = history.truncate(len(level.triangles))
             assert_array_equal(cut.vertices, level.vertices)
             assert_array_equal(cut.triangles, level.triangles)
             assert_array_equal(cut.face_origin, level.face_origin)
             self.assertEqual(len(cut.vertex_origin), 0)
-        self.assertLessEqual(len(history.cut(150).triangles), 150)
+        self.assertLessEqual(len(history.truncate(150).triangles), 150)
         with self.assertRaises(faqem.OptionError):
-            history.cut(0)
+            history.truncate(0)
         with self.assertRaises(faqem.OptionError):
             faqem.History.of([faqem.simplify(*hill(6))])
         with self.assertRaises(faqem.OptionError):

@@ -35,7 +35,7 @@ class Models(unittest.TestCase):
         source = faqem.load(self.painted())
         self.assertIsNone(source.report)
         light = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle", normals="flat", normal_map="off",
-                           visibility="weighs", image_format="png")
+                           visibility="weighted", image_format="png")
         self.assertEqual(len(source.parts[0].triangles), 288)
         self.assertLessEqual(len(light.parts[0].triangles), 50)
         self.assertEqual(light.report["faces_out"], len(light.parts[0].triangles))
@@ -78,17 +78,17 @@ class Models(unittest.TestCase):
         history = faqem.History.load(file)
         self.assertEqual((history.part_count, len(history)), (2, 2))
         for level, faces in zip(levels, (200, 40)):
-            cut = faqem.bake_cut(both, history, faces, **look)
+            cut = faqem.bake_truncated(both, history, faces, **look)
             for a, b in zip(cut.parts, level.parts):
                 assert_array_equal(a.vertices, b.vertices)
                 assert_array_equal(a.triangles, b.triangles)
-        parts = history.cut_parts(100)
+        parts = history.truncate_parts(100)
         self.assertEqual(len(parts), 2)
         self.assertLessEqual(sum(len(part.triangles) for part in parts), 100)
-        with self.assertRaisesRegex(faqem.OptionError, "cut_parts"):
-            history.cut(100)
+        with self.assertRaisesRegex(faqem.OptionError, "truncate_parts"):
+            history.truncate(100)
         with self.assertRaises(faqem.InputError):
-            faqem.bake_cut(painted, history, 100)
+            faqem.bake_truncated(painted, history, 100)
         with self.assertRaises(faqem.OptionError):
             faqem.History.of(faqem.bake_levels(both, [200], **look))
 

@@ -4,7 +4,7 @@
 
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::render;
 using Eigen::Vector4f;
 
 namespace {
@@ -15,7 +15,7 @@ constexpr std::uint32_t size = 64;
 Frame picture(const faqem::Asset& asset, Shading shading = Shading::unlit, double azimuth = 0,
               Edges edges = Edges::hidden) {
     const Scene scene = make_scene(asset);
-    Camera camera = looking_at(Vector3::Zero(), azimuth, 0);
+    Camera camera = orbit_camera(Vector3::Zero(), azimuth, 0);
     camera.eye = camera.back * 1.1 * fitting_distance(scene, camera, Vector3::Zero());
     return render(scene, camera, size, shading, edges);
 }
@@ -77,8 +77,8 @@ TEST_CASE("texture coordinates are interpolated in space, not on the screen") {
     faqem::Asset asset = tool_test::sheet(1, 0);
     for (faqem::Vec3& p : asset.parts[0].positions) p = {p[0], p[1], -3 * p[0]};
     const Scene scene = make_scene(asset);
-    Camera camera = looking_at(Vector3::Zero(), 0, 0);
-    camera.tangent = 0.5;
+    Camera camera = orbit_camera(Vector3::Zero(), 0, 0);
+    camera.tan_half_fov = 0.5;
     camera.eye = {0, 0, 6};
     const Frame frame = render(scene, camera, size, Shading::unlit, Edges::hidden);
     // The ends are at x = -1 / 3 / 0.5 and 1 / 9 / 0.5 in [-1, 1]; u = 0.5 is at x = 0, not between them.
@@ -134,8 +134,8 @@ TEST_CASE("an image that cannot be decoded is white, with a warning") {
 
 TEST_CASE("a scene without faces has no bounds") {
     Vector3 low, high;
-    CHECK(!bounds(make_scene(faqem::Asset{}), low, high));
-    CHECK(bounds(make_scene(tool_test::sheet(1, 0)), low, high));
+    CHECK(!bounding_box(make_scene(faqem::Asset{}), low, high));
+    CHECK(bounding_box(make_scene(tool_test::sheet(1, 0)), low, high));
     CHECK(low == Vector3(-1, -1, 0));
     CHECK(high == Vector3(1, 1, 0));
 }

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace faqem::tool;
+using namespace faqem::render;
 using Eigen::Vector2d;
 using faqem::TextureRef;
 using faqem::Wrap;
@@ -11,14 +11,14 @@ using faqem::Wrap;
 namespace {
 
 /// Grey texels in a row.
-Texture row(const std::vector<int>& greys, Encoding encoding = Encoding::linear) {
+Texture row(const std::vector<int>& greys, ColorSpace color_space = ColorSpace::linear) {
     faqem::Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(greys.size());
     pixels.height = 1;
     for (const int grey : greys) {
         for (const int byte : {grey, grey, grey, 255}) pixels.rgba.push_back(static_cast<std::uint8_t>(byte));
     }
-    return make_texture(pixels, encoding);
+    return make_texture(pixels, color_space);
 }
 
 double grey(const Texture& texture, double u, Wrap wrap = Wrap::repeat, double lod = 0) {
@@ -58,9 +58,9 @@ TEST_CASE("nearest takes the texel the place is in") {
 }
 
 TEST_CASE("colours are mixed in linear light, data as they are") {
-    const Texture colours = row({0, 255}, Encoding::srgb);
+    const Texture colours = row({0, 255}, ColorSpace::srgb);
     CHECK(sample(colours, TextureRef{}, {0.5, 0.5}, 0)[0] == Approx(0.5));
-    CHECK(sample(row({188, 188}, Encoding::srgb), TextureRef{}, {0.5, 0.5}, 0)[0] ==
+    CHECK(sample(row({188, 188}, ColorSpace::srgb), TextureRef{}, {0.5, 0.5}, 0)[0] ==
           Approx(0.503).epsilon(0.01));
     // The level above holds their mean: half the light is 188 of 255.
     CHECK(int(colours.levels.at(1).rgba[0]) == 188);
@@ -82,6 +82,6 @@ TEST_CASE("a texture transform scales, turns against the sense of v, and moves")
     use.rotation = static_cast<float>(3.14159265358979 / 2);
     use.offset = {0.25f, 0.5f};
     // By a quarter turn u goes to -v, which is up in the picture, and v to u.
-    CHECK(transformed(use, {1, 0}).isApprox(Vector2d(0.25, 0.5 - 2), 1e-6));
-    CHECK(transformed(use, {0, 1}).isApprox(Vector2d(0.25 + 3, 0.5), 1e-6));
+    CHECK(transform_uv(use, {1, 0}).isApprox(Vector2d(0.25, 0.5 - 2), 1e-6));
+    CHECK(transform_uv(use, {0, 1}).isApprox(Vector2d(0.25 + 3, 0.5), 1e-6));
 }

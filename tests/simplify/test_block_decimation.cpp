@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "faqem/detail/simplify/spatial_order.hpp"
-#include "support/original.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
+#include "support/original.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -21,7 +21,7 @@ namespace {
 // A surface in slots, its blocks of 500 vertices.
 struct Ground {
     explicit Ground(const TriangleMesh& mesh)
-        : arranged(arrange(prepare(mesh.view(), settings({})))), locked(arranged.positions.size(), 0) {
+        : arranged(reorder(preprocess(mesh.view(), settings({})))), locked(arranged.positions.size(), 0) {
         loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
         loop.distance_weight = 1e-4;
     }
@@ -31,16 +31,16 @@ struct Ground {
     }
     std::size_t faces() const { return arranged.triangles.size(); }
 
-    Arranged arranged;
+    ReorderedMesh arranged;
     std::vector<std::uint8_t> locked;
     LoopOptions loop;
 };
 
 struct Steps {
-    void collapsing(const Complex&, Index survivor, Index gone, const Candidate& to) {
+    void before_collapse(const CollapseMesh&, Index survivor, Index gone, const Candidate& to) {
         steps.push_back({survivor, gone, to.point});
     }
-    void deleting(Index) {}
+    void before_deletion(Index) {}
 
     std::vector<BlockStep> steps;
 };
@@ -50,14 +50,14 @@ TriangleMesh triple(const TriangleMesh& mesh) { return test::both(test::both(mes
 // What an engine without blocks does to the mesh, where so many faces of three such are wanted.
 std::vector<BlockStep> alone(const TriangleMesh& mesh, const LoopOptions& loop, std::size_t wanted,
                              TrackedMetric metric) {
-    Complex complex = test::complex_of(mesh);
-    PairTable pairs(complex, {});
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    PairTable pairs(collapse_mesh, {});
     Wedges wedges;
     std::vector<std::uint8_t> free(mesh.positions.size(), 0);
-    const std::size_t faces = complex.face_count();
+    const std::size_t faces = collapse_mesh.face_count();
     const double share = spare_share * static_cast<double>(wanted) / static_cast<double>(3 * faces);
     Steps steps;
-    Engine<TrackedMetric, RoundQueue, Steps>(complex, pairs, wedges, free, metric, steps)
+    Engine<TrackedMetric, SweepQueue, Steps>(collapse_mesh, pairs, wedges, free, metric, steps)
         .run(block_options(loop, faces, 0, share));
     return steps.steps;
 }
@@ -96,39 +96,40 @@ TEST_CASE("blocks: few vertices are one, more are four, eight and so on of one s
     }
 }
 
-TEST_CASE("blocks: the steps can be done one after the other, and leave what reduce() says") {
+TEST_CASE("blocks: the steps can be done one after the other, and leave what apply_steps() says") {
     const Ground ground(lump());
     const BlockSteps found = ground.steps(1000);
     REQUIRE(found.steps.size() > 1000);
-    Complex complex(ground.arranged.positions, ground.arranged.triangles);
+    CollapseMesh collapse_mesh(ground.arranged.positions, ground.arranged.triangles);
     bool patches_agree = true;
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
-        REQUIRE(complex.degree(survivor) > 0);
-        REQUIRE(complex.degree(gone) > 0);
+        REQUIRE(collapse_mesh.degree(survivor) > 0);
+        REQUIRE(collapse_mesh.degree(gone) > 0);
         std::set<Index> patch;
-        complex.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.insert(f); });
+        collapse_mesh.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.insert(f); });
         const std::size_t end =
             i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
         patches_agree = patches_agree && patch == std::set<Index>(&found.patch_faces[found.patch_begin[i]],
                                                                   found.patch_faces.data() + end);
-        complex.collapse(survivor, gone, to);
+        collapse_mesh.collapse(survivor, gone, to);
     }
     CHECK(patches_agree);
-    const Reduced reduced = reduce(ground.input(), found.steps);
-    CHECK(reduced.triangles.size() == complex.face_count());
+    const CompactedMesh compacted = apply_steps(ground.input(), found.steps);
+    CHECK(compacted.triangles.size() == collapse_mesh.face_count());
     bool agree = true;
-    for (std::size_t f = 0; f < reduced.faces.size(); ++f) {
-        const Index slot = reduced.faces[f];
+    for (std::size_t f = 0; f < compacted.faces.size(); ++f) {
+        const Index slot = compacted.faces[f];
         for (std::size_t k = 0; k < 3 && agree; ++k) {
-            const Index v = reduced.triangles[f][k];
-            agree = complex.alive(slot) && reduced.vertices[v] == complex.triangle(slot)[k] &&
-                    reduced.positions[v] == complex.position(reduced.vertices[v]);
+            const Index v = compacted.triangles[f][k];
+            agree = collapse_mesh.is_alive(slot) &&
+                    compacted.vertices[v] == collapse_mesh.triangle(slot)[k] &&
+                    compacted.positions[v] == collapse_mesh.position(compacted.vertices[v]);
         }
     }
     CHECK(agree);
-    CHECK(test::closed_manifold(reduced.triangles));
-    CHECK(test::euler(reduced.triangles) == 2);
+    CHECK(test::closed_manifold(compacted.triangles));
+    CHECK(test::euler(compacted.triangles) == 2);
 }
 
 TEST_CASE("blocks: no fewer faces are left than wanted, whatever they cost") {
@@ -137,7 +138,7 @@ TEST_CASE("blocks: no fewer faces are left than wanted, whatever they cost") {
         const Ground ground(mesh);
         for (const std::size_t least : {100u, 800u, 2000u}) {
             const BlockSteps found = ground.steps(least);
-            const std::size_t left = reduce(ground.input(), found.steps).triangles.size();
+            const std::size_t left = apply_steps(ground.input(), found.steps).triangles.size();
             CHECK(left >= least);
             CHECK(left < 0.9 * static_cast<double>(ground.faces()));
         }
@@ -186,11 +187,12 @@ TEST_CASE("blocks: a hole between blocks is no border that could end") {
     // Without the rule, edges that only seem open would hold the surface beside them, or their end be priced.
     const Ground ground(test::grid(60));
     const BlockSteps found = ground.steps(500);
-    const Reduced reduced = reduce(ground.input(), found.steps);
+    const CompactedMesh compacted = apply_steps(ground.input(), found.steps);
     // The outline is still that of the square.
     double area = 0;
-    for (const Triangle& t : reduced.triangles) {
-        area += area_vector(reduced.positions[t[0]], reduced.positions[t[1]], reduced.positions[t[2]]).z();
+    for (const Triangle& t : compacted.triangles) {
+        area +=
+            area_vector(compacted.positions[t[0]], compacted.positions[t[1]], compacted.positions[t[2]]).z();
     }
     double whole = 0;
     for (const Triangle& t : ground.arranged.triangles) {
@@ -246,7 +248,7 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     const BlockTracking tracking{originals.surface, into_all};
     const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
     const std::vector<BlockStep> one =
-        alone(coarse, loop, 300, TrackedMetric({}, original.surface, Lineage(into), 320, 0.05));
+        alone(coarse, loop, 300, TrackedMetric({}, original.surface, TrackedVertices(into), 320, 0.05));
     check_that_each_goes_like(one, found, size);
 }
 
@@ -263,10 +265,10 @@ TEST_CASE("blocks: where only borders are watched, each holds its own as an engi
     const auto found = [&](const BlockTracking* tracking) {
         return simplify_in_blocks(input, loop, 500, tracking, Recording::off, 2);
     };
-    const BlockTracking borders{now.surface, now.lineage.today, Watched::borders};
+    const BlockTracking borders{now.surface, now.tracked.current, Watched::borders};
     const BlockSteps held = found(&borders);
     check_that_each_goes_like(
-        alone(tube, loop, 500, TrackedMetric({}, original.surface, original.lineage, 0, 0.05)), held, size);
+        alone(tube, loop, 500, TrackedMetric({}, original.surface, original.tracked, 0, 0.05)), held, size);
     const BlockSteps free = found(nullptr);
     REQUIRE(free.steps.size() == held.steps.size());
     CHECK_FALSE(std::equal(free.steps.begin(), free.steps.end(), held.steps.begin(),

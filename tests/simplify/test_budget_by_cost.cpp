@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using detail::CostCurve;
-using detail::share_by_cost;
+using detail::distribute_face_budget;
 
 namespace {
 
@@ -30,7 +30,7 @@ TEST_CASE("cost curve: faces descend from all to the fewest, costs ascend") {
     const CostCurve curve = curve_of(mesh);
     REQUIRE(curve.is_complete);
     CHECK(curve.steps.front().faces == mesh.triangles.size());
-    CHECK(curve.least <= 4);
+    CHECK(curve.min_faces <= 4);
     for (std::size_t i = 1; i < curve.steps.size(); ++i) {
         CHECK(curve.steps[i].faces < curve.steps[i - 1].faces);
         CHECK(curve.steps[i].cost >= curve.steps[i - 1].cost);
@@ -48,11 +48,11 @@ TEST_CASE("cost curve: what is flat costs nothing, whatever the model's size") {
 
 TEST_CASE("cost curve: locked vertices end it") {
     Options options;
-    options.topology.border = Border::locked;
+    options.topology.boundary = Boundary::locked;
     // A fan of six triangles whose hub alone may go.
     const CostCurve curve = curve_of(test::fan(6), options);
     CHECK(curve.steps.size() <= 1);
-    CHECK(curve.least >= 4);
+    CHECK(curve.min_faces >= 4);
 }
 
 TEST_CASE("cost curve: cancelling is told") {
@@ -64,52 +64,52 @@ TEST_CASE("cost curve: cancelling is told") {
 TEST_CASE("shares: the cheapest steps are taken, whoever's they are") {
     const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     const std::vector<double> weights = {1, 1};
-    CHECK(share_by_cost(curves, weights, 24) == Shares{12, 12});
-    CHECK(share_by_cost(curves, weights, 20) == Shares{8, 12});
-    CHECK(share_by_cost(curves, weights, 16) == Shares{8, 8});
-    CHECK(share_by_cost(curves, weights, 14) == Shares{6, 8});
-    CHECK(share_by_cost(curves, weights, 10) == Shares{6, 4});
+    CHECK(distribute_face_budget(curves, weights, 24) == Shares{12, 12});
+    CHECK(distribute_face_budget(curves, weights, 20) == Shares{8, 12});
+    CHECK(distribute_face_budget(curves, weights, 16) == Shares{8, 8});
+    CHECK(distribute_face_budget(curves, weights, 14) == Shares{6, 8});
+    CHECK(distribute_face_budget(curves, weights, 10) == Shares{6, 4});
 }
 
 TEST_CASE("shares: no face of the goal is given away") {
     const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     const std::vector<double> weights = {1, 1};
     for (std::uint64_t goal = 8; goal <= 24; ++goal) {
-        const Shares share = share_by_cost(curves, weights, goal);
+        const Shares share = distribute_face_budget(curves, weights, goal);
         CHECK(share[0] + share[1] == goal);
     }
-    CHECK(share_by_cost(curves, weights, 100) == Shares{12, 12});
+    CHECK(distribute_face_budget(curves, weights, 100) == Shares{12, 12});
 }
 
 TEST_CASE("shares: below four faces each nothing is taken") {
     std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
-    curves[0].least = 2;
+    curves[0].min_faces = 2;
     curves.push_back({{}, 2, 1, true});  // has two to begin with
     const std::vector<double> weights = {1, 1, 1};
-    CHECK(share_by_cost(curves, weights, 0) == Shares{4, 4, 2});
+    CHECK(distribute_face_budget(curves, weights, 0) == Shares{4, 4, 2});
 }
 
 TEST_CASE("shares: costs count by the fourth power of the size, times the weight") {
     // The second is twice as large: its first step costs 16 times as much as the first's.
     const std::vector<double> weights = {1, 1};
-    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights, 22) ==
-          Shares{10, 12});
-    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights, 20) ==
-          Shares{10, 10});
+    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights,
+                                 22) == Shares{10, 12});
+    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights,
+                                 20) == Shares{10, 10});
     const std::vector<double> seen_twice = {1, 1.0 / 32};
-    CHECK(share_by_cost(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, seen_twice, 22) ==
-          Shares{12, 10});
+    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, seen_twice,
+                                 22) == Shares{12, 10});
 }
 
 TEST_CASE("shares: sizes far from 1 neither overflow nor vanish") {
     const std::vector<double> weights = {1, 1};
     for (const double unit : {1e-150, 1.0, 1e150}) {
-        CHECK(share_by_cost(std::vector{stairs({1, 2, 5, 9}, unit), stairs({3, 4, 6, 7}, unit)}, weights,
-                            14) == Shares{6, 8});
+        CHECK(distribute_face_budget(std::vector{stairs({1, 2, 5, 9}, unit), stairs({3, 4, 6, 7}, unit)},
+                                     weights, 14) == Shares{6, 8});
     }
 }
 
 TEST_CASE("shares: there may be nothing to share") {
-    CHECK(share_by_cost({}, {}, 10).empty());
-    CHECK(share_by_cost(std::vector<CostCurve>(2), std::vector<double>{1, 1}, 10) == Shares{0, 0});
+    CHECK(distribute_face_budget({}, {}, 10).empty());
+    CHECK(distribute_face_budget(std::vector<CostCurve>(2), std::vector<double>{1, 1}, 10) == Shares{0, 0});
 }

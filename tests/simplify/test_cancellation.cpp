@@ -4,24 +4,24 @@
 #include <stdexcept>
 #include <thread>
 
-#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/fitting/vertex_fitting.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
-#include "support/meshes.hpp"
-#include "faqem/levels.hpp"
-#include "faqem/simplify.hpp"
-#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 #include "faqem/detail/mapping/surface_patches.hpp"
-#include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
-#include "faqem/detail/fitting/vertex_fitting.hpp"
-#include "faqem/detail/geometry/halfedges.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/levels.hpp"
+#include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::Poll;
+using detail::CancellationCheck;
 using detail::Workers;
-using engine::Asker;
 using engine::Cancelled;
+using engine::ProgressMonitor;
 
 namespace {
 
@@ -29,8 +29,8 @@ namespace {
 template <class Work>
 std::size_t questions(Work&& work) {
     std::size_t count = 0;
-    Asker asker([&] { return ++count, Continue::yes; });
-    work(Poll(asker));
+    ProgressMonitor monitor([&] { return ++count, Continue::yes; });
+    work(CancellationCheck(monitor));
     return count;
 }
 
@@ -72,37 +72,52 @@ void stop_anywhere(Options options, std::size_t times, const Door& door) {
 
 TEST_CASE("every phase asks once for each few thousand operations") {
     const TriangleMesh mesh = test::icosphere(6), light = test::icosphere(3);
-    const std::size_t faces = mesh.triangles.size(), enough = faces / Asker::interval;
+    const std::size_t faces = mesh.triangles.size(), enough = faces / ProgressMonitor::interval;
     const detail::Settings settings = detail::settings({});
-    CHECK(questions([&](Poll poll) { detail::prepare(mesh.view(), settings, poll); }) >= 5 * enough);
-    const detail::Prepared prepared = detail::prepare(mesh.view(), settings);
-    CHECK(questions([&](Poll poll) { detail::arrange(prepared, poll); }) >= 3 * enough);
-    CHECK(questions([&](Poll poll) { detail::sorted_sides(mesh.triangles, poll); }) >= 3 * 16 * enough);
-    CHECK(questions([&](Poll poll) { detail::Bvh(mesh.positions, mesh.triangles, poll); }) >= 16 * enough);
-    CHECK(questions([&](Poll poll) { detail::surface_of(mesh.view(), poll); }) >= 8 * enough);
-    CHECK(questions([&](Poll poll) { detail::find_sheets(mesh.positions, mesh.triangles, {}, poll); }) >=
-          16 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::preprocess(mesh.view(), settings, check_cancelled);
+          }) >= 5 * enough);
+    const detail::PreprocessedMesh prepared = detail::preprocess(mesh.view(), settings);
+    CHECK(questions([&](CancellationCheck check_cancelled) { detail::reorder(prepared, check_cancelled); }) >=
+          3 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::sorted_halfedges(mesh.triangles, check_cancelled);
+          }) >= 3 * 16 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::Bvh(mesh.positions, mesh.triangles, check_cancelled);
+          }) >= 16 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::extract_surface(mesh.view(), check_cancelled);
+          }) >= 8 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::find_surface_patches(mesh.positions, mesh.triangles, {}, check_cancelled);
+          }) >= 16 * enough);
     Options options = with(Preset::fast, ratio(0.1));
     options.history = Recording::on;
     const SimplifyResult small = simplify(mesh.view(), options);
     const std::vector<Index> one_sheet(faces, 0);
-    detail::Replay replay;
-    CHECK(questions([&](Poll poll) { replay = detail::replay_patches(small.history, poll); }) >= 3 * enough);
-    CHECK(questions([&](Poll poll) {
-              detail::describe_patches(small.history, one_sheet, {1, poll}, replay);
+    detail::ReplayTables replay;
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              replay = detail::replay_patches(small.history, check_cancelled);
+          }) >= 3 * enough);
+    CHECK(questions([&](CancellationCheck check_cancelled) {
+              detail::describe_patches(small.history, one_sheet, {1, check_cancelled}, replay);
           }) >= 2 * enough);
 
-    const detail::Surface from = detail::surface_of(mesh.view()), to = detail::surface_of(light.view());
+    const detail::Surface from = detail::extract_surface(mesh.view()),
+                          to = detail::extract_surface(light.view());
     const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);
     for (const std::uint32_t threads : {1u, 3u}) {
-        CHECK(questions([&](Poll poll) {
-                  detail::farthest_both_ways(from, tree_from, to, tree_to, {.workers = {threads, poll}});
+        CHECK(questions([&](CancellationCheck check_cancelled) {
+                  detail::two_sided_hausdorff(from, tree_from, to, tree_to,
+                                              {.workers = {threads, check_cancelled}});
               }) >= (threads == 1 ? enough : 1));
         const std::vector<engine::Vector3> original = test::vectors(mesh), positions = test::vectors(light);
         const std::vector<std::uint8_t> fixed(positions.size(), 0);
-        CHECK(questions([&](Poll poll) {
-                  detail::relax_and_swap({original, mesh.triangles}, {positions, light.triangles}, fixed, {},
-                                         0.3, {threads, poll});
+        CHECK(questions([&](CancellationCheck check_cancelled) {
+                  detail::fit_vertices_and_flip_edges({original, mesh.triangles},
+                                                      {positions, light.triangles}, fixed, {}, 0.3,
+                                                      {threads, check_cancelled});
               }) >= 50 * enough);
     }
 }
@@ -142,16 +157,17 @@ TEST_CASE("cancelling before the first collapse leaves an empty mesh, and says s
 TEST_CASE("threads that help hear that the calling one has been told to stop") {
     std::atomic<int> stopped{0};
     int calls = 0;
-    Asker asker([&] { return ++calls == 3 ? Continue::cancel : Continue::yes; });
+    ProgressMonitor monitor([&] { return ++calls == 3 ? Continue::cancel : Continue::yes; });
     // Blocks without an end of their own.
-    const auto forever = [&](std::size_t, std::size_t, Poll poll) {
+    const auto forever = [&](std::size_t, std::size_t, CancellationCheck check_cancelled) {
         struct Leaving {
             std::atomic<int>& count;
             ~Leaving() { ++count; }
         } leaving{stopped};
-        while (true) poll();
+        while (true) check_cancelled();
     };
-    CHECK_THROWS_AS(detail::parallel_blocks(3, 1, Workers(3, Poll(asker)), forever), Cancelled);
+    CHECK_THROWS_AS(detail::parallel_blocks(3, 1, Workers(3, CancellationCheck(monitor)), forever),
+                    Cancelled);
     CHECK(stopped >= 1);
     CHECK(stopped <= 3);
     CHECK(calls == 3);
@@ -159,16 +175,16 @@ TEST_CASE("threads that help hear that the calling one has been told to stop") {
 
 TEST_CASE("who waits for threads that help is asked meanwhile") {
     const std::thread::id here = std::this_thread::get_id();
-    Asker asker([&] {
+    ProgressMonitor monitor([&] {
         CHECK(std::this_thread::get_id() == here);
         return Continue::cancel;
     });
     std::atomic<bool> is_helped{false};
-    CHECK_THROWS_AS(detail::parallel_blocks(2, 1, Workers(2, Poll(asker)),
-                                            [&](std::size_t, std::size_t, Poll poll) {
+    CHECK_THROWS_AS(detail::parallel_blocks(2, 1, Workers(2, CancellationCheck(monitor)),
+                                            [&](std::size_t, std::size_t, CancellationCheck check_cancelled) {
                                                 if (std::this_thread::get_id() != here) {
                                                     is_helped = true;
-                                                    while (true) poll();
+                                                    while (true) check_cancelled();
                                                 }
                                                 while (!is_helped) std::this_thread::yield();
                                             }),

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "support/brute_force.hpp"
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/brute_force.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 
@@ -64,7 +64,7 @@ TEST_CASE("a bump stays as high as the error asks for, and its surroundings lose
         CHECK(report.max_error->within());
         CHECK(report.max_error->value <= report.max_error->bound);
         CHECK(report.max_error->bound <= report.max_error->value * 1.01 + 1e-8);
-        CHECK(report.max_error->runs <= detail::FaceCountSearch::most_runs);
+        CHECK(report.max_error->runs <= detail::FaceCountSearch::max_runs);
         CHECK(report.target_faces == report.faces_out);
         CHECK(report.faces_out == result->mesh.triangles.size());
     }
@@ -154,7 +154,7 @@ TEST_CASE("an error larger than the model leaves what the engine leaves at the l
 TEST_CASE("what is locked stays, however large the error") {
     const TriangleMesh mesh = test::cylinder(12, 8, 4);
     Options options = within(model_units(100));
-    options.topology.border = Border::locked;
+    options.topology.boundary = Boundary::locked;
     const SimplifyResult result = simplify(mesh.view(), options);
     CHECK(result.mesh.triangles.size() >= 24);
     CHECK(result.report.stop == StopReason::reached_max_error);
@@ -188,8 +188,8 @@ TEST_CASE("meshes without area have no distance") {
     // If only the result has no area, nothing is near it.
     SimplifyResult gone;
     gone.report.collapses = 1;
-    const detail::Original original(test::cube().view());
-    CHECK(detail::distance(original, gone, 1, detail::Look::in_full, {}).bound ==
+    const detail::DistanceReference original(test::cube().view());
+    CHECK(detail::distance(original, gone, 1, detail::MeasureMode::full, {}).bound ==
           std::numeric_limits<double>::infinity());
 }
 

@@ -26,10 +26,10 @@ Searched search(std::uint64_t faces, double allowed, const std::function<double(
         REQUIRE(*target >= 4);
         REQUIRE(*target < result.best);
         result.targets.push_back(*target);
-        REQUIRE(result.targets.size() <= FaceCountSearch::most_runs);
+        REQUIRE(result.targets.size() <= FaceCountSearch::max_runs);
         const std::uint64_t out = std::max(*target, floor);
         const bool within = error(out) <= allowed;
-        search.tell(out, error(out), within);
+        search.add_result(out, error(out), within);
         if (within) result.best = std::min(result.best, out);
     }
     return result;

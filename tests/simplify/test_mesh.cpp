@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "support/meshes.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 

@@ -61,7 +61,7 @@ TEST_CASE("an error is finite and positive in either unit") {
 TEST_CASE("what is hidden weighs less only where faces are counted") {
     const auto both = [](Options& o) {
         o.max_error = of_diagonal(0.1);
-        o.visibility = Visibility::weighs;
+        o.visibility = Visibility::weighted;
     };
     CHECK(complaint(both) ==
           "visibility: a distance counts what is hidden like all else, so that max_error needs a target");

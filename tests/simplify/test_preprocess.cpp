@@ -3,27 +3,27 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "support/meshes.hpp"
 #include "faqem/error.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::Prepared;
+using detail::PreprocessedMesh;
 using detail::Settings;
 
 namespace {
 
 constexpr Triangle dead = {no_index, no_index, no_index};
 
-Prepared prepare(const MeshView& mesh, double diagonal = 1, double weld = 0) {
+PreprocessedMesh preprocess(const MeshView& mesh, double diagonal = 1, double weld = 0) {
     Settings settings;
     settings.diagonal = diagonal;
     settings.weld_distance = weld;
-    return detail::prepare(mesh, settings);
+    return detail::preprocess(mesh, settings);
 }
 
 std::string complaint(const MeshView& mesh) {
     try {
-        prepare(mesh);
+        preprocess(mesh);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -36,7 +36,7 @@ TEST_CASE("vertices at one place become one, faces keep their index") {
     // The two triangles of the square, not sharing vertices.
     const TriangleMesh mesh = test::make(
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, -0.0}, {-0.0, 1, 0}, {0, 0, 0}}, {{0, 1, 2}, {5, 3, 4}});
-    const Prepared p = prepare(mesh.view());
+    const PreprocessedMesh p = preprocess(mesh.view());
     CHECK(p.positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
     CHECK(p.vertex_origin == std::vector<Index>{0, 1, 2, 4});
@@ -47,8 +47,8 @@ TEST_CASE("vertices at one place become one, faces keep their index") {
 TEST_CASE("within the weld distance a face may lose a corner and is dropped") {
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-7, 0, 0}}, {{0, 1, 2}, {0, 3, 2}});
-    CHECK(prepare(mesh.view()).dropped_faces == 0);
-    const Prepared p = prepare(mesh.view(), 1, 1e-6);
+    CHECK(preprocess(mesh.view()).dropped_faces == 0);
+    const PreprocessedMesh p = preprocess(mesh.view(), 1, 1e-6);
     CHECK(p.dropped_faces == 1);
     CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead});
     CHECK(p.positions.size() == 3);
@@ -57,18 +57,18 @@ TEST_CASE("within the weld distance a face may lose a corner and is dropped") {
 TEST_CASE("doubles of a face are dropped, back-to-back faces and those of other groups are kept") {
     TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                    {{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}, {1, 1, 2}});
-    const Prepared p = prepare(mesh.view());
+    const PreprocessedMesh p = preprocess(mesh.view());
     CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead, {0, 2, 1}, dead, dead, dead});
     CHECK(p.dropped_faces == 4);
     mesh.face_groups = {0, 1, 0, 1, 0, 0};
-    CHECK(prepare(mesh.view()).triangles ==
+    CHECK(preprocess(mesh.view()).triangles ==
           std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, dead, dead, dead});
 }
 
 TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertices do not count") {
     TriangleMesh mesh = test::moved(test::scaled(test::quad(), 3), {10, 20, 30});
     mesh.positions.push_back({-1e6, 1e9, 4});
-    const Prepared p = prepare(mesh.view(), 100);
+    const PreprocessedMesh p = preprocess(mesh.view(), 100);
     CHECK(p.centre == Vec3{11.5, 21.5, 30});
     CHECK(p.scale == Approx(100 / std::sqrt(18.0)));
     const auto q = p.engine_positions();
@@ -79,10 +79,11 @@ TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertic
 }
 
 TEST_CASE("a model without extent, and one near the largest double, have a scale") {
-    const Prepared point = prepare(test::scaled(test::cube(), 0).view());
+    const PreprocessedMesh point = preprocess(test::scaled(test::cube(), 0).view());
     CHECK(point.scale == 1);
     CHECK(point.dropped_faces == 12);
-    const Prepared huge = prepare(test::moved(test::scaled(test::cube(), 1e308), {5e307, 0, 0}).view());
+    const PreprocessedMesh huge =
+        preprocess(test::moved(test::scaled(test::cube(), 1e308), {5e307, 0, 0}).view());
     CHECK(huge.centre == Vec3{1e308, 5e307, 5e307});
     CHECK(huge.scale == Approx(1 / (std::sqrt(3.0) * 1e308)));
     // The diagonal of the largest box is above the largest double.
@@ -90,7 +91,7 @@ TEST_CASE("a model without extent, and one near the largest double, have a scale
     for (Vec3& p : largest.positions)
         for (double& x : p)
             x = x > 0 ? std::numeric_limits<double>::max() : -std::numeric_limits<double>::max();
-    for (const engine::Vector3& p : prepare(largest.view()).engine_positions())
+    for (const engine::Vector3& p : preprocess(largest.view()).engine_positions())
         CHECK(p.cwiseAbs().maxCoeff() == Approx(0.5 / std::sqrt(3.0)));
     CHECK(prepare({}).positions.empty());
 }

@@ -27,9 +27,9 @@ TEST_CASE("paper is Table 1 of the supplementary, at a diagonal of 100") {
     CHECK(s.weights.normal == 0.01);
     CHECK(s.weights.seam == 5000);
     CHECK(s.weights.area_term == AreaTerm::after_placement);
-    CHECK(s.weights.least_area > 0);
+    CHECK(s.weights.min_area > 0);
     CHECK(s.link == LinkCondition::off);
-    CHECK(s.least_turn == 0);
+    CHECK(s.min_normal_cosine == 0);
     CHECK(s.diagonal == 100);
     CHECK(s.weld_distance == 1e-6);
 }
@@ -42,19 +42,19 @@ TEST_CASE("qem is Garland and Heckbert's: plain planes, the link condition") {
     CHECK(s.weights.normal == 0);
     CHECK(s.weights.seam == 1);
     CHECK(s.link == LinkCondition::on);
-    CHECK(s.least_turn == 0);
+    CHECK(s.min_normal_cosine == 0);
     CHECK(s.diagonal == 1);
     CHECK(s.weld_distance == 0);
 }
 
 TEST_CASE("fast has no memory, balanced tracks the distance besides") {
-    CHECK(of(Preset::fast).carry == detail::Settings::Carry::memoryless);
+    CHECK(of(Preset::fast).quadric_policy == detail::Settings::QuadricPolicy::memoryless);
     const detail::Settings s = of(Preset::balanced);
-    CHECK(s.carry == detail::Settings::Carry::tracked);
+    CHECK(s.quadric_policy == detail::Settings::QuadricPolicy::tracked);
     CHECK(s.link == LinkCondition::by_size);
-    CHECK(s.least_turn == 0.3);
+    CHECK(s.min_normal_cosine == 0.3);
     CHECK(s.diagonal == 1);
-    CHECK(detail::settings({}).carry == detail::Settings::Carry::tracked);
+    CHECK(detail::settings({}).quadric_policy == detail::Settings::QuadricPolicy::tracked);
 }
 
 TEST_CASE("stmw weighs planes by area and places with the area term") {
@@ -100,7 +100,7 @@ TEST_CASE("the link condition by size is that of the presets without memory, els
         o.preset = preset;
         o.topology.link = LinkCondition::by_size;
         const detail::Settings s = detail::settings(o);
-        const bool has_memory = s.carry == detail::Settings::Carry::memory;
+        const bool has_memory = s.quadric_policy == detail::Settings::QuadricPolicy::memory;
         CHECK(s.link == (has_memory ? LinkCondition::on : LinkCondition::by_size));
     }
 }

@@ -3,14 +3,14 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using detail::prune;
-using detail::Pruned;
+using detail::PruneResult;
 
 namespace {
 
@@ -32,7 +32,7 @@ std::vector<std::size_t> left(const std::vector<double>& sizes, const Length& si
                               const std::vector<std::uint8_t>& locked = {}) {
     const TriangleMesh mesh = tetrahedra(sizes);
     std::vector<Triangle> triangles = mesh.triangles;
-    const Pruned pruned = prune(mesh.positions, locked, size, triangles);
+    const PruneResult pruned = prune(mesh.positions, locked, size, triangles);
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         const bool gone = triangles[4 * i] == no_face;

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "support/meshes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <thread>
 
-#include "support/meshes.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 

@@ -6,12 +6,12 @@
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::Arranged;
+using detail::ReorderedMesh;
 
 namespace {
 
-Arranged arranged(const TriangleMesh& mesh) {
-    return detail::arrange(detail::prepare(mesh.view(), detail::settings({})));
+ReorderedMesh arranged(const TriangleMesh& mesh) {
+    return detail::reorder(detail::preprocess(mesh.view(), detail::settings({})));
 }
 
 // The order of the faces' corners in space, without the numbers of either mesh.
@@ -28,9 +28,9 @@ std::vector<Vec3> corners(const std::vector<engine::Vector3>& positions,
 
 TEST_CASE("arrange: slots say whose they are, and faces keep their winding") {
     const TriangleMesh mesh = test::shaken(test::torus(9, 7), 0.1, 1);
-    const detail::Prepared prepared = detail::prepare(mesh.view(), detail::settings({}));
+    const detail::PreprocessedMesh prepared = detail::preprocess(mesh.view(), detail::settings({}));
     const std::vector<engine::Vector3> positions = prepared.engine_positions();
-    const Arranged a = detail::arrange(prepared);
+    const ReorderedMesh a = detail::reorder(prepared);
     REQUIRE(a.positions.size() == mesh.positions.size());
     REQUIRE(a.triangles.size() == mesh.triangles.size());
     for (Index v = 0; v < a.positions.size(); ++v) CHECK(a.positions[v] == positions[a.vertex[v]]);
@@ -53,7 +53,7 @@ TEST_CASE("arrange: along a line the order is that of the line") {
             REQUIRE(v == mesh.positions.size() - 4);
         }
     }
-    const Arranged a = arranged(mesh);
+    const ReorderedMesh a = arranged(mesh);
     for (std::size_t i = 4; i < a.positions.size(); ++i) CHECK(a.positions[i - 4].x() < a.positions[i].x());
     for (std::size_t f = 2; f < a.triangles.size(); ++f) CHECK(a.triangles[f - 2][0] < a.triangles[f][0]);
 }
@@ -65,7 +65,7 @@ TEST_CASE("arrange: what the engine sees does not depend on the order of the inp
     for (Triangle& t : turned.triangles) {
         for (Index& v : t) v = static_cast<Index>(mesh.positions.size()) - 1 - v;
     }
-    const Arranged a = arranged(mesh), b = arranged(turned);
+    const ReorderedMesh a = arranged(mesh), b = arranged(turned);
     CHECK(corners(a.positions, a.triangles) == corners(b.positions, b.triangles));
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("arrange: unused vertices and dropped faces have no slot") {
     TriangleMesh mesh = test::quad();
     mesh.positions.push_back({1e30, 0, 0});
     mesh.triangles.insert(mesh.triangles.begin(), {2, 2, 3});
-    const Arranged a = arranged(mesh);
+    const ReorderedMesh a = arranged(mesh);
     CHECK(a.vertex.size() == 4);
     CHECK(a.face.size() == 2);
     CHECK(std::count(a.face.begin(), a.face.end(), 0u) == 0);
@@ -84,7 +84,7 @@ TEST_CASE("arrange: values of faces follow their faces") {
     TriangleMesh mesh = test::fan(5);
     std::vector<float> values;
     for (Index f = 0; f < 5; ++f) values.insert(values.end(), {float(f), 10 + float(f)});
-    const Arranged a = arranged(mesh);
+    const ReorderedMesh a = arranged(mesh);
     const std::vector<float> moved = a.per_face<float>(values, 2);
     REQUIRE(moved.size() == 10);
     for (std::size_t f = 0; f < 5; ++f) {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/mesh/components.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using detail::virtual_edges;
@@ -15,7 +15,7 @@ namespace {
 using Edge = std::pair<Index, Index>;
 
 std::vector<Edge> between(const TriangleMesh& mesh, double distance, double least = 1e-8) {
-    return virtual_edges(test::complex_of(mesh), mesh.face_groups, distance, least);
+    return virtual_edges(test::collapse_mesh_of(mesh), mesh.face_groups, distance, least);
 }
 
 // Two unit squares side by side in one plane, `gap` apart: corners 1, 2 of the first face 4 (0), 7 (3).
@@ -26,13 +26,14 @@ TriangleMesh two_quads(double gap) {
 // By definition, over all pairs: the four nearest of other parts, both on borders, agreeing normals, a common
 // group.
 std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least) {
-    const engine::Complex complex = test::complex_of(mesh);
-    std::vector<Index> part(complex.vertex_slots(), no_index);
-    std::vector<Index> rank(complex.vertex_slots(), no_index);  // by part, face and corner: settles ties
+    const engine::CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    std::vector<Index> part(collapse_mesh.vertex_slots(), no_index);
+    std::vector<Index> rank(collapse_mesh.vertex_slots(),
+                            no_index);  // by part, face and corner: settles ties
     Index number = 0, next_rank = 0;
-    for (const engine::Component& c : engine::components(complex)) {
+    for (const engine::Component& c : engine::components(collapse_mesh)) {
         for (const Index f : c.faces) {
-            for (const Index v : complex.triangle(f)) {
+            for (const Index v : collapse_mesh.triangle(f)) {
                 if (part[v] == no_index) rank[v] = next_rank++;
                 part[v] = number;
             }
@@ -42,8 +43,8 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
     const auto facts = [&](Index v) {
         std::pair<Vector3, std::set<Index>> result = {Vector3::Zero(), {}};
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
-            if (!complex.has_corner(f, v)) continue;
-            result.first += complex.area_vector(f);
+            if (!collapse_mesh.has_corner(f, v)) continue;
+            result.first += collapse_mesh.area_vector(f);
             if (!mesh.face_groups.empty()) result.second.insert(mesh.face_groups[f]);
         }
         return result;
@@ -59,7 +60,7 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
         std::set<std::tuple<double, Index, Index>> near;
         for (Index w = 0; w < part.size(); ++w) {
             if (part[w] == no_index || part[w] == part[v]) continue;
-            const double squared = (complex.position(v) - complex.position(w)).squaredNorm();
+            const double squared = (collapse_mesh.position(v) - collapse_mesh.position(w)).squaredNorm();
             if (squared <= distance * distance) near.insert({squared, rank[w], w});
         }
         std::size_t taken = 0;

@@ -103,7 +103,7 @@ void flip(TriangleMesh& mesh, Random& random) {
     }
 }
 
-void double_faces(TriangleMesh& mesh, Random& random) {
+void duplicate_faces(TriangleMesh& mesh, Random& random) {
     const double share = random.between(0.01, 0.5);
     const std::size_t faces = mesh.triangles.size();
     const bool is_other_side = random.below(2);
@@ -224,7 +224,7 @@ struct Damage {
 constexpr Damage kinds[] = {
     {"cut", cut},
     {"flipped", flip},
-    {"faces doubled", double_faces},
+    {"faces doubled", duplicate_faces},
     {"all doubled", double_all},
     {"cut", cut},
     {"flipped", flip},

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "step_counts/steps.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "step_counts/steps.hpp"
 
 namespace faqem::test {
 
@@ -19,7 +19,7 @@ inline constexpr std::uint64_t most_steps = 2'000'000;
 /// How long nobody was asked.
 class Watch {
 public:
-    engine::Poll poll() { return engine::Poll(asker_); }
+    engine::CancellationCheck check_cancelled() { return engine::CancellationCheck(monitor_); }
     std::function<Continue(double)> progress() {
         return [this](double) { return note(), Continue::yes; };
     }
@@ -38,14 +38,14 @@ public:
 private:
     std::uint64_t last_ = test::steps(), longest_ = 0;
     int calls_ = 0;
-    engine::Asker asker_{[this] { return note(), Continue::yes; }};
+    engine::ProgressMonitor monitor_{[this] { return note(), Continue::yes; }};
 };
 
 /// The most steps between two questions of work(poll).
 template <class Work>
 std::uint64_t longest_silence(Work&& work) {
     Watch watch;
-    work(watch.poll());
+    work(watch.check_cancelled());
     return watch.longest();
 }
 

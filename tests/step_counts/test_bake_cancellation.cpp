@@ -2,16 +2,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "bake/atlas/charts.hpp"
+#include "bake/atlas/packing.hpp"
 #include "bake/atlas/per_triangle.hpp"
 #include "bake/atlas/segmentation.hpp"
-#include "support/chart_meshes.hpp"
-#include "bake/atlas/packing.hpp"
-#include "bake/atlas/charts.hpp"
-#include "bake/texture/push_pull.hpp"
-#include "bake/transfer/texture_sampling.hpp"
-#include "bake/transfer/tangents.hpp"
 #include "bake/scene/visibility.hpp"
+#include "bake/texture/push_pull.hpp"
+#include "bake/transfer/tangents.hpp"
+#include "bake/transfer/texture_sampling.hpp"
 #include "step_counts/silence.hpp"
+#include "support/chart_meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -20,35 +20,45 @@ using test::most_steps;
 
 TEST_CASE("polls: no part of making charts is silent for long") {
     const std::vector<ChartFace> faces = test::chart_faces(test::shaken(test::icosphere(5), 0.01, 1), 200);
-    CHECK(longest_silence([&](engine::Poll poll) { grow_regions(faces, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              cluster_faces(faces, check_cancelled);
+          }) < most_steps);
     // Between the two, the linear system of a chart is solved without a question.
     const Charts charts = make_charts(faces, 1);
-    CHECK(longest_silence([&](engine::Poll poll) { pack_charts(charts.charts, faces.size(), 2048, poll); }) <
-          most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              pack_charts(charts.charts, faces.size(), 2048, check_cancelled);
+          }) < most_steps);
 }
 
 TEST_CASE("polls: no part of laying out single triangles is silent for long") {
     const TriangleMesh mesh = test::icosphere(6);
     const std::vector<ChartFace> faces = test::chart_faces(mesh, 1);
     std::vector<PairTriangle> triangles(faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) triangles[f] = {{10, 10, 10}, faces[f].across};
-    CHECK(longest_silence([&](engine::Poll poll) { pair_triangles(triangles, poll); }) < most_steps);
+    for (std::size_t f = 0; f < faces.size(); ++f) triangles[f] = {{10, 10, 10}, faces[f].adjacent};
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              pair_triangles(triangles, check_cancelled);
+          }) < most_steps);
     std::vector<AtlasTriangle> cells(faces.size());
     for (std::size_t f = 0; f < cells.size(); ++f) {
         const double leg = 2 + static_cast<double>(f % 17);
         cells[f] = {0, {leg, leg}, f, no_index};
     }
-    CHECK(longest_silence([&](engine::Poll poll) { pack_triangles(cells, 4096, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              pack_triangles(cells, 4096, check_cancelled);
+          }) < most_steps);
 }
 
 TEST_CASE("polls: no part of the work on images is silent for long") {
     constexpr std::uint32_t side = 1024;
     Pixels pixels{side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side, 99), false};
-    CHECK(longest_silence([&](engine::Poll poll) { MipImage(pixels, Encoding::colour, Workers(1, poll)); }) <
-          most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              MipImage(pixels, TexelEncoding::color, Workers(1, check_cancelled));
+          }) < most_steps);
     std::vector<std::uint8_t> known(std::size_t{side} * side, 0);
     for (std::size_t i = 0; i < known.size(); i += 1000) known[i] = 1;
-    CHECK(longest_silence([&](engine::Poll poll) { push_pull(pixels, known, {0, 4}, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              push_pull(pixels, known, {0, 4}, check_cancelled);
+          }) < most_steps);
 }
 
 TEST_CASE("polls: no part of looking around is silent for long") {
@@ -58,7 +68,9 @@ TEST_CASE("polls: no part of looking around is silent for long") {
         part.positions = mesh.positions;
         part.triangles = mesh.triangles;
     }
-    CHECK(longest_silence([&](engine::Poll poll) { seen_shares(asset, Workers(1, poll)); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              vertex_visibility(asset, Workers(1, check_cancelled));
+          }) < most_steps);
 }
 
 TEST_CASE("polls: no part of making tangents is silent for long") {
@@ -71,5 +83,7 @@ TEST_CASE("polls: no part of making tangents is silent for long") {
             corners.push_back({at, at, {at[0], at[1]}});
         }
     }
-    CHECK(longest_silence([&](engine::Poll poll) { mikk_tangents(corners, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              mikk_tangents(corners, check_cancelled);
+          }) < most_steps);
 }

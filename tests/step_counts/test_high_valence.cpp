@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "support/meshes.hpp"
-#include "support/original.hpp"
-#include "step_counts/steps.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
+#include "step_counts/steps.hpp"
+#include "support/meshes.hpp"
+#include "support/original.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -40,39 +40,40 @@ TriangleMesh lens(Index faces) {
     return mesh;
 }
 
-LoopOptions to_a_tenth(const Complex& complex) {
+LoopOptions to_a_tenth(const CollapseMesh& collapse_mesh) {
     LoopOptions loop;
     loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
-    loop.target_faces = complex.face_count() / 10;
-    loop.distance_weight = complex.area() / static_cast<double>(loop.target_faces);
+    loop.target_faces = collapse_mesh.face_count() / 10;
+    loop.distance_weight = collapse_mesh.area() / static_cast<double>(loop.target_faces);
     return loop;
 }
 
 template <class Metric>
-LoopResult run(Complex& complex, Metric metric) {
-    const LoopOptions loop = to_a_tenth(complex);
-    PairTable pairs(complex, {});
+LoopResult run(CollapseMesh& collapse_mesh, Metric metric) {
+    const LoopOptions loop = to_a_tenth(collapse_mesh);
+    PairTable pairs(collapse_mesh, {});
     Wedges wedges;
-    std::vector<std::uint8_t> free(complex.vertex_slots(), 0);
+    std::vector<std::uint8_t> free(collapse_mesh.vertex_slots(), 0);
     NoRecorder nothing;
-    return Engine<Metric, RoundQueue, NoRecorder>(complex, pairs, wedges, free, metric, nothing).run(loop);
+    return Engine<Metric, SweepQueue, NoRecorder>(collapse_mesh, pairs, wedges, free, metric, nothing)
+        .run(loop);
 }
 
 // Of simplifying to a tenth, per face.
 double steps_without_memory(const TriangleMesh& mesh) {
-    Complex complex = test::complex_of(mesh);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const std::uint64_t before = test::steps();
-    CHECK(run(complex, MemorylessMetric()).stop == StopReason::reached_target);
+    CHECK(run(collapse_mesh, MemorylessMetric()).stop == StopReason::reached_target);
     return static_cast<double>(test::steps() - before) / static_cast<double>(mesh.triangles.size());
 }
 
 double steps_tracked(const TriangleMesh& mesh) {
-    Complex complex = test::complex_of(mesh);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const test::OriginalOf original(mesh);
-    const LoopOptions loop = to_a_tenth(complex);
+    const LoopOptions loop = to_a_tenth(collapse_mesh);
     const std::uint64_t before = test::steps();
-    TrackedMetric metric({}, original.surface, original.lineage, loop.target_faces, loop.distance_weight);
-    const LoopResult result = run(complex, std::move(metric));
+    TrackedMetric metric({}, original.surface, original.tracked, loop.target_faces, loop.distance_weight);
+    const LoopResult result = run(collapse_mesh, std::move(metric));
     CHECK(result.stop == StopReason::reached_target);
     return static_cast<double>(test::steps() - before) / static_cast<double>(mesh.triangles.size());
 }

@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "faqem/detail/simplify/spatial_order.hpp"
-#include "support/meshes.hpp"
-#include "step_counts/silence.hpp"
-#include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "step_counts/silence.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -18,18 +18,28 @@ TEST_CASE("polls: no part of reading and arranging a mesh is silent for long") {
     Settings settings = detail::settings({});
     for (const double distance : {0.0, 1e-6}) {
         settings.weld_distance = distance;
-        CHECK(longest_silence([&](engine::Poll poll) { prepare(mesh.view(), settings, poll); }) < most_steps);
+        CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+                  preprocess(mesh.view(), settings, check_cancelled);
+              }) < most_steps);
     }
     settings.prune = of_diagonal(0.01);
-    CHECK(longest_silence([&](engine::Poll poll) { prepare(mesh.view(), settings, poll); }) < most_steps);
-    const Prepared prepared = prepare(mesh.view(), settings);
-    CHECK(longest_silence([&](engine::Poll poll) { arrange(prepared, poll); }) < most_steps);
-    CHECK(longest_silence([&](engine::Poll poll) { sorted_sides(mesh.triangles, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              preprocess(mesh.view(), settings, check_cancelled);
+          }) < most_steps);
+    const PreprocessedMesh prepared = preprocess(mesh.view(), settings);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              reorder(prepared, check_cancelled);
+          }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              sorted_halfedges(mesh.triangles, check_cancelled);
+          }) < most_steps);
 }
 
 TEST_CASE("polls: nor is it with thousands of faces twice, or around one vertex") {
     TriangleMesh mesh = test::fan(50'000);
     mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     const Settings settings = detail::settings({});
-    CHECK(longest_silence([&](engine::Poll poll) { prepare(mesh.view(), settings, poll); }) < most_steps);
+    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
+              preprocess(mesh.view(), settings, check_cancelled);
+          }) < most_steps);
 }

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
-#include "faqem/detail/geometry/triangle.hpp"
 
 namespace faqem::test {
 

@@ -12,7 +12,7 @@
 
 namespace faqem::test {
 
-using Flat = std::array<detail::ChartPoint, 3>;
+using FlatTriangle = std::array<detail::ChartPoint, 3>;
 
 /// Faces with their neighbours over edges of exactly two faces, wound alike. \param density  texels per
 /// length
@@ -33,8 +33,8 @@ inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, doub
         const auto& [f, c] = sides[0];
         const auto& [g, d] = sides[1];
         if (mesh.triangles[f][(c + 1) % 3] != mesh.triangles[g][(d + 2) % 3]) continue;
-        result[f].across[c] = {g, d};
-        result[g].across[d] = {f, c};
+        result[f].adjacent[c] = {g, d};
+        result[g].adjacent[d] = {f, c};
     }
     return result;
 }
@@ -60,14 +60,14 @@ inline TriangleMesh moebius(Index around, Index across) {
 }
 
 /// Area that two triangles share, by cutting one with the sides of the other (Sutherland and Hodgman 1974).
-inline double shared_area(const Flat& a, const Flat& b) {
+inline double shared_area(const FlatTriangle& a, const FlatTriangle& b) {
     std::vector<detail::ChartPoint> polygon(a.begin(), a.end());
     for (std::size_t i = 0; i < 3; ++i) {
         const detail::ChartPoint p = b[i], q = b[(i + 1) % 3];
         std::vector<detail::ChartPoint> inside;
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             const auto &s = polygon[k], &e = polygon[(k + 1) % polygon.size()];
-            const double at_s = detail::turn(p, q, s), at_e = detail::turn(p, q, e);
+            const double at_s = detail::twice_signed_area(p, q, s), at_e = detail::twice_signed_area(p, q, e);
             if (at_s >= 0) inside.push_back(s);
             if ((at_s > 0 && at_e < 0) || (at_s < 0 && at_e > 0)) {
                 inside.push_back(s + (e - s) * (at_s / (at_s - at_e)));
@@ -77,25 +77,27 @@ inline double shared_area(const Flat& a, const Flat& b) {
     }
     double twice = 0;
     for (std::size_t k = 2; k < polygon.size(); ++k)
-        twice += detail::turn(polygon[0], polygon[k - 1], polygon[k]);
+        twice += detail::twice_signed_area(polygon[0], polygon[k - 1], polygon[k]);
     return twice / 2;
 }
 
 /// The largest share of a triangle that lies under another one. Looks at all pairs.
-inline double worst_overlap(const std::vector<Flat>& triangles) {
+inline double worst_overlap(const std::vector<FlatTriangle>& triangles) {
     double worst = 0;
-    const auto box = [](const Flat& t, bool high, bool up) {
+    const auto box = [](const FlatTriangle& t, bool high, bool up) {
         const auto at = [&](std::size_t i) { return up ? t[i].imag() : t[i].real(); };
         return high ? std::max({at(0), at(1), at(2)}) : std::min({at(0), at(1), at(2)});
     };
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t j = i + 1; j < triangles.size(); ++j) {
-            const Flat &a = triangles[i], &b = triangles[j];
+            const FlatTriangle &a = triangles[i], &b = triangles[j];
             if (box(a, true, false) < box(b, false, false) || box(b, true, false) < box(a, false, false))
                 continue;
             if (box(a, true, true) < box(b, false, true) || box(b, true, true) < box(a, false, true))
                 continue;
-            const double least = std::min(detail::turn(a[0], a[1], a[2]), detail::turn(b[0], b[1], b[2])) / 2;
+            const double least = std::min(detail::twice_signed_area(a[0], a[1], a[2]),
+                                          detail::twice_signed_area(b[0], b[1], b[2])) /
+                                 2;
             worst = std::max(worst, shared_area(a, b) / least);
         }
     }

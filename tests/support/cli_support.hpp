@@ -14,15 +14,15 @@
 #include <string>
 #include <thread>
 
-#include "faqem/asset.hpp"
 #include "cli/temporary_folder.hpp"
+#include "faqem/asset.hpp"
 
 namespace tool_test {
 
 namespace fs = std::filesystem;
 
 /// A folder that is gone afterwards.
-class Folder : public faqem::tool::TemporaryFolder {
+class Folder : public faqem::cli::TemporaryFolder {
 public:
     Folder() : TemporaryFolder("faqem-tool") {}
     fs::path operator/(const std::string& name) const { return path() / name; }

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/engine.hpp"
+#include "support/meshes.hpp"
 
 namespace faqem::test {
 
@@ -30,44 +30,46 @@ inline std::uint64_t refused(const LoopResult& result, Refusal why) {
 struct Script {
     std::map<Ends, Vector3> offers;
 
-    void initialise(const Complex&, const PairTable&) {}
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
-                                      Freedom freedom) const {
+    void initialise(const CollapseMesh&, const PairTable&) {}
+    std::optional<Candidate> evaluate(const CollapseMesh& collapse_mesh, const PairTable& pairs, Index pair,
+                                      AllowedPosition allowed_position) const {
         const Index u = pairs.first(pair), v = pairs.second(pair);
         const auto at = offers.find(ends(u, v));
-        if (at == offers.end() || freedom == Freedom::nowhere) return std::nullopt;
+        if (at == offers.end() || allowed_position == AllowedPosition::nowhere) return std::nullopt;
         const auto order = static_cast<double>(std::distance(offers.begin(), at));
-        if (freedom == Freedom::at_first) return Candidate{complex.position(u), order};
-        if (freedom == Freedom::at_second) return Candidate{complex.position(v), order};
+        if (allowed_position == AllowedPosition::at_first) return Candidate{collapse_mesh.position(u), order};
+        if (allowed_position == AllowedPosition::at_second)
+            return Candidate{collapse_mesh.position(v), order};
         return Candidate{at->second, order};
     }
-    void collapsing(const Complex&, const PairTable&, Index, Index, const Vector3&) {}
-    void collapsed(const Complex&, const PairTable&, Index, std::span<const PairTable::Change>) {}
-    Staleness staleness(const PairTable::Change&) const { return Staleness::none; }
+    void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}
+    void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
+    Reevaluation reevaluation(const PairTable::Change&) const { return Reevaluation::none; }
 };
 
 // A run of the engine over a mesh, with everything that it changed.
 template <class Metric>
 struct Play {
     Play(const TriangleMesh& mesh, Metric m, const std::vector<Ends>& extra = {})
-        : complex(complex_of(mesh)),
-          pairs(complex, extra),
+        : collapse_mesh(collapse_mesh_of(mesh)),
+          pairs(collapse_mesh, extra),
           locked(mesh.positions.size(), 0),
           metric(std::move(m)),
-          recorder(complex) {}
+          recorder(collapse_mesh) {}
 
     const LoopResult& run(std::size_t target, const Rules& rules, double tiny = 0,
                           double distance_weight = 0) {
         LoopOptions options;
         options.target_faces = target;
         options.rules = rules;
-        options.tiny_component = tiny;
+        options.tiny_component_diagonal = tiny;
         options.distance_weight = distance_weight;
-        Engine<Metric, HeapQueue, HistoryRecorder> engine(complex, pairs, wedges, locked, metric, recorder);
+        Engine<Metric, HeapQueue, HistoryRecorder> engine(collapse_mesh, pairs, wedges, locked, metric,
+                                                          recorder);
         return result = engine.run(options);
     }
 
-    Complex complex;
+    CollapseMesh collapse_mesh;
     PairTable pairs;
     Wedges wedges;
     std::vector<std::uint8_t> locked;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "support/format_support.hpp"
 #include "asset/gltf/json.hpp"
+#include "support/format_support.hpp"
 
 namespace faqem::testing {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/mesh.hpp"
 
@@ -264,7 +264,7 @@ inline TriangleMesh both(TriangleMesh a, const TriangleMesh& b) {
     return a;
 }
 
-inline engine::Complex complex_of(const TriangleMesh& mesh) {
+inline engine::CollapseMesh collapse_mesh_of(const TriangleMesh& mesh) {
     std::vector<engine::Vector3> positions;
     for (const Vec3& p : mesh.positions) positions.push_back(engine::to_eigen(p));
     return {positions, mesh.triangles};

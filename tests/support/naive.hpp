@@ -8,17 +8,17 @@
 #include <map>
 #include <vector>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/history.hpp"
+#include "support/meshes.hpp"
 
 namespace faqem::test {
 
 using engine::AreaTerm;
 using engine::BaseWeight;
 using engine::Candidate;
-using engine::Complex;
+using engine::CollapseMesh;
 using engine::CompositeWeights;
 using engine::Legality;
 using engine::PairTable;
@@ -131,11 +131,11 @@ private:
     }
 
     bool legal(Index u, Index v, const Vector3& p) const {
-        const Complex complex(positions_, faces_);
-        const PairTable pairs(complex, {});
+        const CollapseMesh collapse_mesh(positions_, faces_);
+        const PairTable pairs(collapse_mesh, {});
         for (Index pair = 0; pair < pairs.size(); ++pair) {
             if (std::minmax(pairs.first(pair), pairs.second(pair)) == std::minmax(u, v))
-                return !Legality(complex).check(complex, pairs, u, v, pair, p, rules_);
+                return !Legality(collapse_mesh).check(collapse_mesh, pairs, u, v, pair, p, rules_);
         }
         return false;
     }

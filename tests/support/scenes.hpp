@@ -6,9 +6,9 @@
 #include <functional>
 #include <numeric>
 
-#include "support/meshes.hpp"
 #include "faqem/bake.hpp"
 #include "support/hand_history.hpp"
+#include "support/meshes.hpp"
 
 namespace faqem::test {
 
@@ -74,8 +74,8 @@ inline Asset textured_square(const Pixels& pixels) {
 }
 
 /// Small parts without a single collapse. Vertices are not welded.
-inline SmallParts unchanged(const Asset& asset) {
-    SmallParts small;
+inline SimplifiedParts unchanged(const Asset& asset) {
+    SimplifiedParts small;
     for (const Part& part : asset.parts) {
         SimplifyResult result;
         result.history = HandHistory(part.positions, part.triangles).finish();
@@ -86,7 +86,7 @@ inline SmallParts unchanged(const Asset& asset) {
 }
 
 /// The same, corners at equal positions welded as simplify() does.
-inline SmallParts unchanged_welded(const Asset& asset) {
+inline SimplifiedParts unchanged_welded(const Asset& asset) {
     Asset welded = asset;
     for (Part& part : welded.parts) {
         for (Triangle& t : part.triangles) {

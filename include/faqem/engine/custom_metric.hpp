@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -21,47 +21,51 @@ namespace engine {
 ///     freedom    of the pair (u, v), not `nowhere`: unless `anywhere`, the point must not change
 ///     returns    a cost that is not finite is a veto. It must depend on nothing but u, v and their one-rings
 template <class A, class Inner>
-concept Adjustment = requires(const A& adjust, const Inner& inner, const Complex& complex, Index u, Index v,
-                              Freedom freedom, const Candidate& candidate) {
-    { adjust(inner, complex, u, v, freedom, candidate) } -> std::convertible_to<std::optional<Candidate>>;
+concept Adjustment = requires(const A& adjust, const Inner& inner, const CollapseMesh& mesh, Index u, Index v,
+                              AllowedPosition allowed_position, const Candidate& candidate) {
+    {
+        adjust(inner, mesh, u, v, allowed_position, candidate)
+        } -> std::convertible_to<std::optional<Candidate>>;
 };
 
 /// Another metric, adjusted. \tparam Inner  one whose costs come in one step, such as MemoryMetric
 template <CollapseMetric Inner, Adjustment<Inner> Adjust>
-requires(!RefiningMetric<Inner>) class CustomMetric {
+requires(!LowerBoundMetric<Inner>) class CustomMetric {
 public:
     CustomMetric(Inner inner, Adjust adjust) : inner_(std::move(inner)), adjust_(std::move(adjust)) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
-        engine::initialise(inner_, complex, pairs, poll);
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
+                    CancellationCheck check_cancelled = {}) {
+        engine::initialise(inner_, mesh, pairs, check_cancelled);
     }
 
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
-                                      Freedom freedom) const {
-        std::optional<Candidate> found = inner_.evaluate(complex, pairs, pair, freedom);
-        if (found) found = adjust_(inner_, complex, pairs.first(pair), pairs.second(pair), freedom, *found);
+    std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
+                                      AllowedPosition allowed_position) const {
+        std::optional<Candidate> found = inner_.evaluate(mesh, pairs, pair, allowed_position);
+        if (found)
+            found = adjust_(inner_, mesh, pairs.first(pair), pairs.second(pair), allowed_position, *found);
         if (found && !std::isfinite(found->cost)) return std::nullopt;
         return found;
     }
 
-    void collapsing(const Complex& complex, const PairTable& pairs, Index survivor, Index gone,
-                    const Vector3& p) {
-        inner_.collapsing(complex, pairs, survivor, gone, p);
+    void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
+                         const Vector3& p) {
+        inner_.before_collapse(mesh, pairs, survivor, removed, p);
     }
 
-    void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
-                   std::span<const PairTable::Change> around) {
-        inner_.collapsed(complex, pairs, survivor, around);
+    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
+                        std::span<const PairTable::Change> around) {
+        inner_.after_collapse(mesh, pairs, survivor, around);
     }
 
     /// At least `lazily`: what the adjustment read around a neighbour has changed.
-    Staleness staleness(const PairTable::Change& change) const {
-        const Staleness inner = inner_.staleness(change);
-        return inner == Staleness::none ? Staleness::lazily : inner;
+    Reevaluation reevaluation(const PairTable::Change& change) const {
+        const Reevaluation inner = inner_.reevaluation(change);
+        return inner == Reevaluation::none ? Reevaluation::deferred : inner;
     }
 
-    void aim(std::size_t target_faces, double weight) requires AimingMetric<Inner> {
-        inner_.aim(target_faces, weight);
+    void set_target(std::size_t target_faces, double weight) requires TargetDependentMetric<Inner> {
+        inner_.set_target(target_faces, weight);
     }
 
 private:

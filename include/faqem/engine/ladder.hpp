@@ -4,22 +4,22 @@
 
 #include <utility>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/constraints/legality.hpp"
+#include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// Whether the curves between groups are to be kept.
-enum class Groups { free, kept };
+enum class CurvePolicy { free, kept };
 
 /// Relaxes what stands in the way of the rung. O(1)
 /// \return false where the rules were as lax before, or the rung is none of rules
-inline bool relax(Rules& rules, Rung rung, Groups groups) {
-    const auto allow_turn = [&](double limit) {
-        if (!(rules.least_turn > limit)) return false;
-        rules.least_turn = limit;
+inline bool relax_rule(Rules& rules, Rung rung, CurvePolicy groups) {
+    const auto lower_min_normal_cosine = [&](double limit) {
+        if (!(rules.min_normal_cosine > limit)) return false;
+        rules.min_normal_cosine = limit;
         return true;
     };
     switch (rung) {
@@ -28,18 +28,18 @@ inline bool relax(Rules& rules, Rung rung, Groups groups) {
             rules.link = LinkCondition::off;
             return true;
         case Rung::fold:
-            return std::exchange(rules.least_fold, -1) > -1;
+            return std::exchange(rules.min_fold_cosine, -1) > -1;
         case Rung::flip_zero:
-            return allow_turn(0);
+            return lower_min_normal_cosine(0);
         case Rung::flip_half:
-            return groups == Groups::free && allow_turn(-0.5);
+            return groups == CurvePolicy::free && lower_min_normal_cosine(-0.5);
         case Rung::flip_any:
             // Faces that turn over would cover another group's ground.
-            if (groups == Groups::kept) return false;
-            rules.least_length = 0;
-            return allow_turn(-1);
+            if (groups == CurvePolicy::kept) return false;
+            rules.min_pair_length = 0;
+            return lower_min_normal_cosine(-1);
         case Rung::reseed:
-        case Rung::double_faces:
+        case Rung::duplicate_faces:
         case Rung::tiny_components:
         case Rung::any_component:
             break;

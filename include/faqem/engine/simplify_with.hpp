@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -54,17 +54,17 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, const std::vecto
     return triangles;
 }
 
-inline void collect(const Complex& complex, CustomResult& result) {
-    std::vector<Index> number(complex.vertex_slots(), no_index);
-    for (Index v = 0; v < complex.vertex_slots(); ++v) {
-        if (complex.degree(v) == 0) continue;
+inline void build_result(const CollapseMesh& collapse_mesh, CustomResult& result) {
+    std::vector<Index> number(collapse_mesh.vertex_slots(), no_index);
+    for (Index v = 0; v < collapse_mesh.vertex_slots(); ++v) {
+        if (collapse_mesh.degree(v) == 0) continue;
         number[v] = static_cast<Index>(result.mesh.positions.size());
-        result.mesh.positions.push_back(to_array(complex.position(v)));
+        result.mesh.positions.push_back(to_array(collapse_mesh.position(v)));
         result.vertex_origin.push_back(v);
     }
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        if (!complex.alive(f)) continue;
-        const Triangle& t = complex.triangle(f);
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
+        if (!collapse_mesh.is_alive(f)) continue;
+        const Triangle& t = collapse_mesh.triangle(f);
         result.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
         result.face_origin.push_back(f);
     }
@@ -88,18 +88,18 @@ CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOption
     std::vector<std::uint8_t> locked(positions.size(), 0);
     for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v)
         locked[representative[v]] |= mesh.vertex_locks[v] != 0;
-    std::vector<Vector3> places;
-    places.reserve(positions.size());
-    for (const Vec3& p : positions) places.push_back(to_eigen(p));
+    std::vector<Vector3> points;
+    points.reserve(positions.size());
+    for (const Vec3& p : positions) points.push_back(to_eigen(p));
 
-    Complex complex(places, simplify_with_detail::welded_faces(mesh, representative));
-    PairTable pairs(complex, {});
+    CollapseMesh collapse_mesh(points, simplify_with_detail::welded_faces(mesh, representative));
+    PairTable pairs(collapse_mesh, {});
     Wedges wedges;
     NoRecorder recorder;
     CustomResult result;
-    Engine<Metric, Queue, NoRecorder> engine(complex, pairs, wedges, locked, metric, recorder);
+    Engine<Metric, Queue, NoRecorder> engine(collapse_mesh, pairs, wedges, locked, metric, recorder);
     result.loop = engine.run(options);
-    simplify_with_detail::collect(complex, result);
+    simplify_with_detail::build_result(collapse_mesh, result);
     return result;
 }
 

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "asset/file.hpp"
-#include "asset/image/image.hpp"
 #include "asset/formats/repair.hpp"
+#include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -79,9 +79,9 @@ MtlTexture read_texture(const std::string& statement) {
 }
 
 /// Reads the statements of one library.
-class Reader {
+class MtlReader {
 public:
-    Reader(std::span<const std::uint8_t> text, const std::string& name, std::vector<std::string>& warnings)
+    MtlReader(std::span<const std::uint8_t> text, const std::string& name, std::vector<std::string>& warnings)
         : in_(text, name, Continuation::yes), warnings_(warnings) {}
 
     std::vector<MtlMaterial> run() {
@@ -91,7 +91,7 @@ public:
         }
         finish_material();
         for (const auto& [key, count] : unused_)
-            warn(key + " is not used (" + counted(count, "statement") + ")");
+            warn(key + " is not used (" + pluralized(count, "statement") + ")");
         return std::move(materials_);
     }
 
@@ -105,15 +105,15 @@ private:
             materials_.back().name = in_.rest_of_line();
             materials_.back().values.name = materials_.back().name;
             materials_.back().values.metallic = 0;
-        } else if (materials_.empty() || !known_statement(key, materials_.back())) {
-            static constexpr std::array<std::string_view, 8> no_place = {
+        } else if (materials_.empty() || !read_known_statement(key, materials_.back())) {
+            static constexpr std::array<std::string_view, 8> ignored_keys = {
                 "Ka", "Ks", "Ni", "Tf", "Km", "map_Ka", "illum", "sharpness"};
-            if (std::find(no_place.begin(), no_place.end(), key) == no_place.end())
+            if (std::find(ignored_keys.begin(), ignored_keys.end(), key) == ignored_keys.end())
                 ++unused_[TextScanner::quoted(key)];
         }
     }
 
-    bool known_statement(std::string_view key, MtlMaterial& material) {
+    bool read_known_statement(std::string_view key, MtlMaterial& material) {
         if (key == "Kd")
             diffuse_ = color();
         else if (key == "Ke")
@@ -175,10 +175,11 @@ private:
         }
         if (emission_ && is_black(*emission_) && !material.emissive.file.empty()) emission_.reset();
         Material& values = material.values;
-        const double light = material.emissive.file.empty() ? 0 : 1;
+        const double default_emission = material.emissive.file.empty() ? 0 : 1;
         for (int k = 0; k < 3; ++k) {
             values.base_color[k] = static_cast<float>(linear_from_srgb(diffuse_ ? (*diffuse_)[k] : 1));
-            values.emissive[k] = static_cast<float>(linear_from_srgb(emission_ ? (*emission_)[k] : light));
+            values.emissive[k] =
+                static_cast<float>(linear_from_srgb(emission_ ? (*emission_)[k] : default_emission));
         }
         const double alpha = opacity_ ? *opacity_ : transparency_ ? 1 - *transparency_ : 1;
         values.base_color[3] = static_cast<float>(alpha);
@@ -206,7 +207,7 @@ Index add_image(Asset& asset, const MtlMaterial& material, const std::string& na
                 const std::filesystem::path& folder) {
     try {
         const std::string reference = (material.folder / name).generic_string();
-        const std::filesystem::path found = resolve_inside(folder, reference, Reference::file_name);
+        const std::filesystem::path found = resolve_inside(folder, reference, ReferenceSyntax::file_name);
         const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder);
         Image image;
         image.uri = found.lexically_relative(root).generic_string();
@@ -239,7 +240,7 @@ TextureRef add_texture(Asset& asset, const MtlMaterial& material, const MtlTextu
 
 std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
                                   std::vector<std::string>& warnings) {
-    return Reader(text, name, warnings).run();
+    return MtlReader(text, name, warnings).run();
 }
 
 Index add_material(Asset& asset, const MtlMaterial& source, const std::filesystem::path& folder) {

@@ -4,32 +4,32 @@
 #include <cstddef>
 #include <functional>
 
-#include "asset/image/image.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/formats/repair.hpp"
+#include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/text/number_text.hpp"
 
 namespace faqem::detail {
 namespace {
 
-class Writer {
+class MtlWriter {
 public:
-    Writer(const Asset& asset, const std::string& stem) : asset_(asset), stem_(stem) {}
+    MtlWriter(const Asset& asset, const std::string& stem) : asset_(asset), stem_(stem) {}
 
     void add(const Material& material) {
         std::string& text = library_.text;
-        library_.names.push_back(unique_name(statement_name(material.name, "material")));
+        library_.names.push_back(unique_name(sanitized_name(material.name, "material")));
         text += "newmtl " + library_.names.back() + "\n";
         color("Kd", {material.base_color[0], material.base_color[1], material.base_color[2]});
         const bool transparent = material.alpha_mode != AlphaMode::opaque;
         if (transparent && material.base_color[3] < 1) number("d", material.base_color[3]);
         number("Pr", material.roughness);
         number("Pm", material.metallic);
-        const bool glows = material.emissive != Vec3f{0, 0, 0};
-        if (glows) color("Ke", material.emissive);
+        const bool is_emissive = material.emissive != Vec3f{0, 0, 0};
+        if (is_emissive) color("Ke", material.emissive);
         texture("map_Kd", material.base_color_texture);
         if (transparent) texture("map_d", material.base_color_texture);
-        if (glows) texture("map_Ke", material.emissive_texture);
+        if (is_emissive) texture("map_Ke", material.emissive_texture);
         texture("norm", material.normal_texture);
     }
 
@@ -55,7 +55,7 @@ private:
         library_.text += key;
         for (const float c : linear) {
             library_.text += " ";
-            append_number(library_.text, six_decimals(srgb_from_linear(c)));
+            append_number(library_.text, round_to_six_decimals(srgb_from_linear(c)));
         }
         library_.text += "\n";
     }
@@ -69,8 +69,8 @@ private:
     std::string image_name(Index image) {
         for (const MtlImage& known : library_.images)
             if (known.image == image) return known.name;
-        const std::string ending = file_ending(asset_.images[image].mime_type);
-        library_.images.push_back({stem_ + "_" + std::to_string(library_.images.size()) + ending, image});
+        const std::string extension = file_extension(asset_.images[image].mime_type);
+        library_.images.push_back({stem_ + "_" + std::to_string(library_.images.size()) + extension, image});
         return library_.images.back().name;
     }
 
@@ -79,16 +79,16 @@ private:
     MtlLibrary library_;
 };
 
-bool same_uvs(const TextureRef& a, const TextureRef& b) {
+bool has_same_uvs(const TextureRef& a, const TextureRef& b) {
     return a.uv_set == b.uv_set && a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
 }
 
 bool uses_other_uvs(const Material& m) {
-    const auto differs = [&](const TextureRef& ref) { return ref && !same_uvs(ref, leading_texture(m)); };
+    const auto differs = [&](const TextureRef& ref) { return ref && !has_same_uvs(ref, leading_texture(m)); };
     return differs(m.emissive_texture) || differs(m.normal_texture);
 }
 
-bool wraps_otherwise(const Material& m) {
+bool has_unsupported_wrap(const Material& m) {
     const auto unusual = [](const TextureRef& ref) {
         return ref && (ref.wrap_u != ref.wrap_v || ref.wrap_u == Wrap::mirror);
     };
@@ -110,12 +110,12 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
         {"double-sided materials", [](const Material& m) { return m.double_sided; }},
         {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
         {"different UVs for the textures of a material", uses_other_uvs},
-        {"mirrored wrapping, or wrapping that differs in u and v", wraps_otherwise}};
+        {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
     for (const Loss& kind : kinds) {
         const auto count = std::count_if(materials.begin(), materials.end(), kind.occurs);
         if (count)
             losses.push_back(std::string("OBJ cannot hold ") + kind.what + " (" +
-                             counted(static_cast<std::uint64_t>(count), "material") + ")");
+                             pluralized(static_cast<std::uint64_t>(count), "material") + ")");
     }
 }
 
@@ -134,12 +134,12 @@ MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const st
         if (m == no_index) materials.back().name = "default";
     }
     add_losses(materials, losses);
-    Writer writer(asset, stem);
+    MtlWriter writer(asset, stem);
     for (const Material& material : materials) writer.add(material);
     return writer.finish();
 }
 
-std::string statement_name(const std::string& name, const std::string& fallback) {
+std::string sanitized_name(const std::string& name, const std::string& fallback) {
     std::string text = name;
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = '_';

@@ -34,6 +34,6 @@ MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const st
                     std::vector<std::string>& losses);
 
 /// A name that fits in one statement: no control characters, no blanks at the ends, not empty.
-std::string statement_name(const std::string& name, const std::string& fallback);
+std::string sanitized_name(const std::string& name, const std::string& fallback);
 
 }  // namespace faqem::detail

@@ -8,8 +8,8 @@
 
 #include "asset/file.hpp"
 #include "asset/formats/mtl.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/formats/repair.hpp"
+#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "asset/text/value_numbers.hpp"
@@ -19,17 +19,17 @@ namespace faqem::detail {
 namespace {
 
 /// What a corner refers to: position, UV, normal; no_index where absent.
-using Corner = std::array<Index, 3>;
+using ObjCorner = std::array<Index, 3>;
 
-constexpr std::array<const char*, 3> corner_nouns = {"position", "texture coordinate", "normal"};
+constexpr std::array<const char*, 3> corner_index_names = {"position", "texture coordinate", "normal"};
 
 /// The statements of an OBJ file as written, indices from 0.
-struct Statements {
+struct ObjStatements {
     std::vector<Vec3> positions;
     std::vector<Vec3f> colors;  // empty, or one per position
     std::vector<Vec2f> uvs;
     std::vector<Vec3f> normals;
-    std::vector<Corner> corners;
+    std::vector<ObjCorner> corners;
     std::vector<std::uint32_t> sizes;  // corners of each face
     std::vector<Index> face_material;  // into material_names
     std::vector<std::string> material_names;
@@ -37,12 +37,12 @@ struct Statements {
     std::string object;
 };
 
-class Parser {
+class ObjParser {
 public:
-    Parser(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
+    ObjParser(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
         : in_(text, file, Continuation::yes), warnings_(warnings) {}
 
-    Statements run() {
+    ObjStatements run() {
         while (in_.skip_to_content()) {
             statement(in_.word());
             in_.next_line();
@@ -124,8 +124,8 @@ private:
     }
 
     /// v, v/t, v//n or v/t/n. `v/` and `v/t/`, which some exporters write, count as without.
-    Corner corner() {
-        Corner corner = {no_index, no_index, no_index};
+    ObjCorner corner() {
+        ObjCorner corner = {no_index, no_index, no_index};
         corner[0] = index(0);
         for (std::size_t kind = 1; kind < 3 && in_.accept('/'); ++kind)
             if (!in_.at_word_end() && !in_.remaining().starts_with('/')) corner[kind] = index(kind);
@@ -141,7 +141,7 @@ private:
         std::int64_t number = 0;
         if (!in_.accept_integer(number)) in_.fail(TextScanner::quoted(in_.word()) + " is not an index");
         if (number == 0)
-            in_.fail(std::string("index 0 of a ") + corner_nouns[kind] + ": they are numbered from 1");
+            in_.fail(std::string("index 0 of a ") + corner_index_names[kind] + ": they are numbered from 1");
         const std::size_t count = count_of(kind);
         if (number < 0) {
             if (number < -static_cast<std::int64_t>(count)) out_of_range(kind, number, count, in_.line());
@@ -158,9 +158,9 @@ private:
     [[noreturn]] void out_of_range(std::size_t kind, std::int64_t number, std::size_t count,
                                    std::uint64_t line) const {
         throw InputError(in_.file(), "line " + std::to_string(line),
-                         std::string("index ") + std::to_string(number) + " of a " + corner_nouns[kind] +
-                             " is out of range: there " + (count == 1 ? "is " : "are ") +
-                             std::to_string(count));
+                         std::string("index ") + std::to_string(number) + " of a " +
+                             corner_index_names[kind] + " is out of range: there " +
+                             (count == 1 ? "is " : "are ") + std::to_string(count));
     }
 
     void check_forward_references() const {
@@ -182,49 +182,50 @@ private:
 
     void add_warnings() {
         if (lines_and_points_)
-            warnings_.push_back(counted(lines_and_points_, "line or point statement") +
+            warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
                                 " not read: only faces are");
         if (unknown_)
-            warnings_.push_back(counted(unknown_, "unknown statement") + " not read, first " +
+            warnings_.push_back(pluralized(unknown_, "unknown statement") + " not read, first " +
                                 first_unknown_);
         if (weights_)
-            warnings_.push_back(counted(weights_, "position") + " with a weight or alpha, which is not read");
+            warnings_.push_back(pluralized(weights_, "position") +
+                                " with a weight or alpha, which is not read");
     }
 
-    struct Reference {
+    struct ForwardReference {
         std::int64_t number = 0;
         std::uint64_t line = 0;
     };
 
     TextScanner in_;
     std::vector<std::string>& warnings_;
-    Statements out_;
+    ObjStatements out_;
     std::map<std::string, Index> material_indices_;
     Index material_ = no_index;
-    std::array<Reference, 3> highest_;  // of the references forward
+    std::array<ForwardReference, 3> highest_;  // of the references forward
     std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
     std::string first_unknown_;
 };
 
 /// Numbers the different corners: position i, as its first corner uses it, is vertex i; others come after.
-class CornerNumbers {
+class CornerVertices {
 public:
-    explicit CornerNumbers(std::size_t positions)
+    explicit CornerVertices(std::size_t positions)
         : first_(positions, {no_index, no_index}), seen_(positions, 0) {}
 
-    Index number(const Corner& c) {
+    Index vertex(const ObjCorner& c) {
         std::array<Index, 2>& first = first_[c[0]];
         if (!seen_[c[0]]) {
             seen_[c[0]] = 1;
             first = {c[1], c[2]};
         }
         if (first[0] == c[1] && first[1] == c[2]) return c[0];
-        return static_cast<Index>(first_.size() + extra_.number(c));
+        return static_cast<Index>(first_.size() + extra_.insert(c));
     }
 
     std::uint64_t count() const { return first_.size() + extra_.values().size(); }
     /// The corner that vertex v stands for.
-    Corner corner(std::size_t v) const {
+    ObjCorner corner(std::size_t v) const {
         if (v >= first_.size()) return extra_.values()[v - first_.size()];
         return {static_cast<Index>(v), first_[v][0], first_[v][1]};
     }
@@ -232,22 +233,22 @@ public:
 private:
     std::vector<std::array<Index, 2>> first_;  // UV and normal of each position's first corner
     std::vector<std::uint8_t> seen_;
-    ValueNumbers<Corner> extra_;
+    UniqueValues<ObjCorner> extra_;
 };
 
-void fill_vertices(Part& part, const Statements& in, const CornerNumbers& numbers) {
-    const std::size_t count = numbers.count();
+void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& corner_vertices) {
+    const std::size_t count = corner_vertices.count();
     part.positions.resize(count);
     if (!in.colors.empty()) part.colors.resize(count);
     const auto uses = [&](int kind) {
         return std::any_of(in.corners.begin(), in.corners.end(),
-                           [kind](const Corner& c) { return c[kind] != no_index; });
+                           [kind](const ObjCorner& c) { return c[kind] != no_index; });
     };
     const bool has_uvs = uses(1), has_normals = uses(2);
     if (has_uvs) part.uvs.emplace_back(count, Vec2f{0, 0});
     if (has_normals) part.normals.resize(count, {0, 0, 0});
     for (std::size_t v = 0; v < count; ++v) {
-        const Corner c = numbers.corner(v);
+        const ObjCorner c = corner_vertices.corner(v);
         part.positions[v] = in.positions[c[0]];
         if (!in.colors.empty())
             part.colors[v] = {in.colors[c[0]][0], in.colors[c[0]][1], in.colors[c[0]][2], 1};
@@ -259,7 +260,7 @@ void fill_vertices(Part& part, const Statements& in, const CornerNumbers& number
 /// Names of one mtllib statement: the whole rest of the line where there is such a file, else word by word.
 std::vector<std::string> library_names(const std::string& rest, const std::filesystem::path& folder) {
     try {
-        resolve_inside(folder, rest, Reference::file_name);
+        resolve_inside(folder, rest, ReferenceSyntax::file_name);
         return {rest};
     } catch (const InputError&) {
         std::vector<std::string> names;
@@ -272,7 +273,8 @@ std::vector<std::string> library_names(const std::string& rest, const std::files
 }
 
 /// All materials of the libraries by name; a later one of the same name counts.
-std::map<std::string, MtlMaterial> read_libraries(const Statements& in, const std::filesystem::path& folder,
+std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
+                                                  const std::filesystem::path& folder,
                                                   std::vector<std::string>& warnings) {
     std::map<std::string, MtlMaterial> materials;
     std::vector<std::string> done;
@@ -283,7 +285,7 @@ std::map<std::string, MtlMaterial> read_libraries(const Statements& in, const st
             std::vector<std::uint8_t> text;
             std::filesystem::path found;
             try {
-                found = resolve_inside(folder, name, Reference::file_name);
+                found = resolve_inside(folder, name, ReferenceSyntax::file_name);
                 text = read_file(found);
             } catch (const InputError& error) {
                 warnings.push_back(std::string("material library left out: ") + error.what());
@@ -300,7 +302,7 @@ std::map<std::string, MtlMaterial> read_libraries(const Statements& in, const st
 }
 
 /// Materials in the order in which faces use them first.
-void add_materials(Asset& asset, const Statements& in, const std::filesystem::path& folder) {
+void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem::path& folder) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
     const auto libraries = read_libraries(in, folder, asset.warnings);
     std::vector<Index> added(in.material_names.size(), no_index);
@@ -328,28 +330,30 @@ void add_materials(Asset& asset, const Statements& in, const std::filesystem::pa
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     Asset asset;
     Part& part = asset.parts.emplace_back();
-    Statements in = Parser(text, file.string(), asset.warnings).run();
+    ObjStatements in = ObjParser(text, file.string(), asset.warnings).run();
     check_index_count(in.positions.size(), file.string(), "v");
     check_index_count(in.sizes.size(), file.string(), "f");
     part.name = in.object.empty() ? file.stem().string() : in.object;
 
-    CornerNumbers numbers(in.positions.size());
+    CornerVertices corner_vertices(in.positions.size());
     Polygons polygons;
     polygons.sizes = std::move(in.sizes);
     polygons.vertices.reserve(in.corners.size());
-    for (const Corner& c : in.corners) {
-        polygons.vertices.push_back(numbers.number(c));
-        if (numbers.count() > max_index_count) check_index_count(numbers.count(), file.string(), "corner");
+    for (const ObjCorner& c : in.corners) {
+        polygons.vertices.push_back(corner_vertices.vertex(c));
+        if (corner_vertices.count() > max_index_count)
+            check_index_count(corner_vertices.count(), file.string(), "corner");
     }
-    fill_vertices(part, in, numbers);
-    SplitPolygons split = split_polygons(polygons, part.positions);
-    if (split.too_small)
-        asset.warnings.push_back(counted(split.too_small, "face") + " of fewer than three corners left out");
+    fill_vertices(part, in, corner_vertices);
+    TriangulatedPolygons split = triangulate_polygons(polygons, part.positions);
+    if (split.too_few_corners)
+        asset.warnings.push_back(pluralized(split.too_few_corners, "face") +
+                                 " of fewer than three corners left out");
     part.triangles = std::move(split.triangles);
     check_index_count(part.triangles.size(), file.string(), "triangle");
     part.face_material.reserve(part.triangles.size());
-    for (const Index p : split.polygon) part.face_material.push_back(in.face_material[p]);
-    repair_numbers(part, file.string(), split.not_finite, asset.warnings);
+    for (const Index p : split.source_polygon) part.face_material.push_back(in.face_material[p]);
+    repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
     add_materials(asset, in, file.parent_path());
     return asset;
 }

@@ -7,9 +7,9 @@
 #include "asset/file.hpp"
 #include "asset/flatten.hpp"
 #include "asset/formats/mtl_writer.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/text/number_text.hpp"
 #include "asset/text/text_buffer.hpp"
 #include "asset/text/value_numbers.hpp"
 
@@ -19,19 +19,19 @@ namespace {
 /// Materials of the faces in the order in which they are used first, as a place among them for each material.
 struct UsedMaterials {
     std::vector<Index> materials;  // into Asset::materials, or no_index
-    std::vector<Index> place;      // of each of Asset::materials and, last, of no_index
+    std::vector<Index> slot;       // of each of Asset::materials and, last, of no_index
 
-    Index place_of(Index material) const { return material == no_index ? place.back() : place[material]; }
+    Index slot_of(Index material) const { return material == no_index ? slot.back() : slot[material]; }
 };
 
 /// Nothing where no face has a material.
 UsedMaterials used_materials(const Part& part, std::size_t count) {
     UsedMaterials used;
-    used.place.assign(count + 1, no_index);
+    used.slot.assign(count + 1, no_index);
     for (const Index m : part.face_material) {
-        Index& place = m == no_index ? used.place.back() : used.place[m];
-        if (place != no_index) continue;
-        place = static_cast<Index>(used.materials.size());
+        Index& slot = m == no_index ? used.slot.back() : used.slot[m];
+        if (slot != no_index) continue;
+        slot = static_cast<Index>(used.materials.size());
         used.materials.push_back(m);
     }
     if (used.materials == std::vector<Index>{no_index}) used.materials.clear();
@@ -40,18 +40,21 @@ UsedMaterials used_materials(const Part& part, std::size_t count) {
 
 /// The numbers of a v, vt or vn line.
 template <std::size_t N>
-using Row = std::array<double, N>;
+using LineValues = std::array<double, N>;
 
 /// Numbers the lines of the file as the corners of the faces come to need them, so that a file written, read
 /// and written again is the same.
-class Rows {
+class VertexLines {
 public:
-    Rows(const Asset& asset, const Part& part)
-        : asset_(asset), part_(part), position_(part.positions.size(), no_index), normal_(position_) {
+    VertexLines(const Asset& asset, const Part& part)
+        : asset_(asset),
+          part_(part),
+          position_line_(part.positions.size(), no_index),
+          normal_line_(position_line_) {
         positions_.reserve(part.positions.size());
         if (!part.uvs.empty()) {
             uvs_.reserve(part.positions.size());
-            uv_.resize(part.positions.size());
+            uv_line_.resize(part.positions.size());
         }
         if (!part.normals.empty()) normals_.reserve(part.positions.size());
     }
@@ -60,37 +63,38 @@ public:
     std::array<std::uint64_t, 3> corner(Index vertex, Index material) {
         std::array<std::uint64_t, 3> numbers = {std::uint64_t{position(vertex)} + 1, 0, 0};
         if (!part_.uvs.empty()) {
-            KnownUv& known = uv_[vertex];
+            CachedUv& known = uv_line_[vertex];
             if (known.number == no_index || known.material != material)
-                known = {material, uvs_.number(uv(vertex, material))};
+                known = {material, uvs_.insert(uv(vertex, material))};
             numbers[1] = std::uint64_t{known.number} + 1;
         }
         if (!part_.normals.empty() && part_.normals[vertex] != Vec3f{0, 0, 0}) {
-            if (normal_[vertex] == no_index) normal_[vertex] = normals_.number(part_.normals[vertex]);
-            numbers[2] = std::uint64_t{normal_[vertex]} + 1;
+            if (normal_line_[vertex] == no_index)
+                normal_line_[vertex] = normals_.insert(part_.normals[vertex]);
+            numbers[2] = std::uint64_t{normal_line_[vertex]} + 1;
         }
         return numbers;
     }
 
     Index position(Index vertex) {
-        if (position_[vertex] != no_index) return position_[vertex];
+        if (position_line_[vertex] != no_index) return position_line_[vertex];
         const Vec3& p = part_.positions[vertex];
-        Row<6> row = {p[0], p[1], p[2], 0, 0, 0};
+        LineValues<6> row = {p[0], p[1], p[2], 0, 0, 0};
         for (std::size_t k = 0; k < 3 && !part_.colors.empty(); ++k)
-            row[3 + k] = six_decimals(srgb_from_linear(part_.colors[vertex][k]));
-        return position_[vertex] = positions_.number(row);
+            row[3 + k] = round_to_six_decimals(srgb_from_linear(part_.colors[vertex][k]));
+        return position_line_[vertex] = positions_.insert(row);
     }
 
     void write(TextBuffer& text) const {
-        const bool floats = all_floats(part_.positions);
-        for (const Row<6>& row : positions_.values()) {
+        const bool floats = is_float_representable(part_.positions);
+        for (const LineValues<6>& row : positions_.values()) {
             text.put('v');
             for (std::size_t k = 0; k < (part_.colors.empty() ? 3 : 6); ++k) {
                 text.put(' ');
                 if (floats && k < 3)
-                    text.number(static_cast<float>(row[k]));
+                    text.put_number(static_cast<float>(row[k]));
                 else
-                    text.number(row[k]);
+                    text.put_number(row[k]);
             }
             text.put('\n');
         }
@@ -105,60 +109,61 @@ private:
         const TextureRef& ref = material == no_index ? none : leading_texture(asset_.materials[material]);
         const Vec2f& uv = part_.uvs[ref.uv_set < part_.uvs.size() ? ref.uv_set : 0][vertex];
         const Vec2f scaled = {uv[0] * ref.scale[0], uv[1] * ref.scale[1]};
-        Vec2f turned = scaled;
+        Vec2f rotated = scaled;
         if (ref.rotation != 0) {
             const float c = std::cos(ref.rotation), s = std::sin(ref.rotation);
-            turned = {c * scaled[0] + s * scaled[1], c * scaled[1] - s * scaled[0]};
+            rotated = {c * scaled[0] + s * scaled[1], c * scaled[1] - s * scaled[0]};
         }
-        return {ref.offset[0] + turned[0], 1 - (ref.offset[1] + turned[1])};
+        return {ref.offset[0] + rotated[0], 1 - (ref.offset[1] + rotated[1])};
     }
 
     template <class Values>
-    static void write_floats(TextBuffer& text, std::string_view key, const Values& rows) {
-        for (const auto& row : rows) {
+    static void write_floats(TextBuffer& text, std::string_view key, const Values& lines) {
+        for (const auto& row : lines) {
             text.put(key);
             for (const float x : row) {
                 text.put(' ');
-                text.number(x);
+                text.put_number(x);
             }
             text.put('\n');
         }
     }
 
     /// Of the vertex as the last material saw it.
-    struct KnownUv {
+    struct CachedUv {
         Index material = no_index, number = no_index;
     };
 
     const Asset& asset_;
     const Part& part_;
-    std::vector<KnownUv> uv_;
-    std::vector<Index> position_, normal_;  // numbers by vertex, no_index: none yet
-    ValueNumbers<Row<6>> positions_;
-    ValueNumbers<Vec2f> uvs_;
-    ValueNumbers<Vec3f> normals_;
+    std::vector<CachedUv> uv_line_;
+    std::vector<Index> position_line_, normal_line_;  // numbers by vertex, no_index: none yet
+    UniqueValues<LineValues<6>> positions_;
+    UniqueValues<Vec2f> uvs_;
+    UniqueValues<Vec3f> normals_;
 };
 
 void append_corner(TextBuffer& text, const std::array<std::uint64_t, 3>& numbers) {
     text.put(' ');
-    text.number(numbers[0]);
+    text.put_number(numbers[0]);
     if (numbers[1] || numbers[2]) text.put('/');
-    if (numbers[1]) text.number(numbers[1]);
+    if (numbers[1]) text.put_number(numbers[1]);
     if (!numbers[2]) return;
     text.put('/');
-    text.number(numbers[2]);
+    text.put_number(numbers[2]);
 }
 
-TextBuffer faces_text(const Part& part, Rows& rows, const UsedMaterials& used, const MtlLibrary& library) {
+TextBuffer faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
+                      const MtlLibrary& library) {
     TextBuffer text;
     Index current = no_index;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         const Index material = part.face_material[f];
-        const Index place = used.place_of(material);
-        if (!used.materials.empty() && place != current) text.put("usemtl " + library.names[place] + "\n");
-        current = place;
+        const Index slot = used.slot_of(material);
+        if (!used.materials.empty() && slot != current) text.put("usemtl " + library.names[slot] + "\n");
+        current = slot;
         text.put('f');
-        for (const Index v : part.triangles[f]) append_corner(text, rows.corner(v, material));
+        for (const Index v : part.triangles[f]) append_corner(text, lines.corner(v, material));
         text.put('\n');
     }
     return text;
@@ -180,13 +185,13 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
     if (std::any_of(flat.colors.begin(), flat.colors.end(), [](const Vec4f& c) { return c[3] != 1; }))
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
-    Rows rows(asset, flat);
-    const TextBuffer faces = faces_text(flat, rows, used, library);
-    for (Index v = 0; v < flat.positions.size(); ++v) rows.position(v);
+    VertexLines lines(asset, flat);
+    const TextBuffer faces = faces_text(flat, lines, used, library);
+    for (Index v = 0; v < flat.positions.size(); ++v) lines.position(v);
     TextBuffer text;
     if (!used.materials.empty()) text.put("mtllib " + stem + ".mtl\n");
-    text.put("o " + statement_name(flat.name, stem) + "\n");
-    rows.write(text);
+    text.put("o " + sanitized_name(flat.name, stem) + "\n");
+    lines.write(text);
     text.put(faces.view());
 
     std::vector<FileContent> files;

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "asset/file.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/formats/repair.hpp"
+#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -47,9 +47,9 @@ Keyword read_keyword(TextScanner& in) {
     return keyword;
 }
 
-class Reader {
+class OffReader {
 public:
-    Reader(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
+    OffReader(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
         : in_(text, file, Continuation::no), warnings_(warnings) {}
 
     Part run() {
@@ -60,13 +60,13 @@ public:
         // A vertex takes six bytes at least, a face two.
         const std::uint64_t bytes = in_.remaining().size() + 1;
         if (vertices > bytes / 6 || faces > (bytes - 6 * vertices) / 2)
-            in_.fail("the file is too short for " + counted(vertices, "vertex") + " and " +
-                     counted(faces, "face"));
+            in_.fail("the file is too short for " + pluralized(vertices, "vertex") + " and " +
+                     pluralized(faces, "face"));
         resize(vertices);
         for (std::size_t v = 0; v < vertices; ++v) read_vertex(v);
         for (std::uint64_t f = 0; f < faces; ++f) read_face(vertices);
         if (in_.skip_to_content())
-            warnings_.push_back(counted(in_.remaining().size(), "byte") + " after the last face not read");
+            warnings_.push_back(pluralized(in_.remaining().size(), "byte") + " after the last face not read");
         finish();
         return std::move(part_);
     }
@@ -104,7 +104,7 @@ private:
         std::array<double, 4> rgba = {0, 0, 0, 1};
         bool integers = true;
         std::size_t size = 0;
-        while (size < 4 && !at_last_numbers()) {
+        while (size < 4 && !at_color_end()) {
             const std::string_view before = in_.remaining();
             rgba[size++] = in_.number<double>();
             const std::string_view word = before.substr(0, before.size() - in_.remaining().size());
@@ -118,7 +118,7 @@ private:
     }
 
     /// True where the colour must end: at the end of the line, or at the two UVs before it.
-    bool at_last_numbers() {
+    bool at_color_end() {
         if (!keyword_.uvs) return in_.at_line_end();
         TextScanner ahead = in_;
         for (int i = 0; i < 2; ++i) {
@@ -133,7 +133,7 @@ private:
         if (!in_.skip_to_content()) in_.fail("the file ends before face " + std::to_string(face));
         const auto size = in_.number<std::uint32_t>();
         if (size > in_.remaining().size() / 2 + 1)
-            in_.fail("the file is too short for " + counted(size, "corner"));
+            in_.fail("the file is too short for " + pluralized(size, "corner"));
         for (std::uint32_t i = 0; i < size; ++i) {
             const auto v = in_.number<std::int64_t>();
             if (v < 0 || static_cast<std::uint64_t>(v) >= vertices)
@@ -148,14 +148,15 @@ private:
     }
 
     void finish() {
-        if (face_colors_) warnings_.push_back("colours of " + counted(face_colors_, "face") + " not read");
-        SplitPolygons split = split_polygons(polygons_, part_.positions);
-        if (split.too_small)
-            warnings_.push_back(counted(split.too_small, "face") + " of fewer than three corners left out");
+        if (face_colors_) warnings_.push_back("colours of " + pluralized(face_colors_, "face") + " not read");
+        TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
+        if (split.too_few_corners)
+            warnings_.push_back(pluralized(split.too_few_corners, "face") +
+                                " of fewer than three corners left out");
         check_index_count(split.triangles.size(), in_.file(), "triangles");
         part_.triangles = std::move(split.triangles);
         part_.face_material.assign(part_.triangles.size(), no_index);
-        repair_numbers(part_, in_.file(), split.not_finite, warnings_);
+        repair_non_finite(part_, in_.file(), split.non_finite, warnings_);
     }
 
     TextScanner in_;
@@ -170,7 +171,7 @@ private:
 
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     Asset asset;
-    asset.parts.push_back(Reader(text, file.string(), asset.warnings).run());
+    asset.parts.push_back(OffReader(text, file.string(), asset.warnings).run());
     asset.parts[0].name = file.stem().string();
     return asset;
 }

@@ -9,8 +9,8 @@
 
 #include "asset/file.hpp"
 #include "asset/formats/ply_header.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/formats/repair.hpp"
+#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -18,17 +18,17 @@
 namespace faqem::detail {
 namespace {
 
-struct Range {
+struct TypeRange {
     double low, high;
 };
 
-Range range_of(PlyType type) {
-    static constexpr std::array<Range, 6> ranges = {{{-128, 127},
-                                                     {0, 255},
-                                                     {-32768, 32767},
-                                                     {0, 65535},
-                                                     {-2147483648.0, 2147483647.0},
-                                                     {0, 4294967295.0}}};
+TypeRange range_of(PlyType type) {
+    static constexpr std::array<TypeRange, 6> ranges = {{{-128, 127},
+                                                         {0, 255},
+                                                         {-32768, 32767},
+                                                         {0, 65535},
+                                                         {-2147483648.0, 2147483647.0},
+                                                         {0, 4294967295.0}}};
     return ranges[static_cast<std::size_t>(type)];
 }
 
@@ -41,12 +41,12 @@ public:
         : in_(data, file, Continuation::no, lines) {}
 
     /// Rows of `values` values that the bytes left can hold.
-    std::uint64_t capacity(std::uint64_t values, std::uint64_t) const {
+    std::uint64_t max_row_count(std::uint64_t values, std::uint64_t) const {
         return (in_.remaining().size() + 1) / 2 / values;
     }
     void begin_row() { in_.skip_to_content(); }
     void end_row() { in_.finish_line(); }
-    std::uint64_t left() {
+    std::uint64_t remaining_bytes() {
         in_.skip_to_content();
         return in_.remaining().size();
     }
@@ -56,7 +56,7 @@ public:
         if (type == PlyType::float64) return in_.number<double>();
         if (type == PlyType::float32) return in_.number<float>();
         const auto value = static_cast<double>(in_.number<std::int64_t>());
-        const Range range = range_of(type);
+        const TypeRange range = range_of(type);
         if (value < range.low || value > range.high)
             in_.fail("a number does not fit the type of its property");
         return value;
@@ -75,10 +75,12 @@ public:
           file_(file),
           swap_((format == PlyFormat::big_endian) != (std::endian::native == std::endian::big)) {}
 
-    std::uint64_t capacity(std::uint64_t, std::uint64_t bytes) const { return left() / bytes; }
+    std::uint64_t max_row_count(std::uint64_t, std::uint64_t bytes) const {
+        return remaining_bytes() / bytes;
+    }
     void begin_row() {}
     void end_row() {}
-    std::uint64_t left() const { return static_cast<std::uint64_t>(end_ - at_); }
+    std::uint64_t remaining_bytes() const { return static_cast<std::uint64_t>(end_ - at_); }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
     double value(PlyType type) {
@@ -106,7 +108,7 @@ public:
 private:
     template <class T>
     T take() {
-        if (left() < sizeof(T)) fail("the file ends here");
+        if (remaining_bytes() < sizeof(T)) fail("the file ends here");
         std::array<std::uint8_t, sizeof(T)> bytes;
         std::memcpy(bytes.data(), at_, sizeof(T));
         at_ += sizeof(T);
@@ -121,9 +123,24 @@ private:
 };
 
 // What a vertex property means. Properties of other names go to `skipped`.
-enum Slot : std::size_t { x, y, z, nx, ny, nz, red, green, blue, alpha, s, t, skipped, slot_count };
+enum VertexProperty : std::size_t {
+    x,
+    y,
+    z,
+    nx,
+    ny,
+    nz,
+    red,
+    green,
+    blue,
+    alpha,
+    s,
+    t,
+    skipped,
+    vertex_property_count
+};
 
-Slot slot_of(const PlyProperty& property) {
+VertexProperty vertex_property(const PlyProperty& property) {
     static constexpr std::array<std::array<std::string_view, 3>, skipped> names = {
         {{"x", "", ""},
          {"y", "", ""},
@@ -140,21 +157,21 @@ Slot slot_of(const PlyProperty& property) {
     if (property.is_list) return skipped;
     for (std::size_t slot = 0; slot < skipped; ++slot)
         if (std::find(names[slot].begin(), names[slot].end(), property.name) != names[slot].end())
-            return static_cast<Slot>(slot);
+            return static_cast<VertexProperty>(slot);
     return skipped;
 }
 
 template <class Data>
-class Reader {
+class PlyReader {
 public:
-    Reader(const PlyHeader& header, Data data, const std::string& file, std::vector<std::string>& warnings)
+    PlyReader(const PlyHeader& header, Data data, const std::string& file, std::vector<std::string>& warnings)
         : header_(header), data_(std::move(data)), file_(file), warnings_(warnings) {}
 
     Part run() {
         check_elements();
         for (const PlyElement& element : header_.elements) {
             if (element.count == 0) continue;
-            check_size(element);
+            check_row_count(element);
             if (element.name == "vertex")
                 read_vertices(element);
             else if (element.name == "face")
@@ -162,10 +179,11 @@ public:
             else if (element.name == "tristrips")
                 read_lists(element, [this](const std::vector<double>& list) { add_strip(list); });
             else
-                for_rows(element, [&] { skip(element.properties); });
+                for_each_row(element, [&] { skip(element.properties); });
         }
-        if (data_.left())
-            warnings_.push_back(counted(data_.left(), "byte") + " after the last element not read");
+        if (data_.remaining_bytes())
+            warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
+                                " after the last element not read");
         finish_faces();
         return std::move(part_);
     }
@@ -186,17 +204,18 @@ private:
         if (header_.has_texture_file) warnings_.push_back("the texture file of a comment is not read");
     }
 
-    void check_size(const PlyElement& element) {
+    void check_row_count(const PlyElement& element) {
         std::uint64_t bytes = 0;
-        for (const PlyProperty& p : element.properties) bytes += ply_size(p.is_list ? p.count_type : p.type);
-        if (bytes && element.count > data_.capacity(element.properties.size(), bytes))
+        for (const PlyProperty& p : element.properties)
+            bytes += ply_type_size(p.is_list ? p.count_type : p.type);
+        if (bytes && element.count > data_.max_row_count(element.properties.size(), bytes))
             throw InputError(file_, "element " + element.name,
-                             "the file is too short for " + counted(element.count, "row"));
+                             "the file is too short for " + pluralized(element.count, "row"));
     }
 
     /// Calls row() for each row; errors inside name it.
     template <class Row>
-    void for_rows(const PlyElement& element, Row&& row) {
+    void for_each_row(const PlyElement& element, Row&& row) {
         if (element.properties.empty()) return;
         std::uint64_t i = 0;
         try {
@@ -214,7 +233,7 @@ private:
         const double size = data_.value(property.count_type);
         if (size < 0) data_.fail("a list of negative length");
         const auto count = static_cast<std::uint64_t>(size);
-        if (count && count > data_.capacity(1, ply_size(property.type)))
+        if (count && count > data_.max_row_count(1, ply_type_size(property.type)))
             data_.fail("the file is too short for a list of " + std::to_string(count));
         return count;
     }
@@ -228,14 +247,14 @@ private:
     }
 
     void read_vertices(const PlyElement& element) {
-        std::vector<Slot> slots;
-        std::array<double, slot_count> scale = {};  // of colours, to 0..1; zero: no such property
+        std::vector<VertexProperty> slots;
+        std::array<double, vertex_property_count> scale = {};  // of colours, to 0..1; zero: no such property
         for (const PlyProperty& p : element.properties) {
-            slots.push_back(slot_of(p));
+            slots.push_back(vertex_property(p));
             scale[slots.back()] = is_integer(p.type) ? 1 / range_of(p.type).high : 1;
         }
-        const auto has = [&](std::initializer_list<Slot> all) {
-            return std::all_of(all.begin(), all.end(), [&](Slot slot) { return scale[slot] > 0; });
+        const auto has = [&](std::initializer_list<VertexProperty> all) {
+            return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
         };
         if (!has({x, y, z})) throw InputError(file_, "element vertex", "lacks x, y or z");
         part_.positions.resize(element.count);
@@ -243,9 +262,9 @@ private:
         if (has({red, green, blue})) part_.colors.resize(element.count);
         if (has({s, t})) part_.uvs.emplace_back(element.count);
 
-        std::array<double, slot_count> row = {};
+        std::array<double, vertex_property_count> row = {};
         std::size_t vertex = 0;
-        for_rows(element, [&] {
+        for_each_row(element, [&] {
             for (std::size_t i = 0; i < slots.size(); ++i) {
                 if (slots[i] == skipped)
                     skip(element.properties[i]);
@@ -256,11 +275,11 @@ private:
         });
     }
 
-    void store_vertex(std::size_t v, const std::array<double, slot_count>& row,
-                      const std::array<double, slot_count>& scale) {
+    void store_vertex(std::size_t v, const std::array<double, vertex_property_count>& row,
+                      const std::array<double, vertex_property_count>& scale) {
         part_.positions[v] = {row[x], row[y], row[z]};
-        const auto number = [&](Slot slot) { return static_cast<float>(row[slot]); };
-        const auto linear = [&](Slot slot) {
+        const auto number = [&](VertexProperty slot) { return static_cast<float>(row[slot]); };
+        const auto linear = [&](VertexProperty slot) {
             return static_cast<float>(linear_from_srgb(row[slot] * scale[slot]));
         };
         if (!part_.normals.empty()) part_.normals[v] = {number(nx), number(ny), number(nz)};
@@ -283,7 +302,7 @@ private:
                 warnings_.push_back("'" + p.name + "' of " + element.name +
                                     " is not read: only that of vertices is");
         std::vector<double> list;
-        for_rows(element, [&] {
+        for_each_row(element, [&] {
             for (auto p = element.properties.begin(); p != element.properties.end(); ++p) {
                 if (p != indices) {
                     skip(*p);
@@ -321,21 +340,23 @@ private:
             if (i < first + 2) continue;
             const Index a = vertex(list[i - 2]), b = vertex(list[i - 1]);
             if (a == b || b == c || c == a) continue;
-            const bool turned = (i - first) % 2 == 1;
-            polygons_.vertices.insert(polygons_.vertices.end(), {turned ? b : a, turned ? a : b, c});
+            const bool is_reversed = (i - first) % 2 == 1;
+            polygons_.vertices.insert(polygons_.vertices.end(),
+                                      {is_reversed ? b : a, is_reversed ? a : b, c});
             polygons_.sizes.push_back(3);
         }
     }
 
     void finish_faces() {
         check_index_count(polygons_.sizes.size(), file_, "face");
-        SplitPolygons split = split_polygons(polygons_, part_.positions);
-        if (split.too_small)
-            warnings_.push_back(counted(split.too_small, "face") + " of fewer than three corners left out");
+        TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
+        if (split.too_few_corners)
+            warnings_.push_back(pluralized(split.too_few_corners, "face") +
+                                " of fewer than three corners left out");
         check_index_count(split.triangles.size(), file_, "triangle");
         part_.triangles = std::move(split.triangles);
         part_.face_material.assign(part_.triangles.size(), no_index);
-        repair_numbers(part_, file_, split.not_finite, warnings_);
+        repair_non_finite(part_, file_, split.non_finite, warnings_);
     }
 
     const PlyHeader& header_;
@@ -355,9 +376,9 @@ Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path&
     const std::span<const std::uint8_t> data = bytes.subspan(header.size);
     asset.parts.push_back(
         header.format == PlyFormat::ascii
-            ? Reader(header, AsciiData(data, file.string(), header.lines), file.string(), asset.warnings)
+            ? PlyReader(header, AsciiData(data, file.string(), header.lines), file.string(), asset.warnings)
                   .run()
-            : Reader(header, BinaryData(data, file.string(), header.format), file.string(), asset.warnings)
+            : PlyReader(header, BinaryData(data, file.string(), header.format), file.string(), asset.warnings)
                   .run());
     asset.parts[0].name = file.stem().string();
     return asset;

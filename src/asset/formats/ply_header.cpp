@@ -61,7 +61,7 @@ PlyProperty read_property(TextScanner& in) {
 
 }  // namespace
 
-std::size_t ply_size(PlyType type) {
+std::size_t ply_type_size(PlyType type) {
     static constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
     return sizes[static_cast<std::size_t>(type)];
 }

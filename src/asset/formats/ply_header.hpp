@@ -15,7 +15,7 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// Bytes of a value in a binary file.
-std::size_t ply_size(PlyType type);
+std::size_t ply_type_size(PlyType type);
 
 struct PlyProperty {
     std::string name;

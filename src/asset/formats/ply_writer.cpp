@@ -29,11 +29,11 @@ std::uint8_t quantized(double value) {
 }
 
 /// Which numbers a row holds.
-struct Layout {
+struct PlyVertexLayout {
     bool doubles = false, normals = false, colors = false, alpha = false, uvs = false;
 };
 
-std::string header(const Part& part, const Layout& layout) {
+std::string header(const Part& part, const PlyVertexLayout& layout) {
     std::string text =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(part.positions.size());
     const auto properties = [&](const char* type, std::initializer_list<const char*> names) {
@@ -49,7 +49,7 @@ std::string header(const Part& part, const Layout& layout) {
            (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
 }
 
-void put_vertex(Bytes& bytes, const Part& part, const Layout& layout, std::size_t v) {
+void put_vertex(Bytes& bytes, const Part& part, const PlyVertexLayout& layout, std::size_t v) {
     for (const double x : part.positions[v]) {
         if (layout.doubles)
             put(bytes, x);
@@ -76,8 +76,8 @@ std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::pa
     if (!asset.materials.empty()) losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
 
-    Layout layout;
-    layout.doubles = !all_floats(flat.positions);
+    PlyVertexLayout layout;
+    layout.doubles = !is_float_representable(flat.positions);
     layout.normals = !flat.normals.empty();
     layout.colors = !flat.colors.empty();
     layout.alpha = std::any_of(flat.colors.begin(), flat.colors.end(),

@@ -23,7 +23,7 @@ void reset(std::vector<Vector>& values, const Vector& neutral, const char* noun,
         v = neutral;
         ++count;
     }
-    if (count) warnings.push_back(counted(count, noun) + " not finite: set to " + what);
+    if (count) warnings.push_back(pluralized(count, noun) + " not finite: set to " + what);
 }
 
 /// Keeps the elements whose vertex has a new number.
@@ -69,7 +69,7 @@ std::uint64_t drop_vertices(Part& part) {
 
 }  // namespace
 
-std::string counted(std::uint64_t count, const std::string& noun) {
+std::string pluralized(std::uint64_t count, const std::string& noun) {
     if (count == 1) return "1 " + noun;
     const bool es = noun.ends_with('x') || noun.ends_with('s');
     return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + (es ? "es" : "s"));
@@ -82,15 +82,15 @@ void check_index_count(std::uint64_t count, const std::string& file, const std::
                              std::to_string(max_index_count) + " that 32-bit indices can tell apart");
 }
 
-void repair_numbers(Part& part, const std::string& file, std::uint64_t dropped,
-                    std::vector<std::string>& warnings) {
+void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
+                       std::vector<std::string>& warnings) {
     const std::size_t before = part.positions.size();
     dropped += drop_vertices(part);
     const std::size_t vertices = before - part.positions.size();
     if (dropped || vertices)
-        warnings.push_back(counted(vertices, "vertex") +
-                           " with a position that is not finite: left out, and " + counted(dropped, "face") +
-                           " there");
+        warnings.push_back(pluralized(vertices, "vertex") +
+                           " with a position that is not finite: left out, and " +
+                           pluralized(dropped, "face") + " there");
     if (part.triangles.empty())
         throw InputError(file, "", dropped ? "no faces with finite positions" : "no faces");
     reset(part.normals, {0, 0, 0}, "normal", "zero", warnings);

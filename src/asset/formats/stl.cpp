@@ -32,7 +32,7 @@ public:
         Triangle t;
         for (int c = 0; c < 3; ++c) {
             const Vec3& p = corners[c];
-            t[c] = vertices_.number({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // -0 becomes 0
+            t[c] = vertices_.insert({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // -0 becomes 0
         }
         triangles_.push_back(t);
     }
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    ValueNumbers<Vec3> vertices_;
+    UniqueValues<Vec3> vertices_;
     std::vector<Triangle> triangles_;
 };
 
@@ -85,7 +85,7 @@ void expect(TextScanner& in, std::string_view expected) {
 }
 
 /// True when the next word starts with this letter, in either case.
-bool next_is(TextScanner& in, char letter) {
+bool next_starts_with(TextScanner& in, char letter) {
     in.skip_to_content();
     const std::string_view rest = in.remaining();
     return rest.starts_with(letter) || rest.starts_with(static_cast<char>(letter - 'a' + 'A'));
@@ -97,7 +97,7 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file) {
     do {
         expect(in, "solid");
         in.next_line();
-        while (next_is(in, 'f')) {
+        while (next_starts_with(in, 'f')) {
             expect(in, "facet");
             in.next_line();
             expect(in, "outer");
@@ -122,8 +122,9 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file) {
         throw InputError(file, "header", "is neither ASCII STL nor long enough for binary STL");
     const std::uint64_t facets = read_u32(bytes.data() + 80);
     throw InputError(file, "header",
-                     counted(facets, "facet") + " need " + std::to_string(header_size + facet_size * facets) +
-                         " bytes, the file has " + std::to_string(bytes.size()));
+                     pluralized(facets, "facet") + " need " +
+                         std::to_string(header_size + facet_size * facets) + " bytes, the file has " +
+                         std::to_string(bytes.size()));
 }
 
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
@@ -162,7 +163,7 @@ Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path&
                                     : read_ascii(bytes, file.string()));
     Part& part = asset.parts[0];
     part.name = file.stem().string();
-    repair_numbers(part, file.string(), 0, asset.warnings);
+    repair_non_finite(part, file.string(), 0, asset.warnings);
     return asset;
 }
 
@@ -176,7 +177,8 @@ std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::pa
         for (const double x : p)
             if (!(std::abs(x) <= std::numeric_limits<float>::max()))
                 throw WriteError(file.string() + ": STL cannot hold a coordinate beyond 3.4e38");
-    if (!all_floats(flat.positions)) losses.push_back("STL cannot hold positions in double precision");
+    if (!is_float_representable(flat.positions))
+        losses.push_back("STL cannot hold positions in double precision");
     if (!flat.normals.empty()) losses.push_back("STL cannot hold vertex normals");
     if (!flat.uvs.empty()) losses.push_back("STL cannot hold texture coordinates");
     if (!flat.colors.empty()) losses.push_back("STL cannot hold colours");

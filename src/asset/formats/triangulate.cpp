@@ -11,7 +11,7 @@ namespace {
 using Point = std::array<double, 2>;
 
 /// Twice the signed area of abc: positive when counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c) {
+double orient2d(const Point& a, const Point& b, const Point& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
@@ -54,7 +54,7 @@ bool is_strictly_convex(const std::vector<Point>& points) {
     double last = 0, first = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Point &a = points[i], &b = points[(i + 1) % n], &c = points[(i + 2) % n];
-        if (!(turn(a, b, c) > 0)) return false;
+        if (!(orient2d(a, b, c) > 0)) return false;
         const double step = b[0] - a[0];
         if (step == 0) continue;
         if (last != 0 && (step > 0) != (last > 0)) ++reversals;
@@ -66,37 +66,37 @@ bool is_strictly_convex(const std::vector<Point>& points) {
 }
 
 /// The corners that do not turn left, in square cells: only they can be innermost in an ear.
-class CornerGrid {
+class ReflexCornerGrid {
 public:
-    CornerGrid(const std::vector<Point>& points, std::span<const Index> corners) {
+    ReflexCornerGrid(const std::vector<Point>& points, std::span<const Index> corners) {
         for (int k = 0; k < 2; ++k) {
             const auto [low, high] = std::minmax_element(
                 points.begin(), points.end(), [k](const Point& a, const Point& b) { return a[k] < b[k]; });
             low_[k] = (*low)[k];
             high_[k] = (*high)[k];
         }
-        side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(corners.size())), 1, 2048);
-        start_.assign(side_ * side_ + 1, 0);
+        resolution_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(corners.size())), 1, 2048);
+        start_.assign(resolution_ * resolution_ + 1, 0);
         for (const Index i : corners) ++start_[cell(points[i]) + 1];
-        for (std::size_t c = 0; c < side_ * side_; ++c) start_[c + 1] += start_[c];
+        for (std::size_t c = 0; c < resolution_ * resolution_; ++c) start_[c + 1] += start_[c];
         corners_.resize(corners.size());
-        std::vector<std::size_t> fill(start_.begin(), start_.end() - 1);
-        for (const Index i : corners) corners_[fill[cell(points[i])]++] = i;
+        std::vector<std::size_t> cursor(start_.begin(), start_.end() - 1);
+        for (const Index i : corners) corners_[cursor[cell(points[i])]++] = i;
     }
 
     /// True when `test` holds for a corner in the cells that a triangle touches.
     template <class Test>
     bool any_of(const std::array<Point, 3>& triangle, Test&& test) const {
         const auto [low, high] = std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-        for (std::size_t y = place(low - margin, 1); y <= place(high + margin, 1); ++y) {
+        for (std::size_t y = cell_coordinate(low - margin, 1); y <= cell_coordinate(high + margin, 1); ++y) {
             // Only the piece of the row inside the triangle: the box around a long thin one is mostly
             // outside.
-            const double height = (high_[1] - low_[1]) / static_cast<double>(side_);
+            const double height = (high_[1] - low_[1]) / static_cast<double>(resolution_);
             const double bottom = low_[1] + height * static_cast<double>(y);
-            const auto [left, right] = width_between(triangle, bottom - margin, bottom + height + margin);
-            const auto row = start_.begin() + static_cast<std::ptrdiff_t>(y * side_);
-            const std::size_t first = row[static_cast<std::ptrdiff_t>(place(left - margin, 0))];
-            const std::size_t last = row[static_cast<std::ptrdiff_t>(place(right + margin, 0)) + 1];
+            const auto [left, right] = x_range_between(triangle, bottom - margin, bottom + height + margin);
+            const auto row = start_.begin() + static_cast<std::ptrdiff_t>(y * resolution_);
+            const std::size_t first = row[static_cast<std::ptrdiff_t>(cell_coordinate(left - margin, 0))];
+            const std::size_t last = row[static_cast<std::ptrdiff_t>(cell_coordinate(right + margin, 0)) + 1];
             for (std::size_t i = first; i < last; ++i)
                 if (test(corners_[i])) return true;
         }
@@ -107,7 +107,7 @@ private:
     static constexpr double margin = 1e-12;  // far above rounding errors of coordinates within -1..1
 
     /// Range of x of the piece of a triangle with y from `bottom` to `top`.
-    static Point width_between(const std::array<Point, 3>& triangle, double bottom, double top) {
+    static Point x_range_between(const std::array<Point, 3>& triangle, double bottom, double top) {
         Point range = {2, -2};
         for (std::size_t i = 0; i < 3; ++i) {
             const Point &a = triangle[i], &b = triangle[(i + 1) % 3];
@@ -121,15 +121,17 @@ private:
         return range;
     }
 
-    std::size_t place(double x, int k) const {
-        const double at = (x - low_[k]) / (high_[k] - low_[k]) * static_cast<double>(side_);
+    std::size_t cell_coordinate(double x, int k) const {
+        const double at = (x - low_[k]) / (high_[k] - low_[k]) * static_cast<double>(resolution_);
         if (!(at > 0)) return 0;
-        return at < static_cast<double>(side_) ? static_cast<std::size_t>(at) : side_ - 1;
+        return at < static_cast<double>(resolution_) ? static_cast<std::size_t>(at) : resolution_ - 1;
     }
-    std::size_t cell(const Point& p) const { return place(p[1], 1) * side_ + place(p[0], 0); }
+    std::size_t cell(const Point& p) const {
+        return cell_coordinate(p[1], 1) * resolution_ + cell_coordinate(p[0], 0);
+    }
 
     Point low_, high_;
-    std::size_t side_ = 1;
+    std::size_t resolution_ = 1;
     std::vector<std::size_t> start_;
     std::vector<Index> corners_;
 };
@@ -137,33 +139,37 @@ private:
 class EarClipper {
 public:
     explicit EarClipper(const std::vector<Point>& points)
-        : points_(points), next_(points.size()), prev_(points.size()), left_(points.size()), grid_(link()) {}
+        : points_(points),
+          next_(points.size()),
+          prev_(points.size()),
+          remaining_(points.size()),
+          grid_(link_corners()) {}
 
     void run(std::vector<Triangle>& triangles) {
         std::vector<Index> queue;
-        for (int forced = 0; left_ > 3;) {
+        for (int forced = 0; remaining_ > 3;) {
             collect_ring(queue);
-            const std::size_t before = left_;
-            for (std::size_t q = 0; q < queue.size() && left_ > 3; ++q) {
+            const std::size_t before = remaining_;
+            for (std::size_t q = 0; q < queue.size() && remaining_ > 3; ++q) {
                 const Index i = queue[q];
-                if (!is_uncut(i) || !is_ear(i)) continue;
+                if (!is_remaining(i) || !is_ear(i)) continue;
                 queue.push_back(prev_[i]);
                 queue.push_back(next_[i]);
-                cut(i, triangles);
+                clip(i, triangles);
             }
-            if (left_ != before) continue;
+            if (remaining_ != before) continue;
             // It crosses itself, or is thinner than the arithmetic resolves.
-            if (++forced > max_forced_cuts) break;
-            cut(some_, triangles);
+            if (++forced > max_forced_clips) break;
+            clip(start_corner_, triangles);
         }
-        const Index hub = some_;
-        for (Index i = next_[hub]; next_[i] != hub; i = next_[i]) triangles.push_back({hub, i, next_[i]});
+        const Index apex = start_corner_;
+        for (Index i = next_[apex]; next_[i] != apex; i = next_[i]) triangles.push_back({apex, i, next_[i]});
     }
 
 private:
-    static constexpr int max_forced_cuts = 64;
+    static constexpr int max_forced_clips = 64;
 
-    CornerGrid link() {
+    ReflexCornerGrid link_corners() {
         const std::size_t n = points_.size();
         std::vector<Index> corners;
         for (std::size_t i = 0; i < n; ++i) {
@@ -171,47 +177,49 @@ private:
             prev_[i] = static_cast<Index>(i == 0 ? n - 1 : i - 1);
         }
         for (std::size_t i = 0; i < n; ++i)
-            if (!turns_left(static_cast<Index>(i))) corners.push_back(static_cast<Index>(i));
-        return CornerGrid(points_, corners);
+            if (!is_convex_corner(static_cast<Index>(i))) corners.push_back(static_cast<Index>(i));
+        return ReflexCornerGrid(points_, corners);
     }
 
-    bool is_uncut(Index i) const { return next_[i] != no_index; }
-    bool turns_left(Index i) const { return turn(points_[prev_[i]], points_[i], points_[next_[i]]) > 0; }
+    bool is_remaining(Index i) const { return next_[i] != no_index; }
+    bool is_convex_corner(Index i) const {
+        return orient2d(points_[prev_[i]], points_[i], points_[next_[i]]) > 0;
+    }
 
     bool is_ear(Index i) const {
-        if (!turns_left(i)) return false;
+        if (!is_convex_corner(i)) return false;
         const Point &a = points_[prev_[i]], &b = points_[i], &c = points_[next_[i]];
         // A corner at the place of a, b or c is one end of a bridge to a hole and blocks nothing.
         return !grid_.any_of({a, b, c}, [&](Index r) {
             const Point& p = points_[r];
-            return is_uncut(r) && p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-                   turn(c, a, p) >= 0 && !turns_left(r);
+            return is_remaining(r) && p != a && p != b && p != c && orient2d(a, b, p) >= 0 &&
+                   orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0 && !is_convex_corner(r);
         });
     }
 
-    void cut(Index i, std::vector<Triangle>& triangles) {
+    void clip(Index i, std::vector<Triangle>& triangles) {
         triangles.push_back({prev_[i], i, next_[i]});
         next_[prev_[i]] = next_[i];
         prev_[next_[i]] = prev_[i];
-        some_ = next_[i];
+        start_corner_ = next_[i];
         next_[i] = no_index;
-        --left_;
+        --remaining_;
     }
 
     void collect_ring(std::vector<Index>& ring) const {
         ring.clear();
-        Index i = some_;
+        Index i = start_corner_;
         do {
             ring.push_back(i);
             i = next_[i];
-        } while (i != some_);
+        } while (i != start_corner_);
     }
 
     const std::vector<Point>& points_;
     std::vector<Index> next_, prev_;  // no_index: cut off
-    std::size_t left_;
-    Index some_ = 0;  // a corner that is left
-    CornerGrid grid_;
+    std::size_t remaining_;
+    Index start_corner_ = 0;  // a corner that is left
+    ReflexCornerGrid grid_;
 };
 
 bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
@@ -227,10 +235,10 @@ void triangulate(std::span<const Vec3> ring, std::vector<Triangle>& triangles) {
     for (Index i = 1; i + 1 < ring.size(); ++i) triangles.push_back({0, i, i + 1});
 }
 
-SplitPolygons split_polygons(const Polygons& polygons, std::span<const Vec3> positions) {
-    SplitPolygons split;
+TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<const Vec3> positions) {
+    TriangulatedPolygons split;
     split.triangles.reserve(polygons.sizes.size());
-    split.polygon.reserve(polygons.sizes.size());
+    split.source_polygon.reserve(polygons.sizes.size());
     std::vector<Vec3> ring;
     std::vector<Triangle> local;
     std::size_t first = 0;
@@ -241,23 +249,23 @@ SplitPolygons split_polygons(const Polygons& polygons, std::span<const Vec3> pos
             if (is_finite(positions[corners[0]]) && is_finite(positions[corners[1]]) &&
                 is_finite(positions[corners[2]])) {
                 split.triangles.push_back({corners[0], corners[1], corners[2]});
-                split.polygon.push_back(static_cast<Index>(p));
+                split.source_polygon.push_back(static_cast<Index>(p));
             } else {
-                ++split.not_finite;
+                ++split.non_finite;
             }
             continue;
         }
         ring.clear();
         for (const Index v : corners) ring.push_back(positions[v]);
         const bool finite = std::all_of(ring.begin(), ring.end(), is_finite);
-        split.too_small += corners.size() < 3;
-        split.not_finite += corners.size() >= 3 && !finite;
+        split.too_few_corners += corners.size() < 3;
+        split.non_finite += corners.size() >= 3 && !finite;
         if (corners.size() < 3 || !finite) continue;
         local.clear();
         triangulate(ring, local);
         for (const Triangle& t : local) {
             split.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
-            split.polygon.push_back(static_cast<Index>(p));
+            split.source_polygon.push_back(static_cast<Index>(p));
         }
     }
     return split;

@@ -27,16 +27,16 @@ struct Polygons {
 };
 
 /// Triangles made of polygons, and what could not be.
-struct SplitPolygons {
+struct TriangulatedPolygons {
     std::vector<Triangle> triangles;
-    std::vector<Index> polygon;    ///< which polygon each triangle comes from
-    std::uint64_t too_small = 0;   ///< polygons of fewer than three corners, left out
-    std::uint64_t not_finite = 0;  ///< polygons with a corner at infinity or NaN, left out
+    std::vector<Index> source_polygon;  ///< which polygon each triangle comes from
+    std::uint64_t too_few_corners = 0;  ///< polygons of fewer than three corners, left out
+    std::uint64_t non_finite = 0;       ///< polygons with a corner at infinity or NaN, left out
 };
 
 /// Splits all polygons in their order.
 /// \param polygons   indices below positions.size()
 /// \param positions  of the vertices
-SplitPolygons split_polygons(const Polygons& polygons, std::span<const Vec3> positions);
+TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<const Vec3> positions);
 
 }  // namespace faqem::detail

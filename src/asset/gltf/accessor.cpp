@@ -14,10 +14,10 @@ static_assert(std::endian::native == std::endian::little, "buffers are little-en
 
 /// The bytes of a view from `offset` on.
 const std::uint8_t* view_bytes(const SourceDocument& source, const Json& holder, std::uint64_t* stride) {
-    const Json& view = member(source.document, "bufferViews")[index_of(holder, "bufferView")];
-    if (stride) *stride = number_of(view, "byteStride", *stride);
-    return source.buffers[index_of(view, "buffer")].data() + number_of(view, "byteOffset", 0) +
-           number_of(holder, "byteOffset", 0);
+    const Json& view = member(source.document, "bufferViews")[index_member(holder, "bufferView")];
+    if (stride) *stride = unsigned_member(view, "byteStride", *stride);
+    return source.buffers[index_member(view, "buffer")].data() + unsigned_member(view, "byteOffset", 0) +
+           unsigned_member(holder, "byteOffset", 0);
 }
 
 template <class T>
@@ -35,9 +35,9 @@ std::uint32_t load_unsigned(const std::uint8_t* bytes, ComponentType type) {
 
 std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Json& sparse) {
     const Json& indices = sparse["indices"];
-    const auto type = static_cast<ComponentType>(number_of(indices, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(indices, "componentType", 0));
     const std::uint8_t* bytes = view_bytes(source, indices, nullptr);
-    std::vector<std::uint32_t> result(number_of(sparse, "count", 0));
+    std::vector<std::uint32_t> result(unsigned_member(sparse, "count", 0));
     for (std::uint32_t& index : result) {
         index = load_unsigned(bytes, type);
         bytes += component_size(static_cast<std::uint64_t>(type));
@@ -46,26 +46,26 @@ std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Js
 }
 
 template <class T>
-T normalised(double value, double largest) {
+T from_normalized(double value, double largest) {
     return static_cast<T>(std::max(value / largest, -1.0));
 }
 
 template <class T>
-T load_number(const std::uint8_t* bytes, ComponentType type, bool normalise) {
+T load_number(const std::uint8_t* bytes, ComponentType type, bool is_normalized) {
     switch (type) {
         case ComponentType::i8: {
             const auto value = load<std::int8_t>(bytes);
-            return normalise ? normalised<T>(value, 127) : static_cast<T>(value);
+            return is_normalized ? from_normalized<T>(value, 127) : static_cast<T>(value);
         }
         case ComponentType::u8:
-            return normalise ? normalised<T>(*bytes, 255) : static_cast<T>(*bytes);
+            return is_normalized ? from_normalized<T>(*bytes, 255) : static_cast<T>(*bytes);
         case ComponentType::i16: {
             const auto value = load<std::int16_t>(bytes);
-            return normalise ? normalised<T>(value, 32767) : static_cast<T>(value);
+            return is_normalized ? from_normalized<T>(value, 32767) : static_cast<T>(value);
         }
         case ComponentType::u16: {
             const auto value = load<std::uint16_t>(bytes);
-            return normalise ? normalised<T>(value, 65535) : static_cast<T>(value);
+            return is_normalized ? from_normalized<T>(value, 65535) : static_cast<T>(value);
         }
         case ComponentType::u32:
             return static_cast<T>(load<std::uint32_t>(bytes));
@@ -116,8 +116,8 @@ std::uint32_t element_size(std::uint64_t component_type, const std::string& type
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
     const std::uint64_t size =
-        element_size(number_of(accessor, "componentType", 0), string_of(accessor, "type"));
-    const std::uint64_t count = number_of(accessor, "count", 0);
+        element_size(unsigned_member(accessor, "componentType", 0), string_member(accessor, "type"));
+    const std::uint64_t count = unsigned_member(accessor, "count", 0);
     std::vector<std::uint8_t> dense(count * size);
     if (accessor.contains("bufferView")) {
         std::uint64_t stride = size;
@@ -131,8 +131,8 @@ std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index)
     const Json& sparse = member(accessor, "sparse");
     if (!sparse.is_null()) {
         const std::uint8_t* values = view_bytes(source, sparse["values"], nullptr);
-        for (const std::uint32_t place : sparse_indices(source, sparse)) {
-            std::memcpy(dense.data() + place * size, values, size);
+        for (const std::uint32_t element : sparse_indices(source, sparse)) {
+            std::memcpy(dense.data() + element * size, values, size);
             values += size;
         }
     }
@@ -143,16 +143,16 @@ template <class T, std::size_t N>
 std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index index, T fill) {
     const Json& accessor = accessor_at(source, index);
     const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    const std::size_t components = component_count(string_of(accessor, "type"));
-    const bool normalise = member(accessor, "normalized") == true && type != ComponentType::f32;
-    std::vector<std::array<T, N>> result(number_of(accessor, "count", 0));
+    const std::size_t components = component_count(string_member(accessor, "type"));
+    const bool is_normalized = member(accessor, "normalized") == true && type != ComponentType::f32;
+    std::vector<std::array<T, N>> result(unsigned_member(accessor, "count", 0));
     const std::uint8_t* bytes = dense.data();
     for (std::array<T, N>& element : result) {
         element.fill(fill);
         for (std::size_t c = 0; c < components; ++c, bytes += step)
-            if (c < N) element[c] = load_number<T>(bytes, type, normalise);
+            if (c < N) element[c] = load_number<T>(bytes, type, is_normalized);
     }
     return result;
 }
@@ -165,9 +165,9 @@ template std::vector<Vec4f> read_vectors<float, 4>(const SourceDocument&, Index,
 std::vector<Index> read_indices(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
     const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    std::vector<Index> result(number_of(accessor, "count", 0));
+    std::vector<Index> result(unsigned_member(accessor, "count", 0));
     const std::uint8_t* bytes = dense.data();
     for (Index& element : result) {
         element = load_unsigned(bytes, type);
@@ -179,9 +179,9 @@ std::vector<Index> read_indices(const SourceDocument& source, Index index) {
 std::vector<std::array<std::uint16_t, 4>> read_joints(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
     const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    std::vector<std::array<std::uint16_t, 4>> result(number_of(accessor, "count", 0));
+    std::vector<std::array<std::uint16_t, 4>> result(unsigned_member(accessor, "count", 0));
     const std::uint8_t* bytes = dense.data();
     for (auto& element : result)
         for (std::uint16_t& joint : element) {
@@ -196,8 +196,8 @@ void check_sparse(const SourceDocument& source, const std::string& file) {
     for (std::uint64_t i = 0; i < accessors.size(); ++i) {
         const Json& sparse = member(accessors[i], "sparse");
         if (sparse.is_null()) continue;
-        const std::string where = step("/accessors", i) + "/sparse/indices";
-        const std::uint64_t count = number_of(accessors[i], "count", 0);
+        const std::string where = child_path("/accessors", i) + "/sparse/indices";
+        const std::uint64_t count = unsigned_member(accessors[i], "count", 0);
         std::int64_t previous = -1;
         for (const std::uint32_t index : sparse_indices(source, sparse)) {
             if (index >= count)

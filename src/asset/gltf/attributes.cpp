@@ -37,12 +37,13 @@ void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data)
         data.positions.push_back(q);
     }
     for (std::size_t c = 0; c < data.corners.size(); c += 3) {
-        const auto is_closed = [&](std::size_t i, std::size_t k) {
+        const auto is_rounded_to_zero = [&](std::size_t i, std::size_t k) {
             const Index a = data.corners[c + i], b = data.corners[c + k];
             return data.positions[a] == data.positions[b] &&
                    part.positions[data.vertices[a]] != part.positions[data.vertices[b]];
         };
-        data.closed += is_closed(0, 1) || is_closed(1, 2) || is_closed(2, 0);
+        data.degenerate_faces +=
+            is_rounded_to_zero(0, 1) || is_rounded_to_zero(1, 2) || is_rounded_to_zero(2, 0);
     }
 }
 
@@ -124,8 +125,8 @@ void gather_influences(const Part& part, PrimitiveData& data) {
 
 }  // namespace
 
-Vec3 origin_of(const std::vector<Part>& parts) {
-    constexpr double near = 8;  // half sizes: three of a float's 24 bits
+Vec3 local_origin(const std::vector<Part>& parts) {
+    constexpr double max_offset_ratio = 8;  // half sizes: three of a float's 24 bits
     Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, origin = {};
     for (const Part& part : parts) {
         for (const Vec3& p : part.positions) {
@@ -135,14 +136,15 @@ Vec3 origin_of(const std::vector<Part>& parts) {
             }
         }
     }
-    double half = 0;
-    for (std::size_t i = 0; i < 3; ++i) half = std::max(half, high[i] / 2 - low[i] / 2);
-    if (!(half > 0)) return origin;
-    const double unit = std::exp2(std::floor(std::log2(half)));
+    double half_extent = 0;
+    for (std::size_t i = 0; i < 3; ++i) half_extent = std::max(half_extent, high[i] / 2 - low[i] / 2);
+    if (!(half_extent > 0)) return origin;
+    const double unit = std::exp2(std::floor(std::log2(half_extent)));
     for (std::size_t i = 0; i < 3; ++i) {
         const double centre = low[i] / 2 + high[i] / 2;
         // What is too large for a float is an error, as it would be without a node.
-        if (!(std::abs(centre) > near * half) || !(std::abs(centre) <= std::numeric_limits<float>::max()))
+        if (!(std::abs(centre) > max_offset_ratio * half_extent) ||
+            !(std::abs(centre) <= std::numeric_limits<float>::max()))
             continue;
         const double steps = centre / unit;
         origin[i] = std::abs(steps) < 0x1p52 ? std::round(steps) * unit : centre;

@@ -18,13 +18,14 @@ struct PrimitiveData {
     std::vector<Vec3f> positions, normals;
     std::vector<Vec4f> tangents, colors, weights;
     std::vector<std::array<std::uint16_t, 4>> joints;
-    std::size_t closed = 0;  ///< triangles of which two corners are at one place as floats, and were not
+    std::size_t degenerate_faces =
+        0;  ///< triangles of which two corners are at one place as floats, and were not
 };
 
 /// Where positions are best counted from: glTF holds them as floats, which far from the origin are coarse. The
 /// same for all parts, so that what they share stays at one place; a multiple of a power of two of about their
 /// size, and 0 along axes on which that is near enough.
-Vec3 origin_of(const std::vector<Part>& parts);
+Vec3 local_origin(const std::vector<Part>& parts);
 
 /// Gathers the triangles `faces` of a part. Zero normals are replaced by ones made from the faces.
 /// \param origin   what is taken from the positions

@@ -17,7 +17,7 @@ void pad_to_4(std::vector<std::uint8_t>& bytes) { bytes.resize((bytes.size() + 3
 
 }  // namespace
 
-Index GltfBinary::group_for(AccessorUse use, std::uint64_t stride) {
+Index GltfBufferBuilder::find_or_add_group(AccessorUse use, std::uint64_t stride) {
     const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
         return group.use == use && group.stride == stride;
     });
@@ -26,18 +26,19 @@ Index GltfBinary::group_for(AccessorUse use, std::uint64_t stride) {
     return index;
 }
 
-bool GltfBinary::is_equal(const Added& added, const Json& description, Index group,
-                          std::span<const std::uint8_t> strided) const {
-    if (added.group != group || added.size != strided.size() || added.description != description)
+bool GltfBufferBuilder::is_equal(const StoredAccessor& stored, const Json& description, Index group,
+                                 std::span<const std::uint8_t> strided) const {
+    if (stored.group != group || stored.size != strided.size() || stored.description != description)
         return false;
     if (group == no_index) return true;
-    const std::uint8_t* bytes = groups_[group].bytes.data() + added.offset;
+    const std::uint8_t* bytes = groups_[group].bytes.data() + stored.offset;
     return std::equal(strided.begin(), strided.end(), bytes);
 }
 
-Index GltfBinary::add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use) {
+Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uint8_t> dense,
+                                      AccessorUse use) {
     const std::uint64_t size =
-        element_size(number_of(description, "componentType", 0), string_of(description, "type"));
+        element_size(unsigned_member(description, "componentType", 0), string_member(description, "type"));
     // Only vertex views have a stride, and it must be a multiple of 4.
     const std::uint64_t stride = use == AccessorUse::vertices ? (size + 3) / 4 * 4 : 0;
     std::vector<std::uint8_t> padded;
@@ -47,31 +48,31 @@ Index GltfBinary::add_accessor(Json description, std::span<const std::uint8_t> d
             std::memcpy(padded.data() + i * stride, dense.data() + i * size, size);
         dense = padded;
     }
-    const Index group = dense.empty() ? no_index : group_for(use, stride);
+    const Index group = dense.empty() ? no_index : find_or_add_group(use, stride);
     const std::size_t hash =
         std::hash<std::string_view>()({reinterpret_cast<const char*>(dense.data()), dense.size()});
-    std::vector<Index>& candidates = by_hash_[hash];
+    std::vector<Index>& candidates = accessors_by_hash_[hash];
     for (const Index candidate : candidates)
-        if (is_equal(added_[candidate], description, group, dense)) return candidate;
+        if (is_equal(stored_[candidate], description, group, dense)) return candidate;
 
-    Added added{std::move(description), group, 0, dense.size()};
+    StoredAccessor stored{std::move(description), group, 0, dense.size()};
     if (group != no_index) {
         std::vector<std::uint8_t>& bytes = groups_[group].bytes;
         pad_to_4(bytes);
-        added.offset = bytes.size();
+        stored.offset = bytes.size();
         bytes.insert(bytes.end(), dense.begin(), dense.end());
     }
-    candidates.push_back(static_cast<Index>(added_.size()));
-    added_.push_back(std::move(added));
+    candidates.push_back(static_cast<Index>(stored_.size()));
+    stored_.push_back(std::move(stored));
     return candidates.back();
 }
 
-Index GltfBinary::add_view(std::span<const std::uint8_t> bytes) {
+Index GltfBufferBuilder::add_view(std::span<const std::uint8_t> bytes) {
     views_.push_back(bytes);
     return static_cast<Index>(groups_.size() + views_.size() - 1);
 }
 
-std::vector<std::uint8_t> GltfBinary::finish(Json& document) {
+std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
     std::uint64_t total = 0;
     for (const Group& group : groups_) total += group.bytes.size() + 3;
     for (const auto& view : views_) total += view.size() + 3;
@@ -92,10 +93,10 @@ std::vector<std::uint8_t> GltfBinary::finish(Json& document) {
         std::vector<std::uint8_t>().swap(group.bytes);
     }
     for (const auto& bytes : views_) append(bytes);
-    for (Added& added : added_) {
-        if (added.group != no_index) added.description["bufferView"] = added.group;
-        if (added.group != no_index && added.offset != 0) added.description["byteOffset"] = added.offset;
-        document["accessors"].push_back(std::move(added.description));
+    for (StoredAccessor& stored : stored_) {
+        if (stored.group != no_index) stored.description["bufferView"] = stored.group;
+        if (stored.group != no_index && stored.offset != 0) stored.description["byteOffset"] = stored.offset;
+        document["accessors"].push_back(std::move(stored.description));
     }
     if (buffer.empty()) return buffer;
     document["bufferViews"] = std::move(views);

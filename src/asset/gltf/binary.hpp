@@ -14,7 +14,7 @@ namespace faqem::detail {
 /// What an accessor is for. Views are shared by accessors of equal use and stride, and by no others.
 enum class AccessorUse { vertices, indices, matrices, other };
 
-class GltfBinary {
+class GltfBufferBuilder {
 public:
     /// \param description  componentType, type, count and whatever else belongs into the accessor
     /// \param dense        the elements back to back; empty: all zero, and no bytes are stored
@@ -37,17 +37,17 @@ private:
         std::vector<std::uint8_t> bytes;
     };
     /// What add_accessor() was called with, the bytes as they are in their group.
-    struct Added {
+    struct StoredAccessor {
         Json description;
         Index group;
         std::uint64_t offset, size;
     };
-    Index group_for(AccessorUse use, std::uint64_t stride);
-    bool is_equal(const Added& added, const Json& description, Index group,
+    Index find_or_add_group(AccessorUse use, std::uint64_t stride);
+    bool is_equal(const StoredAccessor& stored, const Json& description, Index group,
                   std::span<const std::uint8_t> strided) const;
 
-    std::vector<Added> added_;
-    std::map<std::size_t, std::vector<Index>> by_hash_;
+    std::vector<StoredAccessor> stored_;
+    std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;
     std::vector<std::span<const std::uint8_t>> views_;
 };

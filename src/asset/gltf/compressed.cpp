@@ -10,14 +10,15 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint64_t most_meshopt_ratio = 128;  // the vertex codec makes at most 64 bytes of one
+constexpr std::uint64_t max_meshopt_ratio = 128;  // the vertex codec makes at most 64 bytes of one
 
-[[maybe_unused]] std::span<const std::uint8_t> part_of(const std::vector<std::uint8_t>& buffer,
-                                                       const Json& holder) {
-    return std::span(buffer).subspan(number_of(holder, "byteOffset", 0), number_of(holder, "byteLength", 0));
+[[maybe_unused]] std::span<const std::uint8_t> byte_range(const std::vector<std::uint8_t>& buffer,
+                                                          const Json& holder) {
+    return std::span(buffer).subspan(unsigned_member(holder, "byteOffset", 0),
+                                     unsigned_member(holder, "byteLength", 0));
 }
 
-std::uint64_t buffer_bytes(const SourceDocument& source) {
+std::uint64_t total_buffer_size(const SourceDocument& source) {
     std::uint64_t sum = 0;
     for (const auto& buffer : source.buffers) sum += buffer.size();
     return sum;
@@ -36,18 +37,19 @@ void erase_extension(Json& holder, const char* name) {
     if (holder["extensions"].empty()) holder.erase("extensions");
 }
 
-void unpack_views(SourceDocument& source, const std::string& file) {
+void decompress_views(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("bufferViews")) return;
-    [[maybe_unused]] Allowance left(most_meshopt_ratio * buffer_bytes(source), file);
+    [[maybe_unused]] DecompressionBudget budget(max_meshopt_ratio * total_buffer_size(source), file);
     Json& views = source.document["bufferViews"];
     for (std::uint64_t i = 0; i < views.size(); ++i) {
 #ifdef FAQEM_WITH_MESHOPT
-        const Json& packed = meshopt_of(source.document, views[i]);
-        if (!packed.is_null()) {
-            const std::string where = step("/bufferViews", i);
-            left.take(number_of(views[i], "byteLength", 0), where, meshopt_name);
+        const Json& compressed = meshopt_extension(source.document, views[i]);
+        if (!compressed.is_null()) {
+            const std::string where = child_path("/bufferViews", i);
+            budget.consume(unsigned_member(views[i], "byteLength", 0), where, meshopt_name);
             std::vector<std::uint8_t> bytes = decode_meshopt(
-                packed, part_of(source.buffers[index_of(packed, "buffer")], packed), file, where);
+                compressed, byte_range(source.buffers[index_member(compressed, "buffer")], compressed), file,
+                where);
             views[i]["buffer"] = add_buffer(source, std::move(bytes));
             views[i].erase("byteOffset");
         }
@@ -69,8 +71,8 @@ void set_bytes(SourceDocument& source, Json& accessor, std::vector<std::uint8_t>
 }
 
 /// Nothing where the type is too small for a corner.
-std::optional<std::vector<std::uint8_t>> as_type(const std::vector<std::uint32_t>& corners,
-                                                 ComponentType type) {
+std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::uint32_t>& corners,
+                                                        ComponentType type) {
     const std::uint32_t size = component_size(static_cast<std::uint64_t>(type));
     const std::uint64_t end = std::uint64_t{1} << 8 * size;
     if (std::any_of(corners.begin(), corners.end(), [end](std::uint32_t v) { return v >= end; })) return {};
@@ -80,33 +82,36 @@ std::optional<std::vector<std::uint8_t>> as_type(const std::vector<std::uint32_t
 }
 
 /// Corners and vertices; all attributes have as many of these.
-std::uint64_t draco_elements(const Json& document, const Json& primitive) {
+std::uint64_t draco_element_count(const Json& document, const Json& primitive) {
     const Json& accessors = document["accessors"];
-    const auto count = [&](std::uint64_t accessor) { return number_of(accessors[accessor], "count", 0); };
-    return count(index_of(primitive, "indices")) + count(primitive["attributes"].front().get<Index>());
+    const auto count = [&](std::uint64_t accessor) {
+        return unsigned_member(accessors[accessor], "count", 0);
+    };
+    return count(index_member(primitive, "indices")) + count(primitive["attributes"].front().get<Index>());
 }
 
-void unpack_primitive(SourceDocument& source, const Json& primitive, const std::string& file,
-                      const std::string& where) {
-    const Json& packed = member(member(primitive, "extensions"), draco_name);
-    const Json& view = source.document["bufferViews"][index_of(packed, "bufferView")];
+void decompress_primitive(SourceDocument& source, const Json& primitive, const std::string& file,
+                          const std::string& where) {
+    const Json& compressed = member(member(primitive, "extensions"), draco_name);
+    const Json& view = source.document["bufferViews"][index_member(compressed, "bufferView")];
     Json& accessors = source.document["accessors"];
     std::vector<Index> targets;
     std::vector<DracoAttribute> attributes;
-    for (const auto& [name, id] : packed["attributes"].items()) {
-        targets.push_back(index_of(primitive["attributes"], name.c_str()));
+    for (const auto& [name, id] : compressed["attributes"].items()) {
+        targets.push_back(index_member(primitive["attributes"], name.c_str()));
         const Json& accessor = accessors[targets.back()];
         attributes.push_back({id.get<std::uint32_t>(),
-                              static_cast<ComponentType>(number_of(accessor, "componentType", 0)),
-                              component_count(string_of(accessor, "type")),
+                              static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0)),
+                              component_count(string_member(accessor, "type")),
                               {}});
     }
-    Json& indices = accessors[index_of(primitive, "indices")];
+    Json& indices = accessors[index_member(primitive, "indices")];
     const std::vector<std::uint32_t> corners =
-        decode_draco(part_of(source.buffers[index_of(view, "buffer")], view),
-                     number_of(accessors[targets.front()], "count", 0), number_of(indices, "count", 0),
-                     attributes, file, where);
-    auto typed = as_type(corners, static_cast<ComponentType>(number_of(indices, "componentType", 0)));
+        decode_draco(byte_range(source.buffers[index_member(view, "buffer")], view),
+                     unsigned_member(accessors[targets.front()], "count", 0),
+                     unsigned_member(indices, "count", 0), attributes, file, where);
+    auto typed =
+        encode_indices(corners, static_cast<ComponentType>(unsigned_member(indices, "componentType", 0)));
     if (!typed)
         throw InputError(file, where,
                          std::string(draco_name) + ": has vertices beyond the type of the indices");
@@ -117,9 +122,10 @@ void unpack_primitive(SourceDocument& source, const Json& primitive, const std::
 
 #endif
 
-void unpack_primitives(SourceDocument& source, const std::string& file) {
+void decompress_primitives(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("meshes")) return;
-    [[maybe_unused]] Allowance left(always_believed + most_per_byte * buffer_bytes(source), file);
+    [[maybe_unused]] DecompressionBudget budget(
+        draco_base_element_limit + max_draco_elements_per_byte * total_buffer_size(source), file);
     Json& meshes = source.document["meshes"];
     for (std::uint64_t m = 0; m < meshes.size(); ++m) {
         if (!meshes[m].contains("primitives")) continue;
@@ -127,9 +133,9 @@ void unpack_primitives(SourceDocument& source, const std::string& file) {
         for (std::uint64_t p = 0; p < primitives.size(); ++p) {
 #ifdef FAQEM_WITH_DRACO
             if (needs_draco(source.document, primitives[p])) {
-                const std::string where = step(step("/meshes", m) + "/primitives", p);
-                left.take(draco_elements(source.document, primitives[p]), where, draco_name);
-                unpack_primitive(source, primitives[p], file, where);
+                const std::string where = child_path(child_path("/meshes", m) + "/primitives", p);
+                budget.consume(draco_element_count(source.document, primitives[p]), where, draco_name);
+                decompress_primitive(source, primitives[p], file, where);
             }
 #endif
             erase_extension(primitives[p], draco_name);
@@ -139,12 +145,12 @@ void unpack_primitives(SourceDocument& source, const std::string& file) {
 
 }  // namespace
 
-void Allowance::take(std::uint64_t amount, const std::string& where, const char* extension) {
-    if (amount > left_)
+void DecompressionBudget::consume(std::uint64_t amount, const std::string& where, const char* extension) {
+    if (amount > remaining_)
         throw InputError(
             file_, where,
             std::string(extension) + ": is more than all buffers can hold, with what is before it");
-    left_ -= amount;
+    remaining_ -= amount;
 }
 
 bool can_decode([[maybe_unused]] std::string_view extension) {
@@ -157,56 +163,59 @@ bool can_decode([[maybe_unused]] std::string_view extension) {
     return false;
 }
 
-std::string missing_decoder(std::string_view extension) {
+std::string missing_decoder_message(std::string_view extension) {
     return std::string(extension) + " compressed data: this faqem was built without " +
            (extension == draco_name ? "Draco" : "meshoptimizer");
 }
 
-bool is_placeholder(const Json& buffer) {
+bool is_fallback_buffer(const Json& buffer) {
     return !buffer.contains("uri") &&
            member(member(member(buffer, "extensions"), meshopt_name), "fallback") == true;
 }
 
-const Json& meshopt_of(const Json& document, const Json& view) {
+const Json& meshopt_extension(const Json& document, const Json& view) {
     static const Json none;
-    const bool plain = !is_placeholder(member(document, "buffers")[index_of(view, "buffer")]);
+    const bool plain = !is_fallback_buffer(member(document, "buffers")[index_member(view, "buffer")]);
     return plain ? none : member(member(view, "extensions"), meshopt_name);
 }
 
 void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& view_where) {
     const std::string where = view_where + "/extensions/" + meshopt_name;
-    const Json& packed = member(member(view, "extensions"), meshopt_name);
-    if (packed.is_null()) checker.fail(view_where, "lies in a buffer that has no bytes");
-    if (!can_decode(meshopt_name)) checker.fail_unsupported(view_where, missing_decoder(meshopt_name));
-    const std::uint64_t buffer = checker.needed_reference(packed, where, "buffer", "buffers");
+    const Json& compressed = member(member(view, "extensions"), meshopt_name);
+    if (compressed.is_null()) checker.fail(view_where, "lies in a buffer that has no bytes");
+    if (!can_decode(meshopt_name))
+        checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));
+    const std::uint64_t buffer = checker.required_reference(compressed, where, "buffer", "buffers");
     const Json& from = member(checker.document, "buffers")[buffer];
-    if (is_placeholder(from)) checker.fail(step(where, "buffer"), "is a buffer that has no bytes");
+    if (is_fallback_buffer(from)) checker.fail(child_path(where, "buffer"), "is a buffer that has no bytes");
     const std::uint64_t size = from["byteLength"].get<std::uint64_t>();
-    const std::uint64_t offset = checker.number(packed, where, "byteOffset").value_or(0);
-    const std::uint64_t length = checker.needed_number(packed, where, "byteLength");
+    const std::uint64_t offset = checker.number(compressed, where, "byteOffset").value_or(0);
+    const std::uint64_t length = checker.required_number(compressed, where, "byteLength");
     if (offset > size || length > size - offset)
         checker.fail(where, "needs " + std::to_string(length) + " bytes from byte " + std::to_string(offset) +
                                 ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
 
-    const std::uint64_t stride = checker.needed_number(packed, where, "byteStride");
-    const std::uint64_t count = checker.needed_number(packed, where, "count");
-    const std::string mode = string_of(packed, "mode"), filter = string_of(packed, "filter");
+    const std::uint64_t stride = checker.required_number(compressed, where, "byteStride");
+    const std::uint64_t count = checker.required_number(compressed, where, "count");
+    const std::string mode = string_member(compressed, "mode"), filter = string_member(compressed, "filter");
     const bool vertices = mode == "ATTRIBUTES", triangles = mode == "TRIANGLES";
-    if (!vertices && !triangles && mode != "INDICES") checker.fail(step(where, "mode"), "is no known mode");
+    if (!vertices && !triangles && mode != "INDICES")
+        checker.fail(child_path(where, "mode"), "is no known mode");
     const bool good_stride =
         vertices ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4;
-    if (!good_stride) checker.fail(step(where, "byteStride"), "is " + std::to_string(stride));
-    if (triangles && count % 3 != 0) checker.fail(step(where, "count"), "is no multiple of 3");
+    if (!good_stride) checker.fail(child_path(where, "byteStride"), "is " + std::to_string(stride));
+    if (triangles && count % 3 != 0) checker.fail(child_path(where, "count"), "is no multiple of 3");
     const bool good_filter = filter.empty() || filter == "NONE" ||
                              (vertices && filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                              (vertices && filter == "QUATERNION" && stride == 8) ||
                              (vertices && filter == "EXPONENTIAL");
-    if (!good_filter) checker.fail(step(where, "filter"), "is not known or does not fit the mode and stride");
-    const std::uint64_t wanted = number_of(view, "byteLength", 0);
+    if (!good_filter)
+        checker.fail(child_path(where, "filter"), "is not known or does not fit the mode and stride");
+    const std::uint64_t wanted = unsigned_member(view, "byteLength", 0);
     if (count > wanted || count * stride != wanted)
         checker.fail(where, "makes " + std::to_string(count) + " times " + std::to_string(stride) +
                                 " bytes, the bufferView has " + std::to_string(wanted));
-    if (wanted / most_meshopt_ratio > length)
+    if (wanted / max_meshopt_ratio > length)
         checker.fail(
             where, "is damaged: " + std::to_string(length) + " bytes cannot hold " + std::to_string(wanted));
 }
@@ -214,27 +223,28 @@ void check_meshopt(const GltfChecker& checker, const Json& view, const std::stri
 bool needs_draco(const Json& document, const Json& primitive) {
     if (!member(primitive, "extensions").contains(draco_name)) return false;
     const Json& accessors = member(document, "accessors");
-    const auto is_bare = [&](Index accessor) {
+    const auto has_no_buffer_view = [&](Index accessor) {
         return accessor < accessors.size() && !accessors[accessor].contains("bufferView");
     };
     const Json& attributes = member(primitive, "attributes");
     return std::any_of(attributes.begin(), attributes.end(),
-                       [&](const Json& a) { return is_bare(a.get<Index>()); }) ||
-           is_bare(index_of(primitive, "indices"));
+                       [&](const Json& a) { return has_no_buffer_view(a.get<Index>()); }) ||
+           has_no_buffer_view(index_member(primitive, "indices"));
 }
 
 void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& primitive_where) {
     const std::string where = primitive_where + "/extensions/" + draco_name;
-    if (!can_decode(draco_name)) checker.fail_unsupported(primitive_where, missing_decoder(draco_name));
-    const Json& packed = primitive["extensions"][draco_name];
-    const std::uint64_t view = checker.needed_reference(packed, where, "bufferView", "bufferViews");
-    const Json& described = member(checker.document, "bufferViews")[view];
-    if (is_placeholder(member(checker.document, "buffers")[index_of(described, "buffer")]))
-        checker.fail(step(where, "bufferView"), "lies in a buffer that has no bytes");
-    if (number_of(primitive, "mode", 4) != 4)
-        checker.fail_unsupported(step(primitive_where, "mode"), "strips in Draco data are not read");
+    if (!can_decode(draco_name))
+        checker.fail_unsupported(primitive_where, missing_decoder_message(draco_name));
+    const Json& compressed = primitive["extensions"][draco_name];
+    const std::uint64_t view = checker.required_reference(compressed, where, "bufferView", "bufferViews");
+    const Json& buffer_view = member(checker.document, "bufferViews")[view];
+    if (is_fallback_buffer(member(checker.document, "buffers")[index_member(buffer_view, "buffer")]))
+        checker.fail(child_path(where, "bufferView"), "lies in a buffer that has no bytes");
+    if (unsigned_member(primitive, "mode", 4) != 4)
+        checker.fail_unsupported(child_path(primitive_where, "mode"), "strips in Draco data are not read");
     if (!primitive.contains("indices")) checker.fail(primitive_where, "has Draco data and no indices");
-    const Json& attributes = checker.object(packed, where, "attributes");
+    const Json& attributes = checker.object(compressed, where, "attributes");
     if (attributes.is_null() || attributes.empty()) checker.fail(where, "has no attributes");
     for (const auto& [name, id] : attributes.items()) {
         const std::string at = where + "/attributes/" + name;
@@ -244,7 +254,7 @@ void check_draco(const GltfChecker& checker, const Json& primitive, const std::s
     }
 }
 
-std::vector<char> draco_accessors(const Json& document) {
+std::vector<char> draco_accessor_flags(const Json& document) {
     std::vector<char> result(array_size(document, "accessors"), 0);
     const auto mark = [&](const Json& index) {
         if (index.is_number_unsigned() && index.get<std::uint64_t>() < result.size())
@@ -261,8 +271,8 @@ std::vector<char> draco_accessors(const Json& document) {
 }
 
 void decompress(SourceDocument& source, const std::string& file) {
-    unpack_views(source, file);
-    unpack_primitives(source, file);
+    decompress_views(source, file);
+    decompress_primitives(source, file);
 }
 
 }  // namespace faqem::detail

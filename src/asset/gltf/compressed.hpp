@@ -23,13 +23,13 @@ inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 bool can_decode(std::string_view extension);
 
 /// "EXT_x needs a build with library y", for errors.
-std::string missing_decoder(std::string_view extension);
+std::string missing_decoder_message(std::string_view extension);
 
 /// A buffer that only stands for what compressed views will hold: it has no bytes of its own.
-bool is_placeholder(const Json& buffer);
+bool is_fallback_buffer(const Json& buffer);
 
 /// The compressed data that a view is made of, null where it is plain.
-const Json& meshopt_of(const Json& document, const Json& view);
+const Json& meshopt_extension(const Json& document, const Json& view);
 
 /// Checks a view's EXT_meshopt_compression against the buffers and the view, ratio included.
 /// \param where  of the view
@@ -42,23 +42,24 @@ bool needs_draco(const Json& document, const Json& primitive);
 void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& where);
 
 /// By accessor: nonzero where Draco data may vouch for its count. Asks nothing of the meshes' validity.
-std::vector<char> draco_accessors(const Json& document);
+std::vector<char> draco_accessor_flags(const Json& document);
 
 /// So many elements of a Draco mesh are believed of few bytes, and so many of each byte in all: a header may
 /// say anything, and memory is taken by what it says.
-inline constexpr std::uint64_t always_believed = std::uint64_t{1} << 22, most_per_byte = 256;
+inline constexpr std::uint64_t draco_base_element_limit = std::uint64_t{1} << 22,
+                               max_draco_elements_per_byte = 256;
 
 /// How much may still be unpacked of a file: that grows with the bytes there are, not with how often they are
 /// referred to.
-class Allowance {
+class DecompressionBudget {
 public:
     /// \param file  for messages; borrowed
-    Allowance(std::uint64_t amount, const std::string& file) : left_(amount), file_(file) {}
+    DecompressionBudget(std::uint64_t amount, const std::string& file) : remaining_(amount), file_(file) {}
     /// \throws InputError  less is left
-    void take(std::uint64_t amount, const std::string& where, const char* extension);
+    void consume(std::uint64_t amount, const std::string& where, const char* extension);
 
 private:
-    std::uint64_t left_;
+    std::uint64_t remaining_;
     const std::string& file_;
 };
 

@@ -32,8 +32,8 @@ public:
         }
         std::uint32_t points = 0, faces = 0;
         std::uint8_t traversal = 0;
-        const bool edges = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING;
-        const bool read = edges
+        const bool is_edgebreaker = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING;
+        const bool read = is_edgebreaker
                               ? buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) &&
                                     draco::DecodeVarint(&faces, &buffer)
                               : draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer);

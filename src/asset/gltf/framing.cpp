@@ -47,14 +47,14 @@ std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::str
 
 }  // namespace
 
-GltfFrame split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
-                     std::vector<std::string>& warnings) {
-    GltfFrame frame;
+GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
+                         std::vector<std::string>& warnings) {
+    GltfContainer container;
     if (bytes.size() < 4 || u32_at(bytes, 0) != glb_magic) {
-        frame.json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-        return frame;
+        container.json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+        return container;
     }
-    frame.is_binary = true;
+    container.is_binary = true;
     const std::uint64_t length = checked_length(bytes, file, warnings);
     std::uint64_t at = header_size;
     for (std::uint64_t chunk = 0; at < length; ++chunk) {
@@ -70,16 +70,16 @@ GltfFrame split_gltf(std::span<const std::uint8_t> bytes, const std::string& fil
                              "needs " + bytes_text(size) + ", " + bytes_text(length - at) + " are left");
         if (chunk == 0 && type != json_chunk) throw InputError(file, where, "is not the JSON chunk");
         if (chunk == 0) {
-            frame.json = {reinterpret_cast<const char*>(bytes.data() + at), size};
+            container.json = {reinterpret_cast<const char*>(bytes.data() + at), size};
         } else if (chunk == 1 && type == bin_chunk) {
-            frame.bin = bytes.subspan(at, size);
-            frame.has_bin = true;
+            container.bin = bytes.subspan(at, size);
+            container.has_bin = true;
         } else {
             warnings.push_back(where + " is of no known type and was left out");
         }
         at += size;
     }
-    return frame;
+    return container;
 }
 
 void check_json_depth(std::string_view json, const std::string& file) {

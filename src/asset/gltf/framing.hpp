@@ -12,7 +12,7 @@
 namespace faqem::detail {
 
 /// What a .glb or .gltf file consists of. Views into the file's bytes.
-struct GltfFrame {
+struct GltfContainer {
     std::string_view json;
     std::span<const std::uint8_t> bin;
     bool is_binary = false;  ///< a GLB
@@ -27,8 +27,8 @@ inline constexpr int max_json_depth = 64;
 /// \param warnings  gets one sentence for each thing that is left out (chunks of unknown type ...)
 /// \throws InputError        truncated, or the lengths contradict each other
 /// \throws UnsupportedError  a GLB version other than 2
-GltfFrame split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
-                     std::vector<std::string>& warnings);
+GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
+                         std::vector<std::string>& warnings);
 
 /// Checks the nesting depth without recursion; brackets inside strings do not count.
 /// \throws InputError  deeper than max_json_depth

@@ -27,7 +27,7 @@ std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::p
                                     Overwrite overwrite);
 
 /// A GLB in memory. What write_gltf() would warn of is left out. \throws WriteError  it has more than 4 GiB
-FAQEM_EXPORT std::vector<std::uint8_t> glb_of(const Asset& asset);
+FAQEM_EXPORT std::vector<std::uint8_t> encode_glb(const Asset& asset);
 
 /// Walks the default scene (the first one if none is named; all root nodes if there is none).
 /// \pre asset.source is set

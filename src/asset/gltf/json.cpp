@@ -17,28 +17,28 @@ std::uint64_t array_size(const Json& object, const char* key) {
     return array.is_array() ? array.size() : 0;
 }
 
-Index index_of(const Json& object, const char* key) {
+Index index_member(const Json& object, const char* key) {
     const Json& value = member(object, key);
     return value.is_number_integer() ? value.get<Index>() : no_index;
 }
 
-std::uint64_t number_of(const Json& object, const char* key, std::uint64_t fallback) {
+std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback) {
     const Json& value = member(object, key);
     return value.is_number_integer() ? value.get<std::uint64_t>() : fallback;
 }
 
-std::string string_of(const Json& object, const char* key) {
+std::string string_member(const Json& object, const char* key) {
     const Json& value = member(object, key);
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-std::string step(const std::string& where, std::uint64_t index) {
+std::string child_path(const std::string& where, std::uint64_t index) {
     return where + "/" + std::to_string(index);
 }
 
-std::string step(const std::string& where, const std::string& key) { return where + "/" + key; }
+std::string child_path(const std::string& where, const std::string& key) { return where + "/" + key; }
 
-double shortest(float value) {
+double shortest_decimal(float value) {
     char text[32];
     const std::to_chars_result written = std::to_chars(text, text + sizeof text, value);
     double result = value;
@@ -47,9 +47,9 @@ double shortest(float value) {
 }
 
 bool is_texture_info(const std::string& key, const Json& value) {
-    constexpr std::string_view ending = "Texture";
-    return key.size() >= ending.size() &&
-           key.compare(key.size() - ending.size(), ending.size(), ending) == 0 && value.is_object() &&
+    constexpr std::string_view suffix = "Texture";
+    return key.size() >= suffix.size() &&
+           key.compare(key.size() - suffix.size(), suffix.size(), suffix) == 0 && value.is_object() &&
            value.contains("index");
 }
 

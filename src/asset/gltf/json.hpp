@@ -22,20 +22,20 @@ const Json& member(const Json& object, const char* key);
 std::uint64_t array_size(const Json& object, const char* key);
 
 /// The index stored under `key`, no_index where there is none. \pre the document was validated
-Index index_of(const Json& object, const char* key);
+Index index_member(const Json& object, const char* key);
 
 /// The unsigned number stored under `key`, or `fallback`. \pre the document was validated
-std::uint64_t number_of(const Json& object, const char* key, std::uint64_t fallback);
+std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
 
 /// The string stored under `key`, or an empty one.
-std::string string_of(const Json& object, const char* key);
+std::string string_member(const Json& object, const char* key);
 
 /// `where` with a JSON pointer step added: "/accessors" and 3 make "/accessors/3".
-std::string step(const std::string& where, std::uint64_t index);
-std::string step(const std::string& where, const std::string& key);
+std::string child_path(const std::string& where, std::uint64_t index);
+std::string child_path(const std::string& where, const std::string& key);
 
 /// A float as the shortest decimal that reads back as the same float: 0.1f gives 0.1, not 0.10000000149.
-double shortest(float value);
+double shortest_decimal(float value);
 
 /// A texture info, of an extension or of nobody knows whom: an object under a key that ends with Texture, with an index.
 bool is_texture_info(const std::string& key, const Json& value);

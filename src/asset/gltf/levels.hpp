@@ -15,11 +15,11 @@ namespace faqem::detail {
 struct LeveledAsset {
     /// The parts of the first level, then those of the second, which have no source ...
     Asset asset;
-    std::size_t parts = 0;  ///< of a level
+    std::size_t parts_per_level = 0;  ///< of a level
     /// By part, what MSFT_screencoverage is to be: one value per level.
     std::vector<std::vector<double>> coverage;
 
-    std::size_t levels() const { return parts == 0 ? 0 : asset.parts.size() / parts; }
+    std::size_t levels() const { return parts_per_level == 0 ? 0 : asset.parts.size() / parts_per_level; }
 };
 
 struct GltfWriter;

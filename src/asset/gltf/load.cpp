@@ -25,9 +25,9 @@ constexpr std::string_view buffer_token = "faqem-buffer-";
 constexpr std::string_view image_token = "faqem-image-";
 
 /// What the callbacks serve.
-struct Resources {
+struct CallbackContext {
     const Json& document;
-    const GltfFrame& frame;
+    const GltfContainer& container;
     fs::path file;
     std::vector<std::string>& warnings;
 };
@@ -51,12 +51,12 @@ std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::str
 
 /// \throws ReadError   no such file
 /// \throws InputError  it may not be read
-std::vector<std::uint8_t> read_uri(const Resources& resources, const std::string& uri,
+std::vector<std::uint8_t> read_uri(const CallbackContext& context, const std::string& uri,
                                    const std::string& where, std::uint64_t max_bytes) {
-    const std::string file = resources.file.string();
+    const std::string file = context.file.string();
     if (is_data_uri(uri)) return decode_data_uri(uri, file, where);
     try {
-        return read_file(resolve_inside(resources.file.parent_path(), uri), max_bytes);
+        return read_file(resolve_inside(context.file.parent_path(), uri), max_bytes);
     } catch (const ReadError& error) {
         throw ReadError(file, where, error.what());
     } catch (const InputError& error) {
@@ -64,24 +64,24 @@ std::vector<std::uint8_t> read_uri(const Resources& resources, const std::string
     }
 }
 
-std::vector<std::uint8_t> buffer_bytes(const Resources& resources, std::uint64_t index) {
-    const Json& buffer = resources.document["buffers"][index];
-    if (is_placeholder(buffer)) return {0};
-    const std::string where = step("/buffers", index), file = resources.file.string();
+std::vector<std::uint8_t> load_buffer(const CallbackContext& context, std::uint64_t index) {
+    const Json& buffer = context.document["buffers"][index];
+    if (is_fallback_buffer(buffer)) return {0};
+    const std::string where = child_path("/buffers", index), file = context.file.string();
     const auto length = buffer["byteLength"].get<std::uint64_t>();
-    const std::string uri = string_of(buffer, "uri");
+    const std::string uri = string_member(buffer, "uri");
     std::vector<std::uint8_t> bytes;
     if (!uri.empty()) {
-        bytes = read_uri(resources, uri, step(where, "uri"), max_resource_bytes);
-    } else if (index == 0 && resources.frame.has_bin) {
-        bytes.assign(resources.frame.bin.begin(), resources.frame.bin.end());
+        bytes = read_uri(context, uri, child_path(where, "uri"), max_resource_bytes);
+    } else if (index == 0 && context.container.has_bin) {
+        bytes.assign(context.container.bin.begin(), context.container.bin.end());
         if (bytes.size() > length && bytes.size() - length > 3)
-            resources.warnings.push_back(where + ": the BIN chunk has " +
-                                         std::to_string(bytes.size() - length) +
-                                         " bytes more than the buffer; they were left out");
+            context.warnings.push_back(where + ": the BIN chunk has " +
+                                       std::to_string(bytes.size() - length) +
+                                       " bytes more than the buffer; they were left out");
     } else {
         throw InputError(file, where,
-                         resources.frame.is_binary ? "has neither a uri nor a BIN chunk" : "has no uri");
+                         context.container.is_binary ? "has neither a uri nor a BIN chunk" : "has no uri");
     }
     if (bytes.size() < length)
         throw InputError(
@@ -92,16 +92,16 @@ std::vector<std::uint8_t> buffer_bytes(const Resources& resources, std::uint64_t
 }
 
 /// The bytes of an image file. tinygltf refuses empty ones, so a missing image is a single zero byte.
-std::vector<std::uint8_t> image_bytes(const Resources& resources, std::uint64_t index) {
-    const std::string where = step("/images", index);
+std::vector<std::uint8_t> load_image(const CallbackContext& context, std::uint64_t index) {
+    const std::string where = child_path("/images", index);
     try {
         std::vector<std::uint8_t> bytes =
-            read_uri(resources, string_of(resources.document["images"][index], "uri"), step(where, "uri"),
-                     max_image_bytes);
+            read_uri(context, string_member(context.document["images"][index], "uri"),
+                     child_path(where, "uri"), max_image_bytes);
         if (bytes.empty()) throw ReadError("", where, "is empty");
         return bytes;
     } catch (const ReadError& error) {
-        resources.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
+        context.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
         return {0};
     }
 }
@@ -111,19 +111,19 @@ bool token_exists(const std::string& name, void*) {
            name.compare(0, image_token.size(), image_token) == 0;
 }
 
-std::string same_name(const std::string& name, void*) { return name; }
+std::string keep_path(const std::string& name, void*) { return name; }
 
 bool read_token(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
-    const auto& resources = *static_cast<const Resources*>(user);
+    const auto& context = *static_cast<const CallbackContext*>(user);
     const bool is_buffer = name.compare(0, buffer_token.size(), buffer_token) == 0;
     std::uint64_t index = 0;
     const char* digits = name.data() + (is_buffer ? buffer_token : image_token).size();
     std::from_chars(digits, name.data() + name.size(), index);
-    *out = is_buffer ? buffer_bytes(resources, index) : image_bytes(resources, index);
+    *out = is_buffer ? load_buffer(context, index) : load_image(context, index);
     return true;
 }
 
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+bool refuse_write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
     return false;
 }
 
@@ -135,13 +135,13 @@ bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, i
 
 /// The document with every URI replaced by a token that only our callbacks understand. Buffers without bytes
 /// are given one, and accessors that Draco data will fill a view: tinygltf insists on both.
-std::string tokenised(const Json& document) {
+std::string json_with_uri_tokens(const Json& document) {
     Json copy = document;
     for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
-        if (is_placeholder(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
+        if (is_fallback_buffer(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
         copy["buffers"][i]["uri"] = std::string(buffer_token) + std::to_string(i);
     }
-    const std::vector<char> draco = draco_accessors(document);
+    const std::vector<char> draco = draco_accessor_flags(document);
     for (std::uint64_t i = 0; i < draco.size(); ++i)
         if (draco[i] && !copy["accessors"][i].contains("bufferView")) copy["accessors"][i]["bufferView"] = 0;
     for (std::uint64_t i = 0; i < array_size(copy, "images"); ++i)
@@ -150,11 +150,11 @@ std::string tokenised(const Json& document) {
     return copy.dump();
 }
 
-tinygltf::Model parse_fenced(const Json& document, Resources& resources) {
+tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& context) {
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({token_exists, same_name, read_token, write_nothing, &resources});
+    parser.SetFsCallbacks({token_exists, keep_path, read_token, refuse_write, &context});
     parser.SetImageLoader(store_image, nullptr);
-    const std::string file = resources.file.string(), json = tokenised(document);
+    const std::string file = context.file.string(), json = json_with_uri_tokens(document);
     if (json.size() > std::numeric_limits<unsigned>::max())
         throw UnsupportedError(file, "", "4 GiB of JSON are not supported");
     tinygltf::Model model;
@@ -174,14 +174,14 @@ tinygltf::Model parse_fenced(const Json& document, Resources& resources) {
 }
 
 /// Moves the bytes out of the model.
-void take_resources(LoadedGltf& loaded) {
+void move_buffers_and_images(LoadedGltf& loaded) {
     for (tinygltf::Buffer& buffer : loaded.model.buffers)
         loaded.source->buffers.push_back(std::move(buffer.data));
     for (tinygltf::Image& from : loaded.model.images) {
         Image image;
         image.name = from.name;
         const std::uint64_t index = loaded.source->images.size();
-        const std::string uri = string_of(loaded.source->document["images"][index], "uri");
+        const std::string uri = string_member(loaded.source->document["images"][index], "uri");
         if (!is_data_uri(uri)) image.uri = uri;
         if (from.image.size() > 1) {
             image.encoded = std::move(from.image);
@@ -209,13 +209,13 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     LoadedGltf loaded;
     loaded.file = file.string();
     loaded.source = std::make_shared<SourceDocument>();
-    const GltfFrame frame = split_gltf(bytes, loaded.file, loaded.warnings);
-    loaded.source->document = parse_json(frame.json, loaded.file);
+    const GltfContainer container = split_gltf(bytes, loaded.file, loaded.warnings);
+    loaded.source->document = parse_json(container.json, loaded.file);
     const Json& document = loaded.source->document;
     validate_gltf(document, loaded.file);
-    Resources resources{document, frame, file, loaded.warnings};
-    loaded.model = parse_fenced(document, resources);
-    take_resources(loaded);
+    CallbackContext context{document, container, file, loaded.warnings};
+    loaded.model = parse_with_tinygltf(document, context);
+    move_buffers_and_images(loaded);
     decompress(*loaded.source, loaded.file);
     check_sparse(*loaded.source, loaded.file);
     return loaded;

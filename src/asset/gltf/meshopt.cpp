@@ -7,9 +7,9 @@ namespace faqem::detail {
 
 std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const std::uint8_t> bytes,
                                          const std::string& file, const std::string& where) {
-    const std::uint64_t count = number_of(extension, "count", 0),
-                        stride = number_of(extension, "byteStride", 0);
-    const std::string mode = string_of(extension, "mode"), filter = string_of(extension, "filter");
+    const std::uint64_t count = unsigned_member(extension, "count", 0),
+                        stride = unsigned_member(extension, "byteStride", 0);
+    const std::string mode = string_member(extension, "mode"), filter = string_member(extension, "filter");
     std::vector<std::uint8_t> result(count * stride);
     int error = 0;
     if (mode == "ATTRIBUTES")

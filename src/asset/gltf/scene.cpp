@@ -21,7 +21,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
 }
 
 template <std::size_t N>
-std::array<double, N> numbers(const Json& object, const char* key, std::array<double, N> values) {
+std::array<double, N> number_array(const Json& object, const char* key, std::array<double, N> values) {
     const Json& array = member(object, key);
     if (array.is_array() && array.size() == N)
         for (std::size_t i = 0; i < N; ++i) values[i] = array[i].get<double>();
@@ -30,10 +30,10 @@ std::array<double, N> numbers(const Json& object, const char* key, std::array<do
 
 /// T * R * S with R from a unit quaternion (glTF 2.0, section 3.5.3).
 Matrix local_transform(const Json& node) {
-    if (node.contains("matrix")) return numbers<16>(node, "matrix", identity);
-    const auto t = numbers<3>(node, "translation", {0, 0, 0});
-    const auto s = numbers<3>(node, "scale", {1, 1, 1});
-    auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
+    if (node.contains("matrix")) return number_array<16>(node, "matrix", identity);
+    const auto t = number_array<3>(node, "translation", {0, 0, 0});
+    const auto s = number_array<3>(node, "scale", {1, 1, 1});
+    auto [x, y, z, w] = number_array<4>(node, "rotation", {0, 0, 0, 1});
     const double length = std::sqrt(x * x + y * y + z * z + w * w);
     if (length > 0) {
         x /= length;
@@ -63,7 +63,7 @@ std::vector<Index> root_nodes(const Json& document) {
     std::vector<Index> roots;
     const Json& scenes = member(document, "scenes");
     if (!scenes.empty()) {
-        for (const Json& node : member(scenes[number_of(document, "scene", 0)], "nodes"))
+        for (const Json& node : member(scenes[unsigned_member(document, "scene", 0)], "nodes"))
             roots.push_back(node.get<Index>());
         return roots;
     }
@@ -82,30 +82,30 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
     const Json& document = asset.source->document;
     std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
     std::vector<Instance> instances;
-    std::vector<Index> homeless;
+    std::vector<Index> unassigned_parts;
     for (Index i = 0; i < asset.parts.size(); ++i)
         if (asset.parts[i].source < parts_of.size())
             parts_of[asset.parts[i].source].push_back(i);
         else
-            homeless.push_back(i);
+            unassigned_parts.push_back(i);
 
     // A stack, as files may nest nodes deeper than the call stack allows.
-    std::vector<std::pair<Index, Matrix>> todo;
+    std::vector<std::pair<Index, Matrix>> stack;
     const std::vector<Index> roots = root_nodes(document);
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) todo.push_back({*root, identity});
-    while (!todo.empty()) {
-        const auto [index, parent] = todo.back();
-        todo.pop_back();
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, identity});
+    while (!stack.empty()) {
+        const auto [index, parent] = stack.back();
+        stack.pop_back();
         const Json& node = document["nodes"][index];
         const Matrix world = product(parent, local_transform(node));
-        const Index mesh = index_of(node, "mesh");
+        const Index mesh = index_member(node, "mesh");
         if (mesh != no_index)
             for (const Index part : parts_of[mesh]) instances.push_back({part, world});
         const Json& children = member(node, "children");
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            todo.push_back({child->get<Index>(), world});
+            stack.push_back({child->get<Index>(), world});
     }
-    for (const Index part : homeless) instances.push_back({part, identity});
+    for (const Index part : unassigned_parts) instances.push_back({part, identity});
     return instances;
 }
 

@@ -13,35 +13,36 @@ namespace faqem {
 namespace detail {
 namespace {
 
-struct Kind {
+struct ImageFormat {
     std::string_view magic;
-    std::size_t at;
+    std::size_t magic_offset;
     const char* mime_type;
-    const char* ending;
+    const char* extension;
 };
 
-constexpr std::array<Kind, 7> kinds = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
-                                        {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
-                                        {{"WEBP", 4}, 8, "image/webp", ".webp"},
-                                        {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
-                                        {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
-                                        {{"GIF8", 4}, 0, "image/gif", ".gif"},
-                                        {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
+constexpr std::array<ImageFormat, 7> image_formats = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+                                                       {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
+                                                       {{"WEBP", 4}, 8, "image/webp", ".webp"},
+                                                       {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+                                                       {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
+                                                       {{"GIF8", 4}, 0, "image/gif", ".gif"},
+                                                       {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
 /// Decoders take memory by what the header says, some of them when they open an image.
 void check_header(const Image& image) {
     const std::optional<ImageSize> size = declared_size(image.encoded);
     if (!size) fail_image(image, "is damaged: its header does not say how large it is");
     check_image_size(image, *size);
-    if (!can_hold(image.encoded, *size)) fail_image_length(image, *size);
+    if (!is_plausible_size(image.encoded, *size)) fail_truncated_image(image, *size);
 }
 
 }  // namespace
 
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (const Kind& kind : kinds)
-        if (text.size() >= kind.at && text.substr(kind.at, kind.magic.size()) == kind.magic)
+    for (const ImageFormat& kind : image_formats)
+        if (text.size() >= kind.magic_offset &&
+            text.substr(kind.magic_offset, kind.magic.size()) == kind.magic)
             return kind.mime_type;
     return "";
 }
@@ -53,13 +54,13 @@ bool can_decode_image(const std::string& mime_type) {
     return has_webp;
 }
 
-std::string decodable_images() {
+std::string decodable_format_names() {
     return can_decode_image("image/webp") ? "PNG, JPEG and WebP" : "PNG and JPEG";
 }
 
-std::string file_ending(const std::string& mime_type) {
-    for (const Kind& kind : kinds)
-        if (mime_type == kind.mime_type) return kind.ending;
+std::string file_extension(const std::string& mime_type) {
+    for (const ImageFormat& kind : image_formats)
+        if (mime_type == kind.mime_type) return kind.extension;
     return ".bin";
 }
 
@@ -75,24 +76,25 @@ Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t q
     return detail::encode_jpeg(pixels, name, quality, content, {});
 }
 
-Pixels detail::decode(const Image& image, engine::Poll poll) {
+Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancelled) {
     const std::string type = sniff_mime_type(image.encoded);
     if (!can_decode_image(type))
         throw UnsupportedError(
             image.uri, image_title(image),
             (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") + ", only " +
-                decodable_images() + " are");
+                decodable_format_names() + " are");
     check_header(image);
-    return image_codec().decode(image, type.substr(6), poll);
+    return image_codec().decode(image, type.substr(6), check_cancelled);
 }
 
-Image detail::encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll) {
-    return image_codec().encode_png(pixels, name, poll);
+Image detail::encode_png(const Pixels& pixels, const std::string& name,
+                         engine::CancellationCheck check_cancelled) {
+    return image_codec().encode_png(pixels, name, check_cancelled);
 }
 
 Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                          Content content, engine::Poll poll) {
-    return image_codec().encode_jpeg(pixels, name, quality, content, poll);
+                          Content content, engine::CancellationCheck check_cancelled) {
+    return image_codec().encode_jpeg(pixels, name, quality, content, check_cancelled);
 }
 
 }  // namespace faqem

@@ -13,10 +13,11 @@
 namespace faqem::detail {
 
 /// The public functions of these names, which poll. \throws what the poll throws, too
-FAQEM_EXPORT Pixels decode(const Image& image, engine::Poll poll);
-FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name, engine::Poll poll);
+FAQEM_EXPORT Pixels decode(const Image& image, engine::CancellationCheck check_cancelled);
+FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name,
+                              engine::CancellationCheck check_cancelled);
 FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                               Content content, engine::Poll poll);
+                               Content content, engine::CancellationCheck check_cancelled);
 
 /// Media type by magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/vnd-ms.dds, image/gif,
 /// image/bmp; empty if it is none of these.
@@ -26,9 +27,9 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 bool can_decode_image(const std::string& mime_type);
 
 /// "PNG, JPEG and WebP", or what else can be decoded, for errors.
-std::string decodable_images();
+std::string decodable_format_names();
 
 /// Usual name ending with the dot, ".bin" for unknown types.
-std::string file_ending(const std::string& mime_type);
+std::string file_extension(const std::string& mime_type);
 
 }  // namespace faqem::detail

@@ -23,7 +23,7 @@ void fail_image(const Image& image, const std::string& what) {
     throw InputError(image.uri, image_title(image), what);
 }
 
-void fail_image_length(const Image& image, const ImageSize& size) {
+void fail_truncated_image(const Image& image, const ImageSize& size) {
     fail_image(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
                           text_of(size) + " pixels");
 }

@@ -16,7 +16,7 @@ std::string image_title(const Image& image);
 [[noreturn]] void fail_image(const Image& image, const std::string& what);
 
 /// \throws InputError as one whose bytes cannot hold its pixels, always
-[[noreturn]] void fail_image_length(const Image& image, const ImageSize& size);
+[[noreturn]] void fail_truncated_image(const Image& image, const ImageSize& size);
 
 /// \throws InputError if a side is 0 or above max_image_side, or the pixels would take more than 1 GiB
 void check_image_size(const Image& image, const ImageSize& size);

@@ -25,7 +25,7 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::stri
     check_image_size(image, size);
     const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
     if (format == "png" && size.pixels() * bits / 8 / 1032 > image.encoded.size())
-        fail_image_length(image, size);
+        fail_truncated_image(image, size);
 }
 
 /// Calls work(begin, end) for bands of rows, each of which takes a few thousandths of a second, and asks
@@ -33,19 +33,19 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::stri
 /// \param work  false where it has failed
 /// \return whether it never has
 template <class Work>
-bool in_bands(const Pixels& pixels, engine::Poll poll, Work&& work) {
-    constexpr std::uint32_t pixels_of_band = 16384;
-    const std::uint32_t rows = std::max(1u, pixels_of_band / pixels.width);
+bool for_each_row_band(const Pixels& pixels, engine::CancellationCheck check_cancelled, Work&& work) {
+    constexpr std::uint32_t pixels_per_band = 16384;
+    const std::uint32_t rows = std::max(1u, pixels_per_band / pixels.width);
     for (std::uint32_t y = 0, end; y < pixels.height; y = end) {
         end = y + std::min(rows, pixels.height - y);
-        poll.now();
+        check_cancelled.now();
         if (!work(y, end)) return false;
     }
     return true;
 }
 
 /// Spreads 1 to 4 channels to RGBA.
-void spread_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
+void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
     const bool grey = channels < 3;
     const bool alpha = channels == 2 || channels == 4;
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -67,7 +67,7 @@ OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int chann
 }
 
 Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
-             const std::string& format, engine::Poll poll) {
+             const std::string& format, engine::CancellationCheck check_cancelled) {
     Image image;
     image.name = name;
     image.mime_type = "image/" + format;
@@ -78,19 +78,19 @@ Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpe
     const bool opened = output->open("memory." + format, spec);
     const auto channels = static_cast<OIIO::stride_t>(spec.nchannels);
     std::vector<std::uint8_t> rgb;
-    const bool written = opened && in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
-                             const std::size_t first = std::size_t{begin} * pixels.width;
-                             const std::size_t count = std::size_t{end - begin} * pixels.width;
-                             const std::uint8_t* rows = &pixels.rgba[4 * first];
-                             if (channels == 3) {
-                                 rgb.resize(3 * count);
-                                 for (std::size_t i = 0; i < count; ++i)
-                                     std::memcpy(&rgb[3 * i], rows + 4 * i, 3);
-                                 rows = rgb.data();
-                             }
-                             return output->write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
-                                                            OIIO::TypeDesc::UINT8, rows);
-                         });
+    const bool written =
+        opened && for_each_row_band(pixels, check_cancelled, [&](std::uint32_t begin, std::uint32_t end) {
+            const std::size_t first = std::size_t{begin} * pixels.width;
+            const std::size_t count = std::size_t{end - begin} * pixels.width;
+            const std::uint8_t* rows = &pixels.rgba[4 * first];
+            if (channels == 3) {
+                rgb.resize(3 * count);
+                for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], rows + 4 * i, 3);
+                rows = rgb.data();
+            }
+            return output->write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
+                                           OIIO::TypeDesc::UINT8, rows);
+        });
     const bool closed = opened && output->close();
     // OpenImageIO 2.4 reports some failures here only.
     const std::string error = output->geterror();
@@ -105,7 +105,7 @@ bool reads_webp() {
     return input && input->supports("ioproxy");
 }
 
-Pixels decode_as(const Image& image, const std::string& format, engine::Poll poll) {
+Pixels decode_as(const Image& image, const std::string& format, engine::CancellationCheck check_cancelled) {
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     if (!input) throw Error("OpenImageIO has no reader for " + format + ": " + OIIO::geterror());
@@ -121,14 +121,14 @@ Pixels decode_as(const Image& image, const std::string& format, engine::Poll pol
     const int channels = std::min(spec.nchannels, 4);
     pixels.rgba.resize(std::size_t{pixels.width} * pixels.height * 4);
     std::vector<std::uint8_t> band;
-    const bool read = in_bands(pixels, poll, [&](std::uint32_t begin, std::uint32_t end) {
+    const bool read = for_each_row_band(pixels, check_cancelled, [&](std::uint32_t begin, std::uint32_t end) {
         const std::size_t count = std::size_t{end - begin} * pixels.width;
         band.resize(count * static_cast<std::size_t>(channels));
         if (!input->read_scanlines(0, 0, static_cast<int>(begin), static_cast<int>(end), 0, 0, channels,
                                    OIIO::TypeDesc::UINT8, band.data()))
             return false;
         std::uint8_t* rgba = &pixels.rgba[std::size_t{begin} * pixels.width * 4];
-        spread_to_rgba(band.data(), count, static_cast<std::size_t>(channels), rgba);
+        expand_to_rgba(band.data(), count, static_cast<std::size_t>(channels), rgba);
         for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
             pixels.has_alpha = rgba[4 * i + 3] != 255;
         return true;
@@ -140,18 +140,19 @@ Pixels decode_as(const Image& image, const std::string& format, engine::Poll pol
     return pixels;
 }
 
-Image encode_as_png(const Pixels& pixels, const std::string& name, engine::Poll poll) {
+Image encode_as_png(const Pixels& pixels, const std::string& name,
+                    engine::CancellationCheck check_cancelled) {
     OIIO::ImageSpec spec = spec_of(pixels, name, pixels.has_alpha ? 4 : 3);
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    return encode(pixels, name, spec, "png", poll);
+    return encode(pixels, name, spec, "png", check_cancelled);
 }
 
 Image encode_as_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content,
-                     engine::Poll poll) {
+                     engine::CancellationCheck check_cancelled) {
     OIIO::ImageSpec spec = spec_of(pixels, name, 3);
     spec.attribute("CompressionQuality", static_cast<int>(quality));
     if (content == Content::data) spec.attribute("jpeg:subsampling", "4:4:4");
-    return encode(pixels, name, spec, "jpeg", poll);
+    return encode(pixels, name, spec, "jpeg", check_cancelled);
 }
 
 }  // namespace

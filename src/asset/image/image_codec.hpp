@@ -19,11 +19,13 @@ struct ImageCodec {
     /// \param image   its header has been checked
     /// \param format  png, jpeg or webp
     /// \throws InputError if the image is damaged, and what the poll throws
-    Pixels (*decode)(const Image& image, const std::string& format, engine::Poll poll);
+    Pixels (*decode)(const Image& image, const std::string& format,
+                     engine::CancellationCheck check_cancelled);
     /// As the functions of these names in image.hpp.
-    Image (*encode_png)(const Pixels& pixels, const std::string& name, engine::Poll poll);
+    Image (*encode_png)(const Pixels& pixels, const std::string& name,
+                        engine::CancellationCheck check_cancelled);
     Image (*encode_jpeg)(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                         Content content, engine::Poll poll);
+                         Content content, engine::CancellationCheck check_cancelled);
 };
 
 /// \throws Error if it has to be loaded and cannot be

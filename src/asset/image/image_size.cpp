@@ -10,8 +10,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t jpeg_pixels_per_byte = 512;  // eight blocks of 8 x 8
-constexpr std::uint64_t webp_pixels_per_byte = 4096, webp_always = 1 << 24;
+constexpr std::uint64_t max_jpeg_pixels_per_byte = 512;  // eight blocks of 8 x 8
+constexpr std::uint64_t max_webp_pixels_per_byte = 4096, max_unchecked_webp_pixels = 1 << 24;
 
 /// An unsigned number of some bytes. \pre they are there
 std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t size) {
@@ -46,8 +46,8 @@ std::optional<ImageSize> jpeg_size(Bytes bytes) {
         const std::uint8_t marker = bytes[at + 1];
         if (is_frame_header(marker))
             return ImageSize{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
-        const bool is_alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
-        at += is_alone ? 2 : 2 + big_endian(bytes, at + 2, 2);
+        const bool is_standalone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+        at += is_standalone ? 2 : 2 + big_endian(bytes, at + 2, 2);
     }
     return {};
 }
@@ -76,11 +76,11 @@ std::optional<ImageSize> declared_size(Bytes bytes) {
     return {};
 }
 
-bool can_hold(Bytes bytes, const ImageSize& size) {
+bool is_plausible_size(Bytes bytes, const ImageSize& size) {
     const std::string type = sniff_mime_type(bytes);
-    if (type == "image/jpeg") return size.pixels() / jpeg_pixels_per_byte <= bytes.size();
-    if (type != "image/webp" || size.pixels() <= webp_always) return true;
-    return size.pixels() / webp_pixels_per_byte <= bytes.size();
+    if (type == "image/jpeg") return size.pixels() / max_jpeg_pixels_per_byte <= bytes.size();
+    if (type != "image/webp" || size.pixels() <= max_unchecked_webp_pixels) return true;
+    return size.pixels() / max_webp_pixels_per_byte <= bytes.size();
 }
 
 }  // namespace faqem::detail

@@ -29,6 +29,6 @@ FAQEM_EXPORT std::optional<ImageSize> declared_size(std::span<const std::uint8_t
 /// has a code). A WebP of one colour takes some 30 bytes of any size: from 4096 x 4096 pixels on, at most
 /// 4096 of one byte are believed. A PNG is looked at elsewhere, when its depth is known.
 /// \param bytes  the whole image
-bool can_hold(std::span<const std::uint8_t> bytes, const ImageSize& size);
+bool is_plausible_size(std::span<const std::uint8_t> bytes, const ImageSize& size);
 
 }  // namespace faqem::detail

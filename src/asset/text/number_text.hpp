@@ -19,6 +19,6 @@ void append_number(std::string& text, T value) {
 
 /// Rounded to six decimals. A display value made from a linear float comes back the same after another round
 /// trip, which the last bits of a float would not.
-inline double six_decimals(double value) { return std::round(value * 1e6) / 1e6; }
+inline double round_to_six_decimals(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace faqem::detail

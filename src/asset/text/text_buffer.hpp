@@ -19,20 +19,20 @@ namespace faqem::detail {
 class TextBuffer {
 public:
     void put(char c) {
-        need(1);
+        ensure_space(1);
         data_.get()[size_++] = c;
     }
 
     void put(std::string_view text) {
-        need(text.size());
+        ensure_space(text.size());
         if (!text.empty()) std::memcpy(data_.get() + size_, text.data(), text.size());
         size_ += text.size();
     }
 
     /// The shortest text that reads back as the same value of its type; not by the locale.
     template <class T>
-    void number(T value) {
-        need(longest_number);
+    void put_number(T value) {
+        ensure_space(longest_number);
         char* at = data_.get() + size_;
         size_ = static_cast<std::size_t>(std::to_chars(at, at + longest_number, value).ptr - data_.get());
     }
@@ -45,7 +45,7 @@ public:
 private:
     static constexpr std::size_t longest_number = 32;
 
-    void need(std::size_t more) {
+    void ensure_space(std::size_t more) {
         if (more <= capacity_ - size_) return;
         const std::size_t capacity = capacity_ + capacity_ / 2 + more + 4096;
         auto* grown = static_cast<char*>(std::realloc(data_.get(), capacity));

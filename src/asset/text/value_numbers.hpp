@@ -17,21 +17,21 @@ namespace faqem::detail {
 /// A hash table with open addressing, whose results do not depend on the hash. Values are equal when their
 /// bits are. \tparam Value  std::array of numbers of 4 or 8 bytes
 template <class Value>
-class ValueNumbers {
+class UniqueValues {
 public:
     /// The number of a value, new or old. The caller sees to it that there are fewer than no_index.
-    Index number(const Value& value) {
+    Index insert(const Value& value) {
         if (2 * (values_.size() + 1) > table_.size()) resize(table_.empty() ? 1024 : 2 * table_.size());
         const std::uint64_t h = hash(value);
         const auto tag = static_cast<std::uint32_t>(h >> 32);
         std::size_t slot = h & (table_.size() - 1);
-        for (; table_[slot].number != no_index; slot = (slot + 1) & (table_.size() - 1)) {
-            if (table_[slot].tag == tag && bits(values_[table_[slot].number]) == bits(value))
-                return table_[slot].number;
+        for (; table_[slot].index != no_index; slot = (slot + 1) & (table_.size() - 1)) {
+            if (table_[slot].tag == tag && bits(values_[table_[slot].index]) == bits(value))
+                return table_[slot].index;
         }
         table_[slot] = {static_cast<Index>(values_.size()), tag};
         values_.push_back(value);
-        return table_[slot].number;
+        return table_[slot].index;
     }
 
     /// Makes room for this many values.
@@ -63,13 +63,13 @@ private:
         for (std::size_t i = 0; i < values_.size(); ++i) {
             const std::uint64_t h = hash(values_[i]);
             std::size_t slot = h & (size - 1);
-            while (table_[slot].number != no_index) slot = (slot + 1) & (size - 1);
+            while (table_[slot].index != no_index) slot = (slot + 1) & (size - 1);
             table_[slot] = {static_cast<Index>(i), static_cast<std::uint32_t>(h >> 32)};
         }
     }
 
     struct Slot {
-        Index number = no_index;
+        Index index = no_index;
         std::uint32_t tag =
             0;  ///< the hash's upper half: other values are told apart without looking at them
     };

@@ -13,16 +13,16 @@ namespace {
 
 using engine::Vector3;
 
-constexpr double reach = 1.5;  // texels
+constexpr double max_distance = 1.5;  // texels
 
 // An edge of the outline, on the page and on the surface.
-struct Side {
+struct BoundaryEdge {
     ChartPoint a, b;  // texels
-    Vector3 at_a, at_b;
+    Vector3 surface_a, surface_b;
     double density;  // texels per length
 
-    ChartPoint place(double at) const { return a + at * (b - a); }
-    Vector3 point(double at) const { return at_a + at * (at_b - at_a); }
+    ChartPoint page_point(double at) const { return a + at * (b - a); }
+    Vector3 surface_point(double at) const { return surface_a + at * (surface_b - surface_a); }
     // Of the closest point to p, 0 at a and 1 at b.
     double closest(const ChartPoint& p) const {
         const double length = std::norm(b - a);
@@ -30,59 +30,61 @@ struct Side {
     }
 };
 
-std::vector<Side> outline(std::span<const ChartFace> all, const Chart& chart, engine::Poll poll) {
-    std::vector<Side> sides;
+std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart,
+                                         engine::CancellationCheck check_cancelled) {
+    std::vector<BoundaryEdge> edges;
     for (std::size_t i = 0; i < chart.faces.size(); ++i) {
-        poll();
+        check_cancelled();
         const ChartFace& face = all[chart.faces[i]];
         for (std::size_t c = 0; c < 3; ++c) {
-            const Index other = face.across[c].triangle;
+            const Index other = face.adjacent[c].triangle;
             if (other != no_index && std::binary_search(chart.faces.begin(), chart.faces.end(), other))
                 continue;
             const std::size_t from = (c + 1) % 3, to = (c + 2) % 3;
-            sides.push_back({chart.places[i][from], chart.places[i][to], engine::to_eigen(face.corners[from]),
+            edges.push_back({chart.points[i][from], chart.points[i][to], engine::to_eigen(face.corners[from]),
                              engine::to_eigen(face.corners[to]), face.density});
         }
     }
-    return sides;
+    return edges;
 }
 
 // Whether places on one side are about as far from another one as it looks: the ends, and the place from where
 // on they are out of reach.
-bool is_clear(const Side& s, const Side& t) {
+bool has_clearance(const BoundaryEdge& s, const BoundaryEdge& t) {
     const auto distance = [&](double at) {
-        const ChartPoint p = s.place(at);
-        return std::abs(t.place(t.closest(p)) - p);
+        const ChartPoint p = s.page_point(at);
+        return std::abs(t.page_point(t.closest(p)) - p);
     };
-    const auto is_clear_at = [&](double at, double flat) {
-        const double length = (t.point(t.closest(s.place(at))) - s.point(at)).norm();
+    const auto has_clearance_at = [&](double at, double flat) {
+        const double length = (t.surface_point(t.closest(s.page_point(at))) - s.surface_point(at)).norm();
         return length * std::min(s.density, t.density) <= 1.5 * flat + 0.5;
     };
     const double a = distance(0), b = distance(1);
-    if (a < reach && !is_clear_at(0, a)) return false;
-    if (b < reach && !is_clear_at(1, b)) return false;
-    if ((a < reach) == (b < reach)) return true;
-    const double last = (reach - a) / (b - a);
-    return is_clear_at(last, distance(last));
+    if (a < max_distance && !has_clearance_at(0, a)) return false;
+    if (b < max_distance && !has_clearance_at(1, b)) return false;
+    if ((a < max_distance) == (b < max_distance)) return true;
+    const double last = (max_distance - a) / (b - a);
+    return has_clearance_at(last, distance(last));
 }
 
 }  // namespace
 
-bool outline_is_clear(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
-                      engine::Poll poll) {
-    const std::vector<Side> sides = outline(all, chart, poll);
-    std::vector<Box> boxes;
-    boxes.reserve(sides.size());
-    for (const Side& s : sides) {
-        poll();
+bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
+                            engine::CancellationCheck check_cancelled) {
+    const std::vector<BoundaryEdge> edges = boundary_edges(all, chart, check_cancelled);
+    std::vector<Box2> boxes;
+    boxes.reserve(edges.size());
+    for (const BoundaryEdge& s : edges) {
+        check_cancelled();
         const auto [x0, x1] = std::minmax({s.a.real(), s.b.real()});
         const auto [y0, y1] = std::minmax({s.a.imag(), s.b.imag()});
-        boxes.push_back({x0 - reach / 2, y0 - reach / 2, x1 + reach / 2, y1 + reach / 2});
+        boxes.push_back(
+            {x0 - max_distance / 2, y0 - max_distance / 2, x1 + max_distance / 2, y1 + max_distance / 2});
     }
-    const std::optional<BoxGrid> grid = BoxGrid::over(boxes, work);
+    const std::optional<BoxGrid> grid = BoxGrid::build(boxes, work);
     if (!grid) return false;
-    return grid->all_pairs(boxes, work, poll, [&](Index a, Index b) {
-        return is_clear(sides[a], sides[b]) && is_clear(sides[b], sides[a]);
+    return grid->all_pairs(boxes, work, check_cancelled, [&](Index a, Index b) {
+        return has_clearance(edges[a], edges[b]) && has_clearance(edges[b], edges[a]);
     });
 }
 

@@ -18,7 +18,7 @@ namespace faqem::detail {
 /// \return false too if the work is used up before it is known
 /// \throws what the poll throws
 /// Expected O(n).
-bool outline_is_clear(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
-                      engine::Poll poll = {});
+bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
+                            engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

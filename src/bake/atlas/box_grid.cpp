@@ -5,10 +5,10 @@
 
 namespace faqem::detail {
 
-BoxGrid::BoxGrid(std::span<const Box> boxes) {
+BoxGrid::BoxGrid(std::span<const Box2> boxes) {
     constexpr double inf = std::numeric_limits<double>::infinity();
-    Box all{inf, inf, -inf, -inf};
-    for (const Box& b : boxes) {
+    Box2 all{inf, inf, -inf, -inf};
+    for (const Box2& b : boxes) {
         all = {std::min(all.low_x, b.low_x), std::min(all.low_y, b.low_y), std::max(all.high_x, b.high_x),
                std::max(all.high_y, b.high_y)};
     }
@@ -22,14 +22,14 @@ BoxGrid::BoxGrid(std::span<const Box> boxes) {
     rows_ = static_cast<std::size_t>(height * scale_) + 1;
 }
 
-std::optional<BoxGrid> BoxGrid::over(std::span<const Box> boxes, std::uint64_t& work) {
-    for (const Box& b : boxes) {
+std::optional<BoxGrid> BoxGrid::build(std::span<const Box2> boxes, std::uint64_t& work) {
+    for (const Box2& b : boxes) {
         if (!std::isfinite(b.low_x + b.low_y + b.high_x + b.high_y)) return std::nullopt;
     }
     BoxGrid grid(boxes);
     std::uint64_t entries = 0;
-    for (const Box& b : boxes) {
-        entries += grid.cells_under(b);
+    for (const Box2& b : boxes) {
+        entries += grid.covered_cell_count(b);
         if (entries > work) {
             work = 0;
             return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<BoxGrid> BoxGrid::over(std::span<const Box> boxes, std::uint64_t& 
     }
     work -= entries;
     grid.begin_.assign(grid.columns_ * grid.rows_ + 1, 0);
-    for (const Box& b : boxes) grid.visit(b, [&](std::size_t cell) { ++grid.begin_[cell + 1]; });
+    for (const Box2& b : boxes) grid.visit(b, [&](std::size_t cell) { ++grid.begin_[cell + 1]; });
     for (std::size_t i = 0; i + 1 < grid.begin_.size(); ++i) grid.begin_[i + 1] += grid.begin_[i];
     grid.members_.resize(entries);
     std::vector<std::uint64_t> fill(grid.begin_.begin(), grid.begin_.end() - 1);

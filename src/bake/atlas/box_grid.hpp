@@ -13,7 +13,7 @@
 
 namespace faqem::detail {
 
-struct Box {
+struct Box2 {
     double low_x, low_y, high_x, high_y;
 
     double size() const { return std::max(high_x - low_x, high_y - low_y); }
@@ -24,24 +24,24 @@ class BoxGrid {
 public:
     /// \param work  entries to make at most; lowered by those made
     /// \return none if the work is used up, or a box is not finite
-    static std::optional<BoxGrid> over(std::span<const Box> boxes, std::uint64_t& work);
+    static std::optional<BoxGrid> build(std::span<const Box2> boxes, std::uint64_t& work);
 
     /// Calls test(a, b) once for each two boxes that share a cell, until it says no. Expected O(n).
     /// \param work  pairs to look at at most; lowered by those
     /// \return whether it always said yes; false too if the work is used up before
     /// \throws what the poll throws
     template <class Test>
-    bool all_pairs(std::span<const Box> boxes, std::uint64_t& work, engine::Poll poll,
-                   const Test& test) const {
+    bool all_pairs(std::span<const Box2> boxes, std::uint64_t& work,
+                   engine::CancellationCheck check_cancelled, const Test& test) const {
         for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
-            poll();
+            check_cancelled();
             for (std::uint64_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-                const Box& a = boxes[members_[i]];
+                const Box2& a = boxes[members_[i]];
                 for (std::uint64_t j = i + 1; j < begin_[cell + 1]; ++j) {
-                    poll();
+                    check_cancelled();
                     if (work == 0) return false;
                     --work;
-                    const Box& b = boxes[members_[j]];
+                    const Box2& b = boxes[members_[j]];
                     // Once per pair: in the first cell that both are in.
                     if (cell_at(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)) != cell) continue;
                     if (!test(members_[i], members_[j])) return false;
@@ -52,16 +52,16 @@ public:
     }
 
 private:
-    explicit BoxGrid(std::span<const Box> boxes);
+    explicit BoxGrid(std::span<const Box2> boxes);
 
     template <class Visit>
-    void visit(const Box& box, const Visit& visit) const {
+    void visit(const Box2& box, const Visit& visit) const {
         const std::size_t x0 = column(box.low_x), x1 = column(box.high_x);
         for (std::size_t y = row(box.low_y); y <= row(box.high_y); ++y) {
             for (std::size_t x = x0; x <= x1; ++x) visit(y * columns_ + x);
         }
     }
-    std::size_t cells_under(const Box& box) const {
+    std::size_t covered_cell_count(const Box2& box) const {
         return (column(box.high_x) - column(box.low_x) + 1) * (row(box.high_y) - row(box.low_y) + 1);
     }
     std::size_t cell_at(double x, double y) const { return row(y) * columns_ + column(x); }

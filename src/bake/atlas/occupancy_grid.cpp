@@ -7,7 +7,7 @@ namespace faqem::detail {
 namespace {
 
 // row = row & (row >> by), bits beyond the end are 0.
-void and_shifted(std::vector<std::uint64_t>& row, std::uint32_t by) {
+void and_with_shifted(std::vector<std::uint64_t>& row, std::uint32_t by) {
     const std::size_t words = by / 64, bits = by % 64;
     for (std::size_t i = 0; i < row.size(); ++i) {
         const std::uint64_t low = i + words < row.size() ? row[i + words] : 0;
@@ -18,7 +18,7 @@ void and_shifted(std::vector<std::uint64_t>& row, std::uint32_t by) {
 
 }  // namespace
 
-BlockMask BlockMask::turned() const {
+BlockMask BlockMask::rotated() const {
     BlockMask result{rows, columns, std::vector<std::uint8_t>(blocks.size())};
     for (std::uint32_t y = 0; y < rows; ++y) {
         for (std::uint32_t x = 0; x < columns; ++x) {
@@ -28,28 +28,28 @@ BlockMask BlockMask::turned() const {
     return result;
 }
 
-BlockSheet::BlockSheet(std::uint32_t columns, std::uint32_t rows)
+OccupancyGrid::OccupancyGrid(std::uint32_t columns, std::uint32_t rows)
     : columns_(columns), rows_(rows), free_(rows, Row((columns + 63) / 64, 0)) {
     for (Row& row : free_) {
         for (std::uint32_t x = 0; x < columns; ++x) row[x / 64] |= std::uint64_t{1} << (x % 64);
     }
-    longest_.assign(rows, columns);
+    longest_free_run_.assign(rows, columns);
 }
 
-void BlockSheet::refine() {
-    BlockSheet fine(2 * columns_, 2 * rows_);
+void OccupancyGrid::refine() {
+    OccupancyGrid fine(2 * columns_, 2 * rows_);
     for (std::uint32_t y = 0; y < fine.rows_; ++y) {
         for (std::uint32_t x = 0; x < fine.columns_; ++x) {
             if (!(free_[y / 2][x / 128] >> (x / 2 % 64) & 1)) {
                 fine.free_[y][x / 64] &= ~(std::uint64_t{1} << (x % 64));
             }
         }
-        fine.longest_[y] = 2 * longest_[y / 2];
+        fine.longest_free_run_[y] = 2 * longest_free_run_[y / 2];
     }
     *this = std::move(fine);
 }
 
-std::vector<BlockSheet::Run> BlockSheet::runs_of(const BlockMask& mask) {
+std::vector<OccupancyGrid::Run> OccupancyGrid::runs_of(const BlockMask& mask) {
     std::vector<Run> result;
     for (std::uint32_t y = 0; y < mask.rows; ++y) {
         for (std::uint32_t x = 0; x < mask.columns; ++x) {
@@ -65,7 +65,7 @@ std::vector<BlockSheet::Run> BlockSheet::runs_of(const BlockMask& mask) {
     return result;
 }
 
-void BlockSheet::measure(std::uint32_t y) {
+void OccupancyGrid::update_longest_run(std::uint32_t y) {
     std::uint32_t longest = 0, run = 0;
     for (std::uint64_t word : free_[y]) {
         for (std::uint32_t left = 64; left > 0;) {
@@ -80,58 +80,61 @@ void BlockSheet::measure(std::uint32_t y) {
             word = zeros < 64 ? word >> zeros : 0;
         }
     }
-    longest_[y] = longest;
+    longest_free_run_[y] = longest;
 }
 
-// Bit x of `places`: the mask fits with its first column there. False if it fits nowhere.
-bool BlockSheet::free_places(std::span<const Run> runs, std::uint32_t y, Row& places, Row& scratch) const {
+// Bit x of `candidates`: the mask fits with its first column there. False if it fits nowhere.
+bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y, Row& candidates,
+                                      Row& scratch) const {
     for (const Run& run : runs) {
-        if (longest_[y + run.row] < run.length) return false;
+        if (longest_free_run_[y + run.row] < run.length) return false;
     }
-    places.assign(free_[0].size(), ~std::uint64_t{0});
+    candidates.assign(free_[0].size(), ~std::uint64_t{0});
     for (const Run& run : runs) {
         scratch = free_[y + run.row];
         // Bit x: `known` blocks from x on are free.
         for (std::uint32_t known = 1; known < run.length;) {
             const std::uint32_t more = std::min(known, run.length - known);
-            and_shifted(scratch, more);
+            and_with_shifted(scratch, more);
             known += more;
         }
         const std::size_t words = run.begin / 64, bits = run.begin % 64;
         std::uint64_t any = 0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
             const std::uint64_t low = i + words < scratch.size() ? scratch[i + words] : 0;
             const std::uint64_t high = i + words + 1 < scratch.size() ? scratch[i + words + 1] : 0;
-            places[i] &= bits ? (low >> bits) | (high << (64 - bits)) : low;
-            any |= places[i];
+            candidates[i] &= bits ? (low >> bits) | (high << (64 - bits)) : low;
+            any |= candidates[i];
         }
         if (any == 0) return false;
     }
     return true;
 }
 
-std::optional<BlockSheet::Spot> BlockSheet::find(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
-                                                 std::uint32_t step, engine::Poll poll) const {
+std::optional<OccupancyGrid::BlockPosition> OccupancyGrid::find_free(
+    const BlockMask& mask, std::uint32_t from, std::uint32_t end, std::uint32_t step,
+    engine::CancellationCheck check_cancelled) const {
     if (mask.columns > columns_ || mask.rows > rows_) return std::nullopt;
     const std::vector<Run> runs = runs_of(mask);
-    Row places, scratch;
+    Row candidates, scratch;
     for (std::uint32_t y = from; y < std::min(end, rows_ - mask.rows + 1); y += step) {
-        poll();
-        if (!free_places(runs, y, places, scratch)) continue;
-        for (std::uint32_t i = 0; i < places.size(); ++i) {
-            if (places[i]) return Spot{64 * i + static_cast<std::uint32_t>(std::countr_zero(places[i])), y};
+        check_cancelled();
+        if (!find_free_columns(runs, y, candidates, scratch)) continue;
+        for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+            if (candidates[i])
+                return BlockPosition{64 * i + static_cast<std::uint32_t>(std::countr_zero(candidates[i])), y};
         }
     }
     return std::nullopt;
 }
 
-void BlockSheet::take(const BlockMask& mask, Spot spot) {
+void OccupancyGrid::occupy(const BlockMask& mask, BlockPosition position) {
     for (std::uint32_t y = 0; y < mask.rows; ++y) {
         for (std::uint32_t x = 0; x < mask.columns; ++x) {
             if (!mask(x, y)) continue;
-            free_[spot.y + y][(spot.x + x) / 64] &= ~(std::uint64_t{1} << ((spot.x + x) % 64));
+            free_[position.y + y][(position.x + x) / 64] &= ~(std::uint64_t{1} << ((position.x + x) % 64));
         }
-        measure(spot.y + y);
+        update_longest_run(position.y + y);
     }
 }
 

@@ -20,28 +20,29 @@ struct BlockMask {
         return blocks[std::size_t{y} * columns + x] != 0;
     }
     /// By a quarter: what was right is down then.
-    BlockMask turned() const;
+    BlockMask rotated() const;
 };
 
 /// A rectangle of blocks, one bit each.
-class BlockSheet {
+class OccupancyGrid {
 public:
-    BlockSheet(std::uint32_t columns, std::uint32_t rows);
+    OccupancyGrid(std::uint32_t columns, std::uint32_t rows);
 
     /// Every block becomes four.
     void refine();
 
-    struct Spot {
+    struct BlockPosition {
         std::uint32_t x, y;
     };
     /// The first place, by row and then by column, where all of the mask's blocks are free.
     /// \param from, end  range of rows for the mask's first one
     /// \param step  only every step-th of them
     /// \throws what the poll throws
-    std::optional<Spot> find(const BlockMask& mask, std::uint32_t from, std::uint32_t end, std::uint32_t step,
-                             engine::Poll poll = {}) const;
+    std::optional<BlockPosition> find_free(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
+                                           std::uint32_t step,
+                                           engine::CancellationCheck check_cancelled = {}) const;
 
-    void take(const BlockMask& mask, Spot spot);
+    void occupy(const BlockMask& mask, BlockPosition position);
 
 private:
     using Row = std::vector<std::uint64_t>;
@@ -49,12 +50,12 @@ private:
         std::uint32_t row, begin, length;
     };
     static std::vector<Run> runs_of(const BlockMask& mask);
-    void measure(std::uint32_t y);
-    bool free_places(std::span<const Run> runs, std::uint32_t y, Row& places, Row& scratch) const;
+    void update_longest_run(std::uint32_t y);
+    bool find_free_columns(std::span<const Run> runs, std::uint32_t y, Row& candidates, Row& scratch) const;
 
     std::uint32_t columns_, rows_;
     std::vector<Row> free_;
-    std::vector<std::uint32_t> longest_;  // free stretch of every row
+    std::vector<std::uint32_t> longest_free_run_;  // free stretch of every row
 };
 
 }  // namespace faqem::detail

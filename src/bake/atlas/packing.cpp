@@ -10,35 +10,36 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint32_t largest_grain = 16;
+constexpr std::uint32_t max_block_size = 16;
 // Grains are at most that share of a chart's size, the root of its texels.
-constexpr double grain_share = 1.0 / 8;
+constexpr double max_block_size_ratio = 1.0 / 8;
 
 // So many of the largest charts are tried in all holes.
-constexpr std::size_t searched_well = 256;
+constexpr std::size_t exhaustively_searched_charts = 256;
 
-using Flat = std::array<ChartPoint, 3>;
+using FlatTriangle = std::array<ChartPoint, 3>;
 
 // Turned so that its box is least and lies on its longer side; its low corner is the origin.
-struct Shape {
-    std::vector<Flat> places;
+struct OrientedChart {
+    std::vector<FlatTriangle> points;
     double width = 0, height = 0, area = 0;
 };
 
 // Andrew's monotone chain, counter-clockwise.
-std::vector<ChartPoint> convex_hull(const Chart& chart, engine::Poll poll) {
+std::vector<ChartPoint> convex_hull(const Chart& chart, engine::CancellationCheck check_cancelled) {
     std::vector<ChartPoint> points;
-    for (const Flat& t : chart.places) points.insert(points.end(), t.begin(), t.end());
+    for (const FlatTriangle& t : chart.points) points.insert(points.end(), t.begin(), t.end());
     const auto less = [](const ChartPoint& a, const ChartPoint& b) {
         return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
     };
-    std::sort(points.begin(), points.end(), engine::polled_less(poll, less));
+    std::sort(points.begin(), points.end(), engine::cancellable_less(check_cancelled, less));
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::vector<ChartPoint> hull;
     for (int side = 0; side < 2; ++side) {
         const std::size_t begin = hull.size();
         for (const ChartPoint& p : points) {
-            while (hull.size() >= begin + 2 && !(turn(hull[hull.size() - 2], hull.back(), p) > 0))
+            while (hull.size() >= begin + 2 &&
+                   !(twice_signed_area(hull[hull.size() - 2], hull.back(), p) > 0))
                 hull.pop_back();
             hull.push_back(p);
         }
@@ -48,7 +49,7 @@ std::vector<ChartPoint> convex_hull(const Chart& chart, engine::Poll poll) {
     return hull;
 }
 
-struct Extent {
+struct Bounds {
     double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
 
     void add(const ChartPoint& p) {
@@ -62,66 +63,67 @@ struct Extent {
 };
 
 // Of numbers beyond this a product is none any more.
-constexpr double farthest = 1e100;
+constexpr double max_coordinate = 1e100;
 
-bool is_measurable(const Chart& chart) {
-    return std::all_of(chart.places.begin(), chart.places.end(), [](const Flat& t) {
+bool has_valid_coordinates(const Chart& chart) {
+    return std::all_of(chart.points.begin(), chart.points.end(), [](const FlatTriangle& t) {
         return std::all_of(t.begin(), t.end(), [](const ChartPoint& p) {
-            return std::abs(p.real()) <= farthest && std::abs(p.imag()) <= farthest;
+            return std::abs(p.real()) <= max_coordinate && std::abs(p.imag()) <= max_coordinate;
         });
     });
 }
 
-Shape shape_of(const Chart& chart, engine::Poll poll) {
-    if (!is_measurable(chart)) return {std::vector<Flat>(chart.places.size()), 0, 0, 0};  // one texel
-    const std::vector<ChartPoint> hull = convex_hull(chart, poll);
+OrientedChart orient(const Chart& chart, engine::CancellationCheck check_cancelled) {
+    if (!has_valid_coordinates(chart))
+        return {std::vector<FlatTriangle>(chart.points.size()), 0, 0, 0};  // one texel
+    const std::vector<ChartPoint> hull = convex_hull(chart, check_cancelled);
     ChartPoint best = 1;
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const ChartPoint edge = hull[(i + 1) % hull.size()] - hull[i];
         if (!(std::abs(edge) > 0)) continue;
-        ChartPoint turned = std::conj(edge) / std::abs(edge);
-        Extent extent;
-        for (const ChartPoint& p : hull) extent.add(p * turned);
-        if (!(extent.width() * extent.height() < least * (1 - 1e-9))) continue;
-        least = extent.width() * extent.height();
-        best = extent.width() < extent.height() ? turned * ChartPoint(0, 1) : turned;
+        ChartPoint rotation = std::conj(edge) / std::abs(edge);
+        Bounds bounds;
+        for (const ChartPoint& p : hull) bounds.add(p * rotation);
+        if (!(bounds.width() * bounds.height() < least * (1 - 1e-9))) continue;
+        least = bounds.width() * bounds.height();
+        best = bounds.width() < bounds.height() ? rotation * ChartPoint(0, 1) : rotation;
     }
-    Shape shape;
-    Extent extent;
-    for (const ChartPoint& p : hull) extent.add(p * best);
-    const ChartPoint low = {extent.low_x, extent.low_y};
-    for (const Flat& t : chart.places) {
-        shape.places.push_back({t[0] * best - low, t[1] * best - low, t[2] * best - low});
-        shape.area += turn(t[0], t[1], t[2]) / 2;
+    OrientedChart shape;
+    Bounds bounds;
+    for (const ChartPoint& p : hull) bounds.add(p * best);
+    const ChartPoint low = {bounds.low_x, bounds.low_y};
+    for (const FlatTriangle& t : chart.points) {
+        shape.points.push_back({t[0] * best - low, t[1] * best - low, t[2] * best - low});
+        shape.area += twice_signed_area(t[0], t[1], t[2]) / 2;
     }
-    shape.width = extent.width();
-    shape.height = extent.height();
+    shape.width = bounds.width();
+    shape.height = bounds.height();
     return shape;
 }
 
 // A chart at some scale on some page.
-struct Cut {
+struct ChartRaster {
     double scale_x = 1, scale_y = 1;
-    std::uint32_t grain = 1;
-    bool single = true;
+    std::uint32_t block_size = 1;
+    bool is_single_texel = true;
     BlockMask mask;
 
     // Corner in texels from the mask's top left: v down, half a block inside.
-    ChartPoint place(const ChartPoint& p) const {
-        return {grain / 2.0 + p.real() * scale_x,
-                mask.rows * double(grain) - grain / 2.0 - p.imag() * scale_y};
+    ChartPoint texel_point(const ChartPoint& p) const {
+        return {block_size / 2.0 + p.real() * scale_x,
+                mask.rows * double(block_size) - block_size / 2.0 - p.imag() * scale_y};
     }
 };
 
 // Whether the inside of a triangle meets that of a square around (x, y).
-bool meets(const Flat& t, double x, double y, double half) {
+bool overlaps_square(const FlatTriangle& t, double x, double y, double half) {
     const double slack = 1e-9 * half;
     for (std::size_t i = 0; i < 3; ++i) {
         const ChartPoint a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
         // The side of ab away from c.
         const ChartPoint d = b - a;
-        const double sign = turn(a, b, c) > 0 ? 1 : -1;
+        const double sign = twice_signed_area(a, b, c) > 0 ? 1 : -1;
         const double centre = sign * (std::conj(d) * (ChartPoint(x, y) - a)).imag();
         const double reach = half * (std::abs(d.real()) + std::abs(d.imag()));
         if (!(centre + reach > slack * std::abs(d))) return false;
@@ -129,52 +131,56 @@ bool meets(const Flat& t, double x, double y, double half) {
     return true;
 }
 
-BlockMask mask_of(const Shape& shape, const Cut& cut, engine::Poll poll) {
-    const double grain = cut.grain;
-    BlockMask mask = cut.mask;
+BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
+                     engine::CancellationCheck check_cancelled) {
+    const double block_size = raster.block_size;
+    BlockMask mask = raster.mask;
     mask.blocks.assign(std::size_t{mask.columns} * mask.rows, 0);
     const auto clamped = [](double i, std::uint32_t n) {
         return static_cast<std::uint32_t>(std::clamp(i, 0.0, double(n - 1)));
     };
-    for (const Flat& t : shape.places) {
-        poll();
-        const Flat p = {cut.place(t[0]), cut.place(t[1]), cut.place(t[2])};
-        Extent extent;
-        for (const ChartPoint& corner : p) extent.add(corner);
-        const std::uint32_t x0 = clamped(std::floor(extent.low_x / grain - 0.5), mask.columns);
-        const std::uint32_t x1 = clamped(std::ceil(extent.high_x / grain - 0.5), mask.columns);
-        const std::uint32_t y0 = clamped(std::floor(extent.low_y / grain - 0.5), mask.rows);
-        const std::uint32_t y1 = clamped(std::ceil(extent.high_y / grain - 0.5), mask.rows);
+    for (const FlatTriangle& t : shape.points) {
+        check_cancelled();
+        const FlatTriangle p = {raster.texel_point(t[0]), raster.texel_point(t[1]), raster.texel_point(t[2])};
+        Bounds bounds;
+        for (const ChartPoint& corner : p) bounds.add(corner);
+        const std::uint32_t x0 = clamped(std::floor(bounds.low_x / block_size - 0.5), mask.columns);
+        const std::uint32_t x1 = clamped(std::ceil(bounds.high_x / block_size - 0.5), mask.columns);
+        const std::uint32_t y0 = clamped(std::floor(bounds.low_y / block_size - 0.5), mask.rows);
+        const std::uint32_t y1 = clamped(std::ceil(bounds.high_y / block_size - 0.5), mask.rows);
         for (std::uint32_t y = y0; y <= y1; ++y) {
             for (std::uint32_t x = x0; x <= x1; ++x) {
                 std::uint8_t& block = mask.blocks[std::size_t{y} * mask.columns + x];
-                if (!block) block = meets(p, (x + 0.5) * grain, (y + 0.5) * grain, grain);
+                if (!block)
+                    block = overlaps_square(p, (x + 0.5) * block_size, (y + 0.5) * block_size, block_size);
             }
         }
     }
     return mask;
 }
 
-Cut cut_at(const Shape& shape, double scale, std::uint32_t width, std::uint32_t height, engine::Poll poll) {
-    Cut cut{scale, scale, 1, true, {}};
-    if (!(std::max(shape.width, shape.height) * scale >= 0.75)) return cut;
-    cut.single = false;
+ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t width, std::uint32_t height,
+                      engine::CancellationCheck check_cancelled) {
+    ChartRaster raster{scale, scale, 1, true, {}};
+    if (!(std::max(shape.width, shape.height) * scale >= 0.75)) return raster;
+    raster.is_single_texel = false;
     const double size = std::sqrt(shape.area) * scale;
-    while (cut.grain < largest_grain && 16 * cut.grain < height && 2 * cut.grain <= grain_share * size)
-        cut.grain *= 2;
+    while (raster.block_size < max_block_size && 16 * raster.block_size < height &&
+           2 * raster.block_size <= max_block_size_ratio * size)
+        raster.block_size *= 2;
     const auto squeezed = [&](double length, std::uint32_t page) {
-        const double room = page - double(cut.grain);
+        const double room = page - double(raster.block_size);
         return length * scale > room ? room / length : scale;
     };
-    cut.scale_x = squeezed(shape.width, width);
-    cut.scale_y = squeezed(shape.height, height);
+    raster.scale_x = squeezed(shape.width, width);
+    raster.scale_y = squeezed(shape.height, height);
     const auto blocks = [&](double length) {
-        return 1 + static_cast<std::uint32_t>(std::ceil(length / cut.grain - 1e-9));
+        return 1 + static_cast<std::uint32_t>(std::ceil(length / raster.block_size - 1e-9));
     };
-    cut.mask.columns = blocks(shape.width * cut.scale_x);
-    cut.mask.rows = blocks(shape.height * cut.scale_y);
-    cut.mask = mask_of(shape, cut, poll);
-    return cut;
+    raster.mask.columns = blocks(shape.width * raster.scale_x);
+    raster.mask.rows = blocks(shape.height * raster.scale_y);
+    raster.mask = block_mask(shape, raster, check_cancelled);
+    return raster;
 }
 
 // Four to the octave.
@@ -182,92 +188,96 @@ std::uint32_t size_class(std::uint32_t blocks) {
     return static_cast<std::uint32_t>(std::lround(4 * std::log2(double(blocks))));
 }
 
-struct Placed {
-    BlockSheet::Spot spot = {0, 0};
-    std::uint32_t turns = 0;  // quarters
+struct ChartPlacement {
+    OccupancyGrid::BlockPosition position = {0, 0};
+    std::uint32_t quarter_turns = 0;  // quarters
 };
 
 // One attempt at a scale and a page.
-class Packing {
+class ChartPacking {
 public:
-    Packing(std::span<const Shape> shapes, double scale, std::uint32_t width, std::uint32_t height,
-            engine::Poll poll)
-        : width_(width), height_(height), poll_(poll) {
-        cuts_.reserve(shapes.size());
-        for (const Shape& shape : shapes) {
-            poll();
-            cuts_.push_back(cut_at(shape, scale, width, height, poll));
+    ChartPacking(std::span<const OrientedChart> shapes, double scale, std::uint32_t width,
+                 std::uint32_t height, engine::CancellationCheck check_cancelled)
+        : width_(width), height_(height), check_cancelled_(check_cancelled) {
+        rasters_.reserve(shapes.size());
+        for (const OrientedChart& shape : shapes) {
+            check_cancelled();
+            rasters_.push_back(rasterize(shape, scale, width, height, check_cancelled));
         }
     }
 
     bool run() {
         std::uint64_t texels = 0;
-        for (const Cut& cut : cuts_) {
-            const auto blocks = std::count_if(cut.mask.blocks.begin(), cut.mask.blocks.end(),
+        for (const ChartRaster& raster : rasters_) {
+            const auto blocks = std::count_if(raster.mask.blocks.begin(), raster.mask.blocks.end(),
                                               [](std::uint8_t b) { return b != 0; });
-            texels += static_cast<std::uint64_t>(blocks) * cut.grain * cut.grain;
+            texels += static_cast<std::uint64_t>(blocks) * raster.block_size * raster.block_size;
         }
         if (texels > std::uint64_t{width_} * height_) return false;
-        std::vector<std::size_t> order(cuts_.size());
+        std::vector<std::size_t> order(rasters_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             const auto key = [&](std::size_t i) {
-                const Cut& cut = cuts_[i];
-                return std::tuple(cut.grain, std::max(cut.mask.columns, cut.mask.rows),
-                                  std::min(cut.mask.columns, cut.mask.rows));
+                const ChartRaster& raster = rasters_[i];
+                return std::tuple(raster.block_size, std::max(raster.mask.columns, raster.mask.rows),
+                                  std::min(raster.mask.columns, raster.mask.rows));
             };
             return key(a) != key(b) ? key(a) > key(b) : a < b;
         });
-        std::uint32_t grain = std::min({largest_grain, width_, height_});
-        BlockSheet sheet(width_ / grain, height_ / grain);
-        placed_.assign(cuts_.size(), {});
+        std::uint32_t block_size = std::min({max_block_size, width_, height_});
+        OccupancyGrid grid(width_ / block_size, height_ / block_size);
+        placements_.assign(rasters_.size(), {});
         // Where the last one of that size went: before it there is no room for the next one but for holes.
         std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> first_row;
         for (std::size_t number = 0; number < order.size(); ++number) {
             const std::size_t i = order[number];
-            for (; grain > cuts_[i].grain; grain /= 2) sheet.refine();
-            std::optional<Placed> best;
-            std::uint32_t best_end = height_ / grain + 1;
-            BlockMask mask = cuts_[i].mask, best_mask;
+            for (; block_size > rasters_[i].block_size; block_size /= 2) grid.refine();
+            std::optional<ChartPlacement> best;
+            std::uint32_t best_end = height_ / block_size + 1;
+            BlockMask mask = rasters_[i].mask, best_mask;
             const std::size_t blocks = mask.blocks.size();
             // Few blocks look alike after half a turn, and where one did not fit another one won't.
-            const std::uint32_t turns = blocks > 16 ? 4 : blocks > 1 ? 2 : 1;
-            for (std::uint32_t t = 0; t < turns; ++t, mask = mask.turned()) {
+            const std::uint32_t quarter_turns = blocks > 16 ? 4 : blocks > 1 ? 2 : 1;
+            for (std::uint32_t t = 0; t < quarter_turns; ++t, mask = mask.rotated()) {
                 if (mask.rows >= best_end) continue;
                 std::uint32_t top = 0;
-                const bool well = number < searched_well;
+                const bool is_exhaustive = number < exhaustively_searched_charts;
                 std::uint32_t& from =
-                    well ? top : first_row[{grain, size_class(mask.columns), size_class(mask.rows)}];
-                const std::uint32_t step = well ? 1 : 1 + mask.rows / 8;
-                const auto spot = sheet.find(mask, from, best_end - mask.rows, step, poll_);
-                if (!spot) continue;
-                from = spot->y;
-                best = Placed{*spot, t};
-                best_end = spot->y + mask.rows;
+                    is_exhaustive ? top
+                                  : first_row[{block_size, size_class(mask.columns), size_class(mask.rows)}];
+                const std::uint32_t step = is_exhaustive ? 1 : 1 + mask.rows / 8;
+                const auto position =
+                    grid.find_free(mask, from, best_end - mask.rows, step, check_cancelled_);
+                if (!position) continue;
+                from = position->y;
+                best = ChartPlacement{*position, t};
+                best_end = position->y + mask.rows;
                 best_mask = mask;
             }
             if (!best) return false;
-            sheet.take(best_mask, best->spot);
-            placed_[i] = *best;
+            grid.occupy(best_mask, best->position);
+            placements_[i] = *best;
         }
         return true;
     }
 
-    const Cut& cut(std::size_t i) const { return cuts_[i]; }
-    const Placed& placed(std::size_t i) const { return placed_[i]; }
+    const ChartRaster& raster(std::size_t i) const { return rasters_[i]; }
+    const ChartPlacement& placement(std::size_t i) const { return placements_[i]; }
 
 private:
     std::uint32_t width_, height_;
-    engine::Poll poll_;
-    std::vector<Cut> cuts_;
-    std::vector<Placed> placed_;
+    engine::CancellationCheck check_cancelled_;
+    std::vector<ChartRaster> rasters_;
+    std::vector<ChartPlacement> placements_;
 };
 
 // On the page, after the chart's turns. All of them keep the sense of rotation.
-ChartPoint page_point(const Cut& cut, const Placed& placed, const ChartPoint& p) {
-    const double width = double(cut.mask.columns) * cut.grain, height = double(cut.mask.rows) * cut.grain;
-    const ChartPoint corner = {double(placed.spot.x) * cut.grain, double(placed.spot.y) * cut.grain};
-    switch (placed.turns) {
+ChartPoint page_point(const ChartRaster& raster, const ChartPlacement& placement, const ChartPoint& p) {
+    const double width = double(raster.mask.columns) * raster.block_size,
+                 height = double(raster.mask.rows) * raster.block_size;
+    const ChartPoint corner = {double(placement.position.x) * raster.block_size,
+                               double(placement.position.y) * raster.block_size};
+    switch (placement.quarter_turns) {
         case 1:
             return corner + ChartPoint(height - p.imag(), p.real());
         case 2:
@@ -279,27 +289,30 @@ ChartPoint page_point(const Cut& cut, const Placed& placed, const ChartPoint& p)
     }
 }
 
-ChartPage page_of(std::span<const Chart> charts, std::span<const Shape> shapes, const Packing& packing,
-                  std::size_t faces, std::uint32_t width, std::uint32_t height, double scale) {
-    ChartPage page{{width, height, std::vector<AtlasPlace>(faces), {}, scale}, {}};
+ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart> shapes,
+                    const ChartPacking& packing, std::size_t faces, std::uint32_t width, std::uint32_t height,
+                    double scale) {
+    ChartPage page{{width, height, std::vector<TrianglePlacement>(faces), {}, scale}, {}};
     for (std::size_t i = 0; i < charts.size(); ++i) {
-        const Cut& cut = packing.cut(i);
-        const Placed& placed = packing.placed(i);
-        BlockMask mask = cut.mask;
-        for (std::uint32_t t = 0; t < placed.turns; ++t) mask = mask.turned();
-        AtlasChart chart{placed.spot.x * cut.grain,
-                         placed.spot.y * cut.grain,
-                         cut.grain,
+        const ChartRaster& raster = packing.raster(i);
+        const ChartPlacement& placement = packing.placement(i);
+        BlockMask mask = raster.mask;
+        for (std::uint32_t t = 0; t < placement.quarter_turns; ++t) mask = mask.rotated();
+        AtlasChart chart{placement.position.x * raster.block_size,
+                         placement.position.y * raster.block_size,
+                         raster.block_size,
                          mask.columns,
                          mask.rows,
                          mask.blocks,
                          charts[i].faces,
-                         cut.single};
+                         raster.is_single_texel};
         for (std::size_t k = 0; k < charts[i].faces.size(); ++k) {
-            auto& uv = page.atlas.places[charts[i].faces[k]].uv;
+            auto& uv = page.atlas.placements[charts[i].faces[k]].uv;
             for (std::size_t c = 0; c < 3; ++c) {
-                const ChartPoint p = cut.single ? ChartPoint(chart.x + 0.5, chart.y + 0.5)
-                                                : page_point(cut, placed, cut.place(shapes[i].places[k][c]));
+                const ChartPoint p =
+                    raster.is_single_texel
+                        ? ChartPoint(chart.x + 0.5, chart.y + 0.5)
+                        : page_point(raster, placement, raster.texel_point(shapes[i].points[k][c]));
                 uv[c] = {p.real(), p.imag()};
             }
         }
@@ -310,13 +323,13 @@ ChartPage page_of(std::span<const Chart> charts, std::span<const Shape> shapes, 
 
 }  // namespace
 
-std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t side,
-                                     engine::Poll poll) {
-    std::vector<Shape> shapes;
+std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
+                                     engine::CancellationCheck check_cancelled) {
+    std::vector<OrientedChart> shapes;
     double area = 0;
     for (const Chart& chart : charts) {
-        poll(chart.places.size());
-        shapes.push_back(shape_of(chart, poll));
+        check_cancelled(chart.points.size());
+        shapes.push_back(orient(chart, check_cancelled));
         area += shapes.back().area;
     }
     std::uint32_t width = 4, height = 4;
@@ -324,10 +337,11 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     for (; !fits; width *= 2) {
         for (const std::uint32_t h : {width / 2, width}) {
             height = h;
-            fits = area <= double(width) * height && Packing(shapes, 1, width, height, poll).run();
+            fits = area <= double(width) * height &&
+                   ChartPacking(shapes, 1, width, height, check_cancelled).run();
             if (fits) break;
         }
-        if (fits || width == side) break;
+        if (fits || width == max_size) break;
     }
     if (charts.size() > std::size_t{width} * height) return std::nullopt;
     double low = fits ? 1 : 0, high = fits ? std::sqrt(2.0) : 1;
@@ -335,13 +349,13 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     double next = std::sqrt(0.55 * double(width) * height / area);
     while (high - low > 0.01 * high && high > 1e-6) {
         if (!(next > low && next < high)) next = (low + high) / 2;
-        const bool good = Packing(shapes, next, width, height, poll).run();
+        const bool good = ChartPacking(shapes, next, width, height, check_cancelled).run();
         (good ? low : high) = next;
         next *= good ? 1.07 : 1 / 1.07;
     }
-    Packing packing(shapes, low, width, height, poll);
+    ChartPacking packing(shapes, low, width, height, check_cancelled);
     if (!packing.run()) return std::nullopt;
-    return page_of(charts, shapes, packing, faces, width, height, low);
+    return make_page(charts, shapes, packing, faces, width, height, low);
 }
 
 }  // namespace faqem::detail

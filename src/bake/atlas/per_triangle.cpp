@@ -8,101 +8,102 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint32_t largest_grain = 16;
+constexpr std::uint32_t max_block_size = 16;
 
 // Size class of a cell at some scale. Legs lie along the sides of the cell, the longer one along its width.
-struct Shape {
+struct CellShape {
     std::uint32_t width = 1, height = 1;
-    std::uint32_t grain = 1;   // the cell's place and sides are multiples of it, a power of two
-    std::uint32_t margin = 0;  // texels of each side beyond the leg
-    bool turned = false;       // the second leg is the longer one
-    bool single = true;        // all of the triangle is one texel
+    std::uint32_t block_size = 1;  // the cell's place and sides are multiples of it, a power of two
+    std::uint32_t margin = 0;      // texels of each side beyond the leg
+    bool is_transposed = false;    // the second leg is the longer one
+    bool is_single_texel = true;   // all of the triangle is one texel
 
     // All that makes cells look the same.
-    auto key() const { return std::tuple(grain, height, width, margin, turned, single); }
-    auto size() const { return std::tuple(grain, height, width); }
+    auto key() const { return std::tuple(block_size, height, width, margin, is_transposed, is_single_texel); }
+    auto size() const { return std::tuple(block_size, height, width); }
 };
 
 // Mip level k is clean in cells on a grid of 2^k texels if the legs run from centre to centre of its texels:
 // those lie in one cell, half of the outermost ones outside of the legs.
-// A leg is at least a grain long: measured, clean levels are worth more than the texels they cost.
-std::uint32_t grain_of(double shorter_leg) {
-    std::uint32_t grain = 1;
-    while (grain < largest_grain && 2 * grain <= shorter_leg) grain *= 2;
-    return grain;
+// A leg is at least a block_size long: measured, clean levels are worth more than the texels they cost.
+std::uint32_t block_size_for(double shorter_leg) {
+    std::uint32_t block_size = 1;
+    while (block_size < max_block_size && 2 * block_size <= shorter_leg) block_size *= 2;
+    return block_size;
 }
 
 // Between the hypotenuses of strangers, one shifted by (m, m) against the other, m texels: 2 for bilinear
 // reads of the page itself, more to keep coarser levels cleaner.
-std::uint32_t margin_of(std::uint32_t grain, bool joined) {
-    return grain + (joined ? 0 : std::max(2u, grain));
+std::uint32_t margin_of(std::uint32_t block_size, bool has_shared_hypotenuse) {
+    return block_size + (has_shared_hypotenuse ? 0 : std::max(2u, block_size));
 }
 
 // To four classes to the octave and whole grains.
-std::uint32_t size_class(double x, std::uint32_t grain) {
+std::uint32_t cell_size_class(double x, std::uint32_t block_size) {
     const double octave = std::exp2(std::floor(std::log2(std::max(1.0, x))) - 2);
-    const double step = std::max(octave, double(grain));
+    const double step = std::max(octave, double(block_size));
     return static_cast<std::uint32_t>(std::lround(x / step) * step);
 }
 
-std::uint32_t side_of(double leg, std::uint32_t grain, std::uint32_t margin) {
-    std::uint32_t side = size_class(leg + margin, grain);
-    while (side <= margin) side += grain;
+std::uint32_t cell_side(double leg, std::uint32_t block_size, std::uint32_t margin) {
+    std::uint32_t side = cell_size_class(leg + margin, block_size);
+    while (side <= margin) side += block_size;
     return side;
 }
 
-Shape shape_of(const std::array<double, 2>& legs, double scale, bool joined) {
+CellShape cell_shape(const std::array<double, 2>& legs, double scale, bool has_shared_hypotenuse) {
     const double a = legs[0] * scale, b = legs[1] * scale;
-    Shape shape;
+    CellShape shape;
     if (!(std::max(a, b) >= 0.75)) return shape;
-    shape.single = false;
-    shape.turned = a < b;
-    shape.grain = grain_of(std::min(a, b));
-    shape.margin = margin_of(shape.grain, joined);
-    shape.width = side_of(std::max(a, b), shape.grain, shape.margin);
-    shape.height = side_of(std::min(a, b), shape.grain, shape.margin);
+    shape.is_single_texel = false;
+    shape.is_transposed = a < b;
+    shape.block_size = block_size_for(std::min(a, b));
+    shape.margin = margin_of(shape.block_size, has_shared_hypotenuse);
+    shape.width = cell_side(std::max(a, b), shape.block_size, shape.margin);
+    shape.height = cell_side(std::min(a, b), shape.block_size, shape.margin);
     return shape;
 }
 
 // One or two triangles that fill a cell.
 struct Unit {
-    Shape shape;
+    CellShape shape;
     Index first = no_index, second = no_index;
     std::uint64_t order = 0;
-    bool joined = false;
+    bool has_shared_hypotenuse = false;
 };
 
 double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
 
 // Places the corners of a triangle in its cell: the first, or the second, which is turned by 180 degrees.
 // On the page triangles turn clockwise in (u, v down), as unmirrored glTF textures do.
-AtlasPlace place_in(const AtlasCell& cell, const Shape& shape, const AtlasTriangle& triangle, bool second) {
-    AtlasPlace place;
-    if (shape.single) {
-        for (auto& uv : place.uv) uv = {cell.x + 0.5, cell.y + 0.5};
-        return place;
+TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, const AtlasTriangle& triangle,
+                                 bool second) {
+    TrianglePlacement placement;
+    if (shape.is_single_texel) {
+        for (auto& uv : placement.uv) uv = {cell.x + 0.5, cell.y + 0.5};
+        return placement;
     }
     const std::uint32_t along = shape.width - shape.margin, up = shape.height - shape.margin;
-    const double inset = shape.grain / 2.0;
+    const double inset = shape.block_size / 2.0;
     std::array<std::array<double, 2>, 3> local;  // right corner, end of the first leg, end of the second
-    if (shape.turned) {
+    if (shape.is_transposed) {
         local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
-        place.legs = {up, along};
+        placement.legs = {up, along};
     } else {
         const double base = shape.height - inset;
         local = {{{inset, base}, {inset + along, base}, {inset, base - up}}};
-        place.legs = {along, up};
+        placement.legs = {along, up};
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const double x = second ? shape.width - local[i][0] : local[i][0];
         const double y = second ? shape.height - local[i][1] : local[i][1];
-        place.uv[(triangle.right + i) % 3] = {cell.x + x, cell.y + y};
+        placement.uv[(triangle.right_angle_corner + i) % 3] = {cell.x + x, cell.y + y};
     }
-    return place;
+    return placement;
 }
 
 // Place number along a Hilbert curve over a square of 2^16 by 2^16.
-std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
+std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
     std::uint64_t result = 0;
     for (std::uint32_t s = 1u << 15; s > 0; s /= 2) {
         const bool right = x & s, low = y & s;
@@ -119,43 +120,44 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
 }
 
 // One attempt at a scale and a page.
-class Packing {
+class ShelfPacking {
 public:
-    Packing(std::span<const AtlasTriangle> triangles, double scale, engine::Poll poll)
-        : triangles_(triangles), scale_(scale), poll_(poll) {
-        std::vector<Unit> strangers;
+    ShelfPacking(std::span<const AtlasTriangle> triangles, double scale,
+                 engine::CancellationCheck check_cancelled)
+        : triangles_(triangles), scale_(scale), check_cancelled_(check_cancelled) {
+        std::vector<Unit> unpaired;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-            poll();
+            check_cancelled();
             const auto t = static_cast<Index>(i);
             const AtlasTriangle& a = triangles[i];
             if (a.partner != no_index) {
                 const AtlasTriangle& b = triangles[a.partner];
                 const std::array<double, 2> legs = {root_mean_square(a.legs[0], b.legs[0]),
                                                     root_mean_square(a.legs[1], b.legs[1])};
-                const Shape shape = shape_of(legs, scale, true);
-                if (!shape.single) {
+                const CellShape shape = cell_shape(legs, scale, true);
+                if (!shape.is_single_texel) {
                     if (t < a.partner) units_.push_back({shape, t, a.partner, a.order, true});
                     continue;
                 }
                 units_.push_back({shape, t, no_index, a.order, false});
                 continue;
             }
-            strangers.push_back({shape_of(a.legs, scale, false), t, no_index, a.order, false});
+            unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});
         }
-        std::sort(strangers.begin(), strangers.end(), [poll](const Unit& a, const Unit& b) {
-            poll();
+        std::sort(unpaired.begin(), unpaired.end(), [check_cancelled](const Unit& a, const Unit& b) {
+            check_cancelled();
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
-        for (std::size_t i = 0; i < strangers.size(); ++i) {
-            poll();
-            Unit unit = strangers[i];
-            const bool two = !unit.shape.single && i + 1 < strangers.size() &&
-                             unit.shape.key() == strangers[i + 1].shape.key();
-            if (two) unit.second = strangers[++i].first;
+        for (std::size_t i = 0; i < unpaired.size(); ++i) {
+            check_cancelled();
+            Unit unit = unpaired[i];
+            const bool two = !unit.shape.is_single_texel && i + 1 < unpaired.size() &&
+                             unit.shape.key() == unpaired[i + 1].shape.key();
+            if (two) unit.second = unpaired[++i].first;
             units_.push_back(unit);
         }
-        std::sort(units_.begin(), units_.end(), [poll](const Unit& a, const Unit& b) {
-            poll();
+        std::sort(units_.begin(), units_.end(), [check_cancelled](const Unit& a, const Unit& b) {
+            check_cancelled();
             if (a.shape.size() != b.shape.size()) return a.shape.size() > b.shape.size();
             return std::tuple(a.order, a.first) < std::tuple(b.order, b.first);
         });
@@ -164,11 +166,11 @@ public:
     // Calls place(number of the unit, x, y) for all units, shelf by shelf, the highest first; false if they
     // do not fit. Grains come from coarse to fine, so every unit lies on its own.
     template <class Place>
-    bool shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
+    bool place_on_shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
         std::uint64_t x = 0, y = 0, shelf = 0;
         for (std::size_t i = 0; i < units_.size(); ++i) {
-            poll_();
-            const Shape& shape = units_[i].shape;
+            check_cancelled_();
+            const CellShape& shape = units_[i].shape;
             if (shape.width > width) return false;
             if (shape.height > shelf || x + shape.width > width) {
                 y += shelf;
@@ -183,32 +185,33 @@ public:
     }
 
     bool fits(std::uint32_t width, std::uint32_t height) const {
-        return shelves(width, height, [](std::size_t, std::uint32_t, std::uint32_t) {});
+        return place_on_shelves(width, height, [](std::size_t, std::uint32_t, std::uint32_t) {});
     }
 
     Atlas atlas(std::uint32_t width, std::uint32_t height) const {
-        Atlas result{width, height, std::vector<AtlasPlace>(triangles_.size()), {}, scale_};
-        std::vector<Spot> spots;
-        spots.reserve(units_.size());
-        shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
-            const Shape& shape = units_[i].shape;
-            spots.push_back({hilbert(x / shape.width, y / shape.height), x, y});
+        Atlas result{width, height, std::vector<TrianglePlacement>(triangles_.size()), {}, scale_};
+        std::vector<CurvePoint> curve_points;
+        curve_points.reserve(units_.size());
+        place_on_shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
+            const CellShape& shape = units_[i].shape;
+            curve_points.push_back({hilbert_index(x / shape.width, y / shape.height), x, y});
         });
         for (std::size_t begin = 0, end; begin < units_.size(); begin = end) {
             for (end = begin; end < units_.size() && units_[end].shape.size() == units_[begin].shape.size();)
                 ++end;
-            std::sort(spots.begin() + std::ptrdiff_t(begin), spots.begin() + std::ptrdiff_t(end),
-                      engine::polled_less(poll_));
+            std::sort(curve_points.begin() + std::ptrdiff_t(begin),
+                      curve_points.begin() + std::ptrdiff_t(end), engine::cancellable_less(check_cancelled_));
         }
         for (std::size_t i = 0; i < units_.size(); ++i) {
-            poll_();
+            check_cancelled_();
             const Unit& unit = units_[i];
-            const AtlasCell cell{spots[i].x, spots[i].y,  unit.shape.width, unit.shape.height,
-                                 unit.first, unit.second, unit.joined};
+            const AtlasCell cell{curve_points[i].x,         curve_points[i].y, unit.shape.width,
+                                 unit.shape.height,         unit.first,        unit.second,
+                                 unit.has_shared_hypotenuse};
             result.cells.push_back(cell);
             for (Index t : {cell.first, cell.second}) {
                 if (t == no_index) continue;
-                result.places[t] = place_in(cell, unit.shape, triangles_[t], t == cell.second);
+                result.placements[t] = place_triangle(cell, unit.shape, triangles_[t], t == cell.second);
             }
         }
         return result;
@@ -216,25 +219,25 @@ public:
 
 private:
     // A place for a unit of some size, in the order of a space-filling curve.
-    struct Spot {
+    struct CurvePoint {
         std::uint64_t curve;
         std::uint32_t x, y;
-        auto operator<=>(const Spot&) const = default;  // NOLINT(modernize-use-nullptr)
+        auto operator<=>(const CurvePoint&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
     std::span<const AtlasTriangle> triangles_;
     double scale_;
-    engine::Poll poll_;
+    engine::CancellationCheck check_cancelled_;
     std::vector<Unit> units_;
 };
 
 // The largest scale in [low, high] that fits, to a thousandth; low must fit.
 double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t width, std::uint32_t height,
-                     double low, double high, engine::Poll poll) {
-    if (Packing(triangles, high, poll).fits(width, height)) return high;
+                     double low, double high, engine::CancellationCheck check_cancelled) {
+    if (ShelfPacking(triangles, high, check_cancelled).fits(width, height)) return high;
     for (int i = 0; i < 40 && high - low > 1e-3 * high; ++i) {
         const double middle = (low + high) / 2;
-        (Packing(triangles, middle, poll).fits(width, height) ? low : high) = middle;
+        (ShelfPacking(triangles, middle, check_cancelled).fits(width, height) ? low : high) = middle;
     }
     return low;
 }
@@ -243,22 +246,24 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t side,
-                                    engine::Poll poll) {
-    const Packing wanted(triangles, 1, poll);
-    for (std::uint32_t width = 4; width <= side; width *= 2) {
+std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
+                                    engine::CancellationCheck check_cancelled) {
+    const ShelfPacking wanted(triangles, 1, check_cancelled);
+    for (std::uint32_t width = 4; width <= max_size; width *= 2) {
         for (std::uint32_t height : {width / 2, width}) {
             if (!wanted.fits(width, height)) continue;
-            const double scale = largest_scale(triangles, width, height, 1, std::sqrt(2.0), poll);
-            return Packing(triangles, scale, poll).atlas(width, height);
+            const double scale = largest_scale(triangles, width, height, 1, std::sqrt(2.0), check_cancelled);
+            return ShelfPacking(triangles, scale, check_cancelled).atlas(width, height);
         }
     }
-    if (!Packing(triangles, 0, poll).fits(side, side)) return std::nullopt;
-    return Packing(triangles, largest_scale(triangles, side, side, 0, 1, poll), poll).atlas(side, side);
+    if (!ShelfPacking(triangles, 0, check_cancelled).fits(max_size, max_size)) return std::nullopt;
+    return ShelfPacking(triangles, largest_scale(triangles, max_size, max_size, 0, 1, check_cancelled),
+                        check_cancelled)
+        .atlas(max_size, max_size);
 }
 
-AtlasFrame::AtlasFrame(const AtlasPlace& place) : place_(place) {
-    const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+BarycentricFrame::BarycentricFrame(const TrianglePlacement& placement) : placement_(placement) {
+    const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
     const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - a[0], y2 = c[1] - a[1];
     const double twice = x1 * y2 - x2 * y1;
     if (twice == 0) return;
@@ -266,20 +271,20 @@ AtlasFrame::AtlasFrame(const AtlasPlace& place) : place_(place) {
     gradient_[1] = {-y1 / twice, x1 / twice, (y1 * a[0] - x1 * a[1]) / twice};
 }
 
-Vec3 AtlasFrame::at(double x, double y) const {
+Vec3 BarycentricFrame::at(double x, double y) const {
     const double v = gradient_[0][0] * x + gradient_[0][1] * y + gradient_[0][2];
     const double w = gradient_[1][0] * x + gradient_[1][1] * y + gradient_[1][2];
     return {1 - v - w, v, w};
 }
 
-Vec3 AtlasFrame::closest(double x, double y) const {
+Vec3 BarycentricFrame::closest(double x, double y) const {
     const Vec3 inside = at(x, y);
     if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0) return inside;
     Vec3 best = {1, 0, 0};
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        const auto &a = place_.uv[i], &b = place_.uv[j];
+        const auto &a = placement_.uv[i], &b = placement_.uv[j];
         const double dx = b[0] - a[0], dy = b[1] - a[1], length = dx * dx + dy * dy;
         const double t = length > 0 ? std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length, 0.0, 1.0) : 0;
         const double d = squared(a[0] + t * dx - x) + squared(a[1] + t * dy - y);

@@ -16,22 +16,22 @@ namespace {
 using engine::to_eigen;
 using engine::Vector3;
 
-constexpr double most_spread = 0.12;
-constexpr double most_density_ratio = 2;
-constexpr double outline_weight = 0.02;
+constexpr double max_normal_spread = 0.12;
+constexpr double max_density_ratio = 2;
+constexpr double perimeter_weight = 0.02;
 
-struct Shared {
+struct SharedBoundary {
     Index region;
     double length;  // of edges that are no creases
 };
 
 struct Region {
-    double area = 0, outline = 0;
+    double area = 0, perimeter = 0;
     Vector3 normal = Vector3::Zero();  // sum of areas times normals
-    double least_density = 0, most_density = 0;
-    std::vector<Shared> neighbours;  // ascending
+    double min_density = 0, max_density = 0;
+    std::vector<SharedBoundary> neighbours;  // ascending
     std::uint32_t version = 0;
-    bool gone = false;
+    bool is_merged = false;
 
     double spread() const { return 2 * (area - normal.norm()); }
 };
@@ -46,26 +46,26 @@ struct Merge {
     }
 };
 
-class Growth {
+class RegionClustering {
 public:
-    Growth(std::span<const ChartFace> faces, engine::Poll poll)
-        : regions_(faces.size()), parent_(faces.size()), poll_(poll) {
+    RegionClustering(std::span<const ChartFace> faces, engine::CancellationCheck check_cancelled)
+        : regions_(faces.size()), parent_(faces.size()), check_cancelled_(check_cancelled) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
-        for (std::size_t f = 0; f < faces.size(); ++f) start(faces, static_cast<Index>(f));
+        for (std::size_t f = 0; f < faces.size(); ++f) init_region(faces, static_cast<Index>(f));
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            for (const Shared& s : regions_[f].neighbours) {
-                if (s.region > f) offer(static_cast<Index>(f), s.region);
+            for (const SharedBoundary& s : regions_[f].neighbours) {
+                if (s.region > f) enqueue_merge(static_cast<Index>(f), s.region);
             }
         }
     }
 
     void run() {
         while (!queue_.empty()) {
-            poll_();
+            check_cancelled_();
             const Merge m = queue_.top();
             queue_.pop();
             const Region &a = regions_[m.a], &b = regions_[m.b];
-            if (a.gone || b.gone || a.version != m.version_a || b.version != m.version_b) continue;
+            if (a.is_merged || b.is_merged || a.version != m.version_a || b.version != m.version_b) continue;
             merge(m.a, m.b);
         }
     }
@@ -85,30 +85,30 @@ public:
     }
 
 private:
-    void start(std::span<const ChartFace> faces, Index f) {
-        poll_();
+    void init_region(std::span<const ChartFace> faces, Index f) {
+        check_cancelled_();
         const ChartFace& face = faces[f];
         std::array<Vector3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
         Region& region = regions_[f];
         region.normal = engine::area_vector(p[0], p[1], p[2]) / 2;
         region.area = region.normal.norm();
-        region.least_density = region.most_density = face.density;
+        region.min_density = region.max_density = face.density;
         for (std::size_t c = 0; c < 3; ++c) {
             const double length = (p[(c + 2) % 3] - p[(c + 1) % 3]).norm();
-            region.outline += length;
-            const Index other = face.across[c].triangle;
+            region.perimeter += length;
+            const Index other = face.adjacent[c].triangle;
             if (other != no_index) region.neighbours.push_back({other, face.crease[c] ? 0 : length});
         }
-        tidy(region.neighbours);
+        sort_and_combine(region.neighbours);
     }
 
-    static void tidy(std::vector<Shared>& neighbours) {
-        std::sort(neighbours.begin(), neighbours.end(), [](const Shared& a, const Shared& b) {
+    static void sort_and_combine(std::vector<SharedBoundary>& neighbours) {
+        std::sort(neighbours.begin(), neighbours.end(), [](const SharedBoundary& a, const SharedBoundary& b) {
             return std::tuple(a.region, a.length) < std::tuple(b.region, b.length);
         });
         std::size_t kept = 0;
-        for (const Shared& s : neighbours) {
+        for (const SharedBoundary& s : neighbours) {
             if (kept > 0 && neighbours[kept - 1].region == s.region) {
                 neighbours[kept - 1].length += s.length;
             } else {
@@ -120,24 +120,24 @@ private:
 
     static double shared_length(const Region& region, Index other) {
         const auto found = std::lower_bound(region.neighbours.begin(), region.neighbours.end(), other,
-                                            [](const Shared& s, Index r) { return s.region < r; });
+                                            [](const SharedBoundary& s, Index r) { return s.region < r; });
         return found->length;
     }
 
-    void offer(Index i, Index j) {
-        poll_();
+    void enqueue_merge(Index i, Index j) {
+        check_cancelled_();
         if (i > j) std::swap(i, j);
         const Region &a = regions_[i], &b = regions_[j];
         const double shared = shared_length(a, j);
         if (!(shared > 0)) return;
         const double area = a.area + b.area;
         const Vector3 normal = a.normal + b.normal;
-        if (!(normal.norm() >= (1 - most_spread) * area)) return;
-        const double low = std::min(a.least_density, b.least_density);
-        if (!(std::max(a.most_density, b.most_density) <= most_density_ratio * low)) return;
-        const double outline = a.outline + b.outline - 2 * shared;
+        if (!(normal.norm() >= (1 - max_normal_spread) * area)) return;
+        const double low = std::min(a.min_density, b.min_density);
+        if (!(std::max(a.max_density, b.max_density) <= max_density_ratio * low)) return;
+        const double perimeter = a.perimeter + b.perimeter - 2 * shared;
         const double cost = 2 * (area - normal.norm()) - a.spread() - b.spread() +
-                            outline_weight * outline * outline / (4 * std::numbers::pi);
+                            perimeter_weight * perimeter * perimeter / (4 * std::numbers::pi);
         if (std::isfinite(cost)) queue_.push({cost, i, j, a.version, b.version});
     }
 
@@ -145,31 +145,31 @@ private:
         // The one with more neighbours stays, so that few lists are rewritten.
         if (regions_[i].neighbours.size() < regions_[j].neighbours.size()) std::swap(i, j);
         Region &a = regions_[i], &b = regions_[j];
-        a.outline += b.outline - 2 * shared_length(a, j);
+        a.perimeter += b.perimeter - 2 * shared_length(a, j);
         a.area += b.area;
         a.normal += b.normal;
-        a.least_density = std::min(a.least_density, b.least_density);
-        a.most_density = std::max(a.most_density, b.most_density);
+        a.min_density = std::min(a.min_density, b.min_density);
+        a.max_density = std::max(a.max_density, b.max_density);
         ++a.version;
-        b.gone = true;
+        b.is_merged = true;
         parent_[j] = i;
-        for (const Shared& s : b.neighbours) {
+        for (const SharedBoundary& s : b.neighbours) {
             if (s.region == i) continue;
-            rename(regions_[s.region].neighbours, j, i);
+            replace_neighbour(regions_[s.region].neighbours, j, i);
             a.neighbours.push_back(s);
         }
-        std::erase_if(a.neighbours, [&](const Shared& s) { return s.region == j; });
-        tidy(a.neighbours);
-        std::vector<Shared>().swap(b.neighbours);
-        for (const Shared& s : a.neighbours) offer(i, s.region);
+        std::erase_if(a.neighbours, [&](const SharedBoundary& s) { return s.region == j; });
+        sort_and_combine(a.neighbours);
+        std::vector<SharedBoundary>().swap(b.neighbours);
+        for (const SharedBoundary& s : a.neighbours) enqueue_merge(i, s.region);
     }
 
-    void rename(std::vector<Shared>& neighbours, Index from, Index to) const {
-        poll_(1 + neighbours.size() / 16);
-        for (Shared& s : neighbours) {
+    void replace_neighbour(std::vector<SharedBoundary>& neighbours, Index from, Index to) const {
+        check_cancelled_(1 + neighbours.size() / 16);
+        for (SharedBoundary& s : neighbours) {
             if (s.region == from) s.region = to;
         }
-        tidy(neighbours);
+        sort_and_combine(neighbours);
     }
 
     Index root(Index f) {
@@ -180,17 +180,17 @@ private:
     std::vector<Region> regions_;
     std::vector<Index> parent_;
     std::priority_queue<Merge> queue_;
-    engine::Poll poll_;
+    engine::CancellationCheck check_cancelled_;
 };
 
 // Positions of the neighbours of faces[i] in `faces`.
 template <class Visit>
-void each_neighbour(std::span<const ChartFace> all, std::span<const Index> faces, std::size_t i,
-                    Visit&& visit) {
-    for (const Across& across : all[faces[i]].across) {
-        if (across.triangle == no_index) continue;
-        const auto found = std::lower_bound(faces.begin(), faces.end(), across.triangle);
-        if (found != faces.end() && *found == across.triangle)
+void for_each_neighbour(std::span<const ChartFace> all, std::span<const Index> faces, std::size_t i,
+                        Visit&& visit) {
+    for (const AdjacentTriangle& adjacent : all[faces[i]].adjacent) {
+        if (adjacent.triangle == no_index) continue;
+        const auto found = std::lower_bound(faces.begin(), faces.end(), adjacent.triangle);
+        if (found != faces.end() && *found == adjacent.triangle)
             visit(static_cast<std::size_t>(found - faces.begin()));
     }
 }
@@ -202,7 +202,7 @@ std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span
     std::vector<bool> seen(faces.size(), false);
     seen[start] = true;
     for (std::size_t k = 0; k < order.size(); ++k) {
-        each_neighbour(all, faces, order[k], [&](std::size_t j) {
+        for_each_neighbour(all, faces, order[k], [&](std::size_t j) {
             if (seen[j]) return;
             seen[j] = true;
             order.push_back(j);
@@ -213,14 +213,15 @@ std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span
 
 }  // namespace
 
-std::vector<std::vector<Index>> grow_regions(std::span<const ChartFace> faces, engine::Poll poll) {
-    Growth growth(faces, poll);
-    growth.run();
-    return growth.regions();
+std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
+                                              engine::CancellationCheck check_cancelled) {
+    RegionClustering clustering(faces, check_cancelled);
+    clustering.run();
+    return clustering.regions();
 }
 
-std::vector<std::vector<Index>> connected_groups(std::span<const ChartFace> all,
-                                                 std::span<const Index> faces) {
+std::vector<std::vector<Index>> connected_subsets(std::span<const ChartFace> all,
+                                                  std::span<const Index> faces) {
     std::vector<std::vector<Index>> result;
     std::vector<bool> seen(faces.size(), false);
     std::vector<std::size_t> order;
@@ -229,7 +230,7 @@ std::vector<std::vector<Index>> connected_groups(std::span<const ChartFace> all,
         seen[i] = true;
         order.assign(1, i);
         for (std::size_t k = 0; k < order.size(); ++k) {
-            each_neighbour(all, faces, order[k], [&](std::size_t j) {
+            for_each_neighbour(all, faces, order[k], [&](std::size_t j) {
                 if (seen[j]) return;
                 seen[j] = true;
                 order.push_back(j);
@@ -242,7 +243,7 @@ std::vector<std::vector<Index>> connected_groups(std::span<const ChartFace> all,
     return result;
 }
 
-std::array<std::vector<Index>, 2> split_in_two(std::span<const ChartFace> all, std::span<const Index> faces) {
+std::array<std::vector<Index>, 2> bisect(std::span<const ChartFace> all, std::span<const Index> faces) {
     const std::size_t one = breadth_first(all, faces, 0).back();
     const std::size_t other = breadth_first(all, faces, one).back();
     std::vector<std::uint8_t> side(faces.size(), 2);
@@ -254,7 +255,7 @@ std::array<std::vector<Index>, 2> split_in_two(std::span<const ChartFace> all, s
         // The one with fewer faces grows, as long as it can.
         std::size_t s = order[1].size() < order[0].size() ? 1 : 0;
         if (next[s] == order[s].size()) s = 1 - s;
-        each_neighbour(all, faces, order[s][next[s]++], [&](std::size_t j) {
+        for_each_neighbour(all, faces, order[s][next[s]++], [&](std::size_t j) {
             if (side[j] != 2) return;
             side[j] = static_cast<std::uint8_t>(s);
             order[s].push_back(j);

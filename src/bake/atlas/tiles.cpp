@@ -6,11 +6,11 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint32_t most_texels = 64;
+constexpr std::uint32_t max_tile_size = 64;
 
 using Corner = std::array<double, 2>;
 
-double turn_at(const Corner& a, const Corner& b, double x, double y) {
+double edge_function(const Corner& a, const Corner& b, double x, double y) {
     return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
 }
 
@@ -27,9 +27,9 @@ struct Range {
     std::uint32_t x0, x1, y0, y1;  // half open
 };
 
-class Owners {
+class SampleOwners {
 public:
-    Owners(const Atlas& atlas, const AtlasChart& chart, const ChartTile& tile, std::uint32_t samples)
+    SampleOwners(const Atlas& atlas, const AtlasChart& chart, const ChartTile& tile, std::uint32_t samples)
         : atlas_(atlas),
           tile_(tile),
           samples_(samples),
@@ -44,47 +44,47 @@ public:
         owner_.assign(std::size_t{columns_} * rows_, no_index);
     }
 
-    void inside(Index triangle) {
-        const auto& uv = atlas_.places[triangle].uv;
-        each_sample(range_of(uv, 0), [&](std::size_t at, double x, double y) {
+    void assign_covered(Index triangle) {
+        const auto& uv = atlas_.placements[triangle].uv;
+        for_each_sample(range_of(uv, 0), [&](std::size_t at, double x, double y) {
             if (owner_[at] != no_index) return;
             for (std::size_t c = 0; c < 3; ++c) {
-                if (turn_at(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // v points down
+                if (edge_function(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // v points down
             }
             owner_[at] = triangle;
         });
     }
 
-    void close_by(Index triangle, std::size_t c, double reach) {
-        if (distance_.empty()) begin_distances();
-        const auto& uv = atlas_.places[triangle].uv;
+    void assign_nearest(Index triangle, std::size_t c, double reach) {
+        if (squared_distance_.empty()) begin_distances();
+        const auto& uv = atlas_.placements[triangle].uv;
         const Corner &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
-        each_sample(range_of({a, b, b}, reach), [&](std::size_t at, double x, double y) {
-            if (!(distance_[at] > 0)) return;
+        for_each_sample(range_of({a, b, b}, reach), [&](std::size_t at, double x, double y) {
+            if (!(squared_distance_[at] > 0)) return;
             const double d = distance_squared(a, b, x, y);
-            if (!(d < distance_[at])) return;
-            distance_[at] = d;
+            if (!(d < squared_distance_[at])) return;
+            squared_distance_[at] = d;
             owner_[at] = triangle;
         });
     }
 
     // Whether some sample of the chart's has no triangle yet.
-    bool gaps() const {
+    bool has_unassigned() const {
         bool result = false;
-        for_owned([&](std::size_t at) { result = result || owner_[at] == no_index; });
+        for_each_owned_sample([&](std::size_t at) { result = result || owner_[at] == no_index; });
         return result;
     }
 
     TileOwners finish() {
         TileOwners result;
-        for_owned([&](std::size_t at) {
+        for_each_owned_sample([&](std::size_t at) {
             if (owner_[at] != no_index) result.triangles.push_back(owner_[at]);
         });
         std::sort(result.triangles.begin(), result.triangles.end());
         result.triangles.erase(std::unique(result.triangles.begin(), result.triangles.end()),
                                result.triangles.end());
         result.owners.assign(owner_.size(), TileOwners::none);
-        for_owned([&](std::size_t at) {
+        for_each_owned_sample([&](std::size_t at) {
             const auto found = std::lower_bound(result.triangles.begin(), result.triangles.end(), owner_[at]);
             if (found != result.triangles.end())
                 result.owners[at] = static_cast<std::uint32_t>(found - result.triangles.begin());
@@ -94,8 +94,9 @@ public:
 
 private:
     void begin_distances() {
-        distance_.resize(owner_.size());
-        for (std::size_t i = 0; i < owner_.size(); ++i) distance_[i] = owner_[i] == no_index ? HUGE_VAL : 0;
+        squared_distance_.resize(owner_.size());
+        for (std::size_t i = 0; i < owner_.size(); ++i)
+            squared_distance_[i] = owner_[i] == no_index ? HUGE_VAL : 0;
     }
 
     Range range_of(const std::array<Corner, 3>& corners, double reach) const {
@@ -109,7 +110,7 @@ private:
     }
 
     template <class Visit>
-    void each_sample(const Range& range, Visit&& visit) const {
+    void for_each_sample(const Range& range, Visit&& visit) const {
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
             for (std::uint32_t i = range.x0; i < range.x1; ++i) {
                 visit(std::size_t{j} * columns_ + i, tile_.x + (i + 0.5) / samples_,
@@ -119,7 +120,7 @@ private:
     }
 
     template <class Visit>
-    void for_owned(Visit&& visit) const {
+    void for_each_owned_sample(Visit&& visit) const {
         for (std::uint32_t j = 0; j < rows_; ++j) {
             for (std::uint32_t i = 0; i < columns_; ++i) {
                 if (owned_[std::size_t{j / samples_} * tile_.width + i / samples_])
@@ -131,18 +132,18 @@ private:
     const Atlas& atlas_;
     const ChartTile& tile_;
     std::uint32_t samples_, columns_, rows_;
-    std::vector<std::uint8_t> owned_;  // by texel
-    std::vector<Index> owner_;         // by sample
-    std::vector<double> distance_;     // squared; 0 inside of a triangle
+    std::vector<std::uint8_t> owned_;       // by texel
+    std::vector<Index> owner_;              // by sample
+    std::vector<double> squared_distance_;  // squared; 0 inside of a triangle
 };
 
 }  // namespace
 
-std::vector<ChartTile> cut_tiles(std::span<const AtlasChart> charts) {
+std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts) {
     std::vector<ChartTile> result;
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const AtlasChart& chart = charts[i];
-        const std::uint32_t step = std::max(1u, most_texels / chart.grain);  // blocks
+        const std::uint32_t step = std::max(1u, max_tile_size / chart.block_size);  // blocks
         for (std::uint32_t y = 0; y < chart.rows; y += step) {
             for (std::uint32_t x = 0; x < chart.columns; x += step) {
                 const std::uint32_t columns = std::min(step, chart.columns - x),
@@ -153,8 +154,9 @@ std::vector<ChartTile> cut_tiles(std::span<const AtlasChart> charts) {
                         any = any || chart.blocks[std::size_t{j} * chart.columns + k];
                 }
                 if (!any) continue;
-                result.push_back({static_cast<Index>(i), chart.x + x * chart.grain, chart.y + y * chart.grain,
-                                  columns * chart.grain, rows * chart.grain});
+                result.push_back({static_cast<Index>(i), chart.x + x * chart.block_size,
+                                  chart.y + y * chart.block_size, columns * chart.block_size,
+                                  rows * chart.block_size});
             }
         }
     }
@@ -162,9 +164,9 @@ std::vector<ChartTile> cut_tiles(std::span<const AtlasChart> charts) {
 }
 
 TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
-                       std::span<const std::array<Across, 3>> across, const ChartTile& tile,
+                       std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
                        std::uint32_t samples) {
-    if (chart.single) {
+    if (chart.is_single_texel) {
         // All triangles share the texel; the samples go to them by turns.
         TileOwners result{chart.triangles, {}};
         for (std::uint32_t i = 0; i < samples * samples; ++i) {
@@ -172,17 +174,17 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
         }
         return result;
     }
-    Owners owners(atlas, chart, tile, samples);
-    for (Index t : chart.triangles) owners.inside(t);
-    if (!owners.gaps()) return owners.finish();
+    SampleOwners owners(atlas, chart, tile, samples);
+    for (Index t : chart.triangles) owners.assign_covered(t);
+    if (!owners.has_unassigned()) return owners.finish();
     // A block reaches at most a block's diagonal, and half of it, beyond the chart.
-    const double reach = 2 * chart.grain;
+    const double reach = 2 * chart.block_size;
     for (Index t : chart.triangles) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const Index other = across[t][c].triangle;
+            const Index other = adjacent[t][c].triangle;
             const bool within = other != no_index &&
                                 std::binary_search(chart.triangles.begin(), chart.triangles.end(), other);
-            if (!within) owners.close_by(t, c, reach);
+            if (!within) owners.assign_nearest(t, c, reach);
         }
     }
     return owners.finish();

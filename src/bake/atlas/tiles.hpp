@@ -17,7 +17,7 @@ struct ChartTile {
 };
 
 /// Cuts the charts' rectangles into tiles of at most 64 x 64 texels; those without a block are left out.
-std::vector<ChartTile> cut_tiles(std::span<const AtlasChart> charts);
+std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts);
 
 /// Samples of a tile, samples x samples per texel.
 struct TileOwners {
@@ -30,7 +30,7 @@ struct TileOwners {
 /// Gives every sample in the chart's blocks to the triangle that it is in, else to the closest one that has
 /// an edge on the chart's outline; the first one of those that are equally close.
 TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
-                       std::span<const std::array<Across, 3>> across, const ChartTile& tile,
+                       std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
                        std::uint32_t samples);
 
 }  // namespace faqem::detail

@@ -19,6 +19,7 @@ namespace faqem::detail {
 /// \param work  comparisons to make at most; lowered by those made
 /// \return false too if the work is used up before it is known
 /// \throws what the poll throws
-bool apart(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work, engine::Poll poll = {});
+bool have_disjoint_interiors(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work,
+                             engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

@@ -6,7 +6,7 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint8_t alone = 3;
+constexpr std::uint8_t unpaired = 3;
 
 // Lengths of the edges from a corner to the next one and to the one after.
 std::array<double, 2> legs_at(const PairTriangle& triangle, std::size_t corner) {
@@ -15,7 +15,7 @@ std::array<double, 2> legs_at(const PairTriangle& triangle, std::size_t corner) 
 
 // Texels of a triangle by itself: half the rectangle over the two shorter edges, its largest angle made
 // right.
-double texels_alone(const PairTriangle& triangle) {
+double unpaired_texels(const PairTriangle& triangle) {
     const auto& e = triangle.edges;
     const double longest = std::max({e[0], e[1], e[2]});
     return longest > 0 ? e[0] * e[1] * e[2] / longest / 2 : 0;
@@ -26,27 +26,30 @@ double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) /
 // Sides of the rectangle for a triangle and its neighbour across the edge opposite `corner`.
 std::array<double, 2> pair_sides(std::span<const PairTriangle> triangles, Index triangle,
                                  std::uint8_t corner) {
-    const Across& other = triangles[triangle].across[corner];
+    const AdjacentTriangle& other = triangles[triangle].adjacent[corner];
     const auto a = legs_at(triangles[triangle], corner), b = legs_at(triangles[other.triangle], other.corner);
     return {root_mean_square(a[0], b[0]), root_mean_square(a[1], b[1])};
 }
 
 // Rectangle over triangles; infinite where there can be no pair.
 double waste(std::span<const PairTriangle> triangles, Index t, std::uint8_t corner) {
-    const Across& other = triangles[t].across[corner];
+    const AdjacentTriangle& other = triangles[t].adjacent[corner];
     if (other.triangle == no_index) return HUGE_VAL;
     const auto sides = pair_sides(triangles, t, corner);
-    const double both = texels_alone(triangles[t]) + texels_alone(triangles[other.triangle]);
+    const double both = unpaired_texels(triangles[t]) + unpaired_texels(triangles[other.triangle]);
     const double result = sides[0] * sides[1] / both;
-    return result <= most_waste ? result : HUGE_VAL;
+    return result <= max_waste ? result : HUGE_VAL;
 }
 
 class Matching {
 public:
-    Matching(std::span<const PairTriangle> triangles, engine::Poll poll)
-        : triangles_(triangles), corner_(triangles.size(), alone), waste_(triangles.size()), poll_(poll) {
+    Matching(std::span<const PairTriangle> triangles, engine::CancellationCheck check_cancelled)
+        : triangles_(triangles),
+          corner_(triangles.size(), unpaired),
+          waste_(triangles.size()),
+          check_cancelled_(check_cancelled) {
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            poll_();
+            check_cancelled_();
             for (std::uint8_t c = 0; c < 3; ++c) waste_[t][c] = waste(triangles, static_cast<Index>(t), c);
         }
     }
@@ -61,19 +64,19 @@ public:
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
             const auto t = static_cast<Index>(i);
             for (std::uint8_t c = 0; c < 3; ++c) {
-                if (waste_[t][c] < HUGE_VAL && t < triangles_[t].across[c].triangle) {
+                if (waste_[t][c] < HUGE_VAL && t < triangles_[t].adjacent[c].triangle) {
                     candidates.push_back({waste_[t][c], t, c});
                 }
             }
         }
         std::sort(candidates.begin(), candidates.end(), [this](const Candidate& a, const Candidate& b) {
-            poll_();
+            check_cancelled_();
             if (a.waste != b.waste) return a.waste < b.waste;
             return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
         });
         for (const Candidate& c : candidates) {
-            if (corner_[c.triangle] == alone &&
-                corner_[triangles_[c.triangle].across[c.corner].triangle] == alone) {
+            if (corner_[c.triangle] == unpaired &&
+                corner_[triangles_[c.triangle].adjacent[c.corner].triangle] == unpaired) {
                 join(c.triangle, c.corner);
             }
         }
@@ -82,7 +85,7 @@ public:
     // Joins lonely triangles over paths: free, pair, pair, ..., free.
     void augment() {
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            if (corner_[t] == alone) extend(static_cast<Index>(t), 3);
+            if (corner_[t] == unpaired) find_augmenting_path(static_cast<Index>(t), 3);
         }
     }
 
@@ -90,7 +93,7 @@ public:
 
 private:
     void join(Index t, std::uint8_t corner) {
-        const Across& other = triangles_[t].across[corner];
+        const AdjacentTriangle& other = triangles_[t].adjacent[corner];
         corner_[t] = corner;
         corner_[other.triangle] = other.corner;
     }
@@ -98,19 +101,19 @@ private:
     bool on_path(Index t) const { return std::find(path_.begin(), path_.end(), t) != path_.end(); }
 
     // Finds a partner for t, which is free but for its place on the path, in at most `pairs` turned pairs.
-    bool extend(Index t, int pairs) {
-        poll_();
+    bool find_augmenting_path(Index t, int pairs) {
+        check_cancelled_();
         path_.push_back(t);
         bool found = false;
         for (std::uint8_t c : by_waste(t)) {
-            const Index other = triangles_[t].across[c].triangle;
+            const Index other = triangles_[t].adjacent[c].triangle;
             if (!(waste_[t][c] < HUGE_VAL) || on_path(other)) continue;
-            if (corner_[other] != alone) {
+            if (corner_[other] != unpaired) {
                 if (pairs == 0) continue;
-                const Index third = triangles_[other].across[corner_[other]].triangle;
+                const Index third = triangles_[other].adjacent[corner_[other]].triangle;
                 if (on_path(third)) continue;
                 path_.push_back(other);
-                found = extend(third, pairs - 1);
+                found = find_augmenting_path(third, pairs - 1);
                 path_.pop_back();
                 if (!found) continue;
             }
@@ -134,13 +137,14 @@ private:
     std::vector<std::uint8_t> corner_;
     std::vector<std::array<double, 3>> waste_;
     std::vector<Index> path_;
-    engine::Poll poll_;
+    engine::CancellationCheck check_cancelled_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles, engine::Poll poll) {
-    Matching matching(triangles, poll);
+std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles,
+                                         engine::CancellationCheck check_cancelled) {
+    Matching matching(triangles, check_cancelled);
     matching.greedy();
     matching.augment();
     return std::move(matching).corners();

@@ -24,20 +24,20 @@ std::string part_title(const Asset& asset, std::size_t part) {
 
 namespace {
 
-void check(const Asset& source, const SmallParts& small) {
-    if (small.parts.size() != source.parts.size()) {
-        throw InputError("", "small parts",
-                         "there are " + std::to_string(small.parts.size()) + ", the asset has " +
+void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
+    if (simplified.parts.size() != source.parts.size()) {
+        throw InputError("", "simplified parts",
+                         "there are " + std::to_string(simplified.parts.size()) + ", the asset has " +
                              std::to_string(source.parts.size()));
     }
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const SimplifyResult& part = small.parts[p];
+        const SimplifyResult& part = simplified.parts[p];
         const bool history_fits = part.history.kept_faces.size() == part.mesh.triangles.size() &&
                                   (part.mesh.triangles.empty() ||
                                    part.history.triangles.size() == source.parts[p].triangles.size());
         if (!history_fits) {
             throw InputError("", part_title(source, p),
-                             "its small mesh has no history or that of another part");
+                             "its simplified mesh has no history or that of another part");
         }
     }
 }
@@ -49,26 +49,26 @@ bool needs_map(const Part& part, const BakeOptions& bake) {
 }
 
 // Maps and normals.
-void map_parts(BakeJob& job, const SmallParts& small) {
+void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
     double done = 0;
     for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
-        job.go_on(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
-        SmallPart part{static_cast<Index>(p), &job.source.parts[p], &small.parts[p], nullptr};
+        job.report_progress(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
+        BakePart part{static_cast<Index>(p), &job.source.parts[p], &simplified.parts[p], nullptr};
         if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
-            part.map = std::make_unique<const SurfaceMap>(polled_map(
-                part.small->history, job.options.bake.mapping, part.source->triangles, job.workers()));
+            part.map = std::make_unique<const SurfaceMap>(make_surface_map(
+                part.simplified->history, job.options.bake.mapping, part.source->triangles, job.workers()));
         }
         job.parts.push_back(std::move(part));
     }
-    for (const SmallPart& part : job.parts) {
-        job.go_on(Phase::map, 1);
+    for (const BakePart& part : job.parts) {
+        job.report_progress(Phase::map, 1);
         const bool has_normals = part.faces() > 0 && job.options.bake.normals != Normals::none;
         job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
                                           : CornerNormals{});
     }
 }
 
-void bake_kind(BakeJob& job) {
+void bake_by_kind(BakeJob& job) {
     switch (job.options.bake.kind) {
         case Bake::automatic:
         case Bake::atlas:
@@ -85,25 +85,26 @@ void bake_kind(BakeJob& job) {
     }
 }
 
-LightAsset bake_without_histories(const Asset& source, const SmallParts& small, const Options& options) {
+SimplifiedAsset bake_without_histories(const Asset& source, const SimplifiedParts& simplified,
+                                       const Options& options) {
     validate(options);
     check_asset(source);
-    check(source, small);
+    check_parts_match(source, simplified);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence needs a new atlas: bake must not be vertex, keep or none");
     }
     BakeJob job(source, options);
-    job.result.report = small.report;
+    job.result.report = simplified.report;
     job.result.asset.source = source.source;
     job.result.asset.warnings = source.warnings;
-    if (small.report.stop == StopReason::cancelled) return std::move(job.result);
+    if (simplified.report.stop == StopReason::cancelled) return std::move(job.result);
     PhaseSeconds& seconds = job.result.report.seconds;
     const Stopwatch watch;
     try {
-        map_parts(job, small);
+        map_parts(job, simplified);
         seconds.map = watch.seconds();
-        bake_kind(job);
-        job.go_on(Phase::bake, 1);
+        bake_by_kind(job);
+        job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
         job.result.asset.parts.clear();
         job.result.asset.materials.clear();
@@ -119,19 +120,19 @@ LightAsset bake_without_histories(const Asset& source, const SmallParts& small, 
 }  // namespace
 }  // namespace detail
 
-LightAsset bake(const Asset& source, const SmallParts& small, const Options& options) {
-    LightAsset result = detail::bake_without_histories(source, small, options);
+SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
+    SimplifiedAsset result = detail::bake_without_histories(source, simplified, options);
     if (options.history == Recording::on) {
-        for (const SimplifyResult& part : small.parts) result.histories.push_back(part.history);
+        for (const SimplifyResult& part : simplified.parts) result.histories.push_back(part.history);
     }
     return result;
 }
 
-LightAsset simplify(const Asset& source, const Options& options) {
-    SmallParts small = simplify_parts(source, options);
-    LightAsset result = detail::bake_without_histories(source, small, options);
+SimplifiedAsset simplify(const Asset& source, const Options& options) {
+    SimplifiedParts simplified = simplify_parts(source, options);
+    SimplifiedAsset result = detail::bake_without_histories(source, simplified, options);
     if (options.history == Recording::on) {
-        for (SimplifyResult& part : small.parts) result.histories.push_back(std::move(part.history));
+        for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
     }
     return result;
 }

@@ -19,20 +19,20 @@ public:
     void operator()() const {
         for (std::size_t set = 0; set < part_.uvs.size(); ++set) {
             const std::string name = "uvs " + std::to_string(set);
-            whole(part_.uvs[set], name);
-            finite(part_.uvs[set], name);
+            check_size(part_.uvs[set], name);
+            check_finite(part_.uvs[set], name);
         }
         check(part_.positions, "positions");
         check(part_.normals, "normals");
         check(part_.tangents, "tangents");
         check(part_.colors, "colors");
         check(part_.weights, "weights");
-        whole_or_none(part_.joints, "joints");
+        check_size_or_empty(part_.joints, "joints");
         for (const MorphTarget& target : part_.morph_targets) {
             check(target.positions, "positions of a morph target");
             check(target.normals, "normals of a morph target");
         }
-        faces();
+        check_faces();
     }
 
 private:
@@ -40,27 +40,27 @@ private:
         throw InputError(title_, element, what);
     }
     template <class T>
-    void whole(const std::vector<T>& values, const std::string& name) const {
+    void check_size(const std::vector<T>& values, const std::string& name) const {
         if (values.size() != part_.positions.size())
             fail(name, std::to_string(values.size()) + " entries, there are " +
                            std::to_string(part_.positions.size()) + " vertices");
     }
     template <class T>
-    void whole_or_none(const std::vector<T>& values, const std::string& name) const {
-        if (!values.empty()) whole(values, name);
+    void check_size_or_empty(const std::vector<T>& values, const std::string& name) const {
+        if (!values.empty()) check_size(values, name);
     }
     template <class T>
-    void finite(const std::vector<T>& values, const std::string& name) const {
+    void check_finite(const std::vector<T>& values, const std::string& name) const {
         for (std::size_t v = 0; v < values.size(); ++v)
             for (const auto x : values[v])
                 if (!std::isfinite(x)) fail(name + ", vertex " + std::to_string(v), "is not finite");
     }
     template <class T>
     void check(const std::vector<T>& values, const std::string& name) const {
-        whole_or_none(values, name);
-        finite(values, name);
+        check_size_or_empty(values, name);
+        check_finite(values, name);
     }
-    void faces() const {
+    void check_faces() const {
         for (std::size_t f = 0; f < part_.triangles.size(); ++f)
             for (const Index v : part_.triangles[f])
                 if (!(v < part_.positions.size()))

@@ -18,10 +18,10 @@ using detail::Bvh;
 using engine::Vector3;
 
 constexpr std::size_t block = 4096;
-constexpr double wrong_from = 0.25;
+constexpr double wrong_threshold = 0.25;
 
 /// The scene as one part, with the materials and images it shows.
-Asset flat(const Asset& asset) {
+Asset flattened(const Asset& asset) {
     Asset result;
     result.parts = {detail::flatten(asset)};
     result.materials = asset.materials;
@@ -33,24 +33,24 @@ Asset flat(const Asset& asset) {
 struct Model {
     Asset asset;
     detail::Surface surface;
-    std::vector<Vector3> looks;  ///< by triangle of the surface: the side that is outside
+    std::vector<Vector3> face_normals;  ///< by triangle of the surface: the side that is outside
     Bvh tree;
-    detail::SourceSurface colours;
+    detail::SourceSampler colors;
 
     Model(const Asset& source, const char* name)
-        : asset(flat(source)),
-          surface(detail::make_surface({part().positions, part().triangles}, name)),
-          looks(surface.normals),
+        : asset(flattened(source)),
+          surface(detail::extract_nonempty_surface({part().positions, part().triangles}, name)),
+          face_normals(surface.normals),
           tree(surface.positions, surface.triangles),
-          colours(asset, {.base = true}) {
+          colors(asset, {.base = true}) {
         if (part().normals.empty()) return;
-        for (std::size_t i = 0; i < looks.size(); ++i) {
+        for (std::size_t i = 0; i < face_normals.size(); ++i) {
             Vector3 sum = Vector3::Zero();
             for (const Index v : part().triangles[surface.faces[i]]) {
                 const Vec3f& n = part().normals[v];
                 sum += Vector3(n[0], n[1], n[2]);
             }
-            if (sum.dot(looks[i]) < 0) looks[i] = -looks[i];
+            if (sum.dot(face_normals[i]) < 0) face_normals[i] = -face_normals[i];
         }
     }
     Model(const Model&) = delete;
@@ -58,8 +58,8 @@ struct Model {
 
     const Part& part() const { return asset.parts[0]; }
 
-    detail::Linear colour(Index triangle, const Vec3& barycentric) const {
-        return colours.sample(0, {.face = surface.faces[triangle], .barycentric = barycentric}, 0).base;
+    detail::LinearColor color(Index triangle, const Vec3& barycentric) const {
+        return colors.sample(0, {.face = surface.faces[triangle], .barycentric = barycentric}, 0).base;
     }
 
     bool masked_out(Index triangle, float alpha) const {
@@ -70,7 +70,7 @@ struct Model {
 };
 
 /// As displayed, without alpha; transparent is black.
-std::array<double, 3> srgb(const detail::Linear& premultiplied) {
+std::array<double, 3> srgb(const detail::LinearColor& premultiplied) {
     std::array<double, 3> c = {};
     if (!(premultiplied[3] > 0)) return c;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -82,24 +82,24 @@ std::array<double, 3> srgb(const detail::Linear& premultiplied) {
 
 struct Sums {
     double squared = 0;
-    std::uint64_t seen = 0, wrong = 0, one_sided = 0;
+    std::uint64_t seen = 0, outliers = 0, unmatched = 0;
 };
 
-void add_sample(Sums& sums, const Model& from, const Model& to, const detail::SurfaceSample& s) {
-    const detail::Linear here = from.colour(s.face, s.barycentric);
+void add_sample(Sums& sums, const Model& from, const Model& to, const detail::RandomSample& s) {
+    const detail::LinearColor here = from.color(s.face, s.barycentric);
     if (from.masked_out(s.face, here[3])) return;
-    const Vector3& look = from.looks[s.face];
-    Bvh::Hit hit = to.tree.closest_if(s.point, [&](Index f) { return to.looks[f].dot(look) > 0; });
+    const Vector3& normal = from.face_normals[s.face];
+    Bvh::Hit hit = to.tree.closest_if(s.point, [&](Index f) { return to.face_normals[f].dot(normal) > 0; });
     if (hit.face == no_index) {
         hit = to.tree.closest(s.point);
-        ++sums.one_sided;
+        ++sums.unmatched;
     }
-    const std::array<double, 3> a = srgb(here), b = srgb(to.colour(hit.face, hit.barycentric));
+    const std::array<double, 3> a = srgb(here), b = srgb(to.color(hit.face, hit.barycentric));
     double squared = 0;
     for (std::size_t k = 0; k < 3; ++k) squared += (a[k] - b[k]) * (a[k] - b[k]);
     ++sums.seen;
     sums.squared += squared / 3;
-    sums.wrong += squared > wrong_from * wrong_from;
+    sums.outliers += squared > wrong_threshold * wrong_threshold;
 }
 
 OneSidedColors one_sided(const Model& from, const Model& to, const CompareOptions& options,
@@ -114,8 +114,8 @@ OneSidedColors one_sided(const Model& from, const Model& to, const CompareOption
     for (const Sums& s : sums) {
         total.squared += s.squared;
         total.seen += s.seen;
-        total.wrong += s.wrong;
-        total.one_sided += s.one_sided;
+        total.outliers += s.outliers;
+        total.unmatched += s.unmatched;
     }
     const auto share = [](double part, std::uint64_t of) {
         return part / static_cast<double>(std::max<std::uint64_t>(of, 1));
@@ -123,8 +123,8 @@ OneSidedColors one_sided(const Model& from, const Model& to, const CompareOption
     OneSidedColors result;
     result.mean_squared = share(total.squared, total.seen);
     result.rmse = std::sqrt(result.mean_squared);
-    result.wrong = share(static_cast<double>(total.wrong), total.seen);
-    result.one_sided = share(static_cast<double>(total.one_sided), total.seen);
+    result.outliers = share(static_cast<double>(total.outliers), total.seen);
+    result.unmatched = share(static_cast<double>(total.unmatched), total.seen);
     result.hidden = share(static_cast<double>(options.samples - total.seen), options.samples);
     return result;
 }

@@ -4,21 +4,21 @@
 #include <numeric>
 #include <tuple>
 
-#include "bake/transfer/vector_conversion.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
 namespace {
 
 // What tells faces at one place apart.
-struct Look {
+struct FaceAppearance {
     Index material;
-    bool is_turned;  // wound against its normals, so that the other side is seen
-    bool operator==(const Look&) const = default;
+    bool is_wound_against_normals;  // wound against its normals, so that the other side is seen
+    bool operator==(const FaceAppearance&) const = default;
 };
 
-bool is_turned(const Part& part, const Triangle& t) {
+bool is_wound_against_normals(const Part& part, const Triangle& t) {
     if (part.normals.empty()) return false;
     engine::Vector3 normal = engine::Vector3::Zero();
     for (const Index v : t) normal += to_vector(part.normals[v]);
@@ -26,17 +26,18 @@ bool is_turned(const Part& part, const Triangle& t) {
     return normal.dot(engine::area_vector(at(0), at(1), at(2))) < 0;
 }
 
-std::vector<Look> looks_of(const Part& part) {
-    std::vector<Look> result;
+std::vector<FaceAppearance> face_appearances(const Part& part) {
+    std::vector<FaceAppearance> result;
     result.reserve(part.triangles.size());
     for (const Triangle& t : part.triangles) {
-        result.push_back({face_material(part, static_cast<Index>(result.size())), is_turned(part, t)});
+        result.push_back(
+            {face_material(part, static_cast<Index>(result.size())), is_wound_against_normals(part, t)});
     }
     return result;
 }
 
 // The smallest corner first, so that doubles are equal and faces back to back are not.
-std::vector<Triangle> corner_places(const Part& part) {
+std::vector<Triangle> canonical_corners(const Part& part) {
     const std::vector<Index> first = engine::weld_exact(part.positions);
     std::vector<Triangle> result;
     result.reserve(part.triangles.size());
@@ -49,29 +50,30 @@ std::vector<Triangle> corner_places(const Part& part) {
 
 }  // namespace
 
-std::vector<Index> set_looks_apart(const Part& part, std::vector<Index> groups) {
-    const std::vector<Look> looks = looks_of(part);
-    if (looks.empty() || std::equal(looks.begin() + 1, looks.end(), looks.begin())) return groups;
-    const std::vector<Triangle> places = corner_places(part);
+std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index> groups) {
+    const std::vector<FaceAppearance> appearances = face_appearances(part);
+    if (appearances.empty() || std::equal(appearances.begin() + 1, appearances.end(), appearances.begin()))
+        return groups;
+    const std::vector<Triangle> corners = canonical_corners(part);
     const auto group = [&](Index f) { return groups.empty() ? Index{0} : groups[f]; };
-    std::vector<Index> order(places.size());
+    std::vector<Index> order(corners.size());
     std::iota(order.begin(), order.end(), Index{0});
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        return std::tuple(places[a], group(a), a) < std::tuple(places[b], group(b), b);
+        return std::tuple(corners[a], group(a), a) < std::tuple(corners[b], group(b), b);
     });
-    std::vector<Index> apart;
+    std::vector<Index> separated;
     for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
         const Index a = order[first], b = order[i];
-        if (places[a] != places[b] || group(a) != group(b))
+        if (corners[a] != corners[b] || group(a) != group(b))
             first = i;
-        else if (looks[a] != looks[b])
-            apart.push_back(b);
+        else if (appearances[a] != appearances[b])
+            separated.push_back(b);
     }
-    if (apart.empty()) return groups;
-    if (groups.empty()) groups.assign(places.size(), 0);
+    if (separated.empty()) return groups;
+    if (groups.empty()) groups.assign(corners.size(), 0);
     const Index next = *std::max_element(groups.begin(), groups.end()) + 1;
-    for (const Index f : apart) {
-        const auto [material, turned] = looks[f];
+    for (const Index f : separated) {
+        const auto [material, turned] = appearances[f];
         groups[f] = next + 2 * (material == no_index ? 0 : 1 + material) + (turned ? 1 : 0);
     }
     return groups;

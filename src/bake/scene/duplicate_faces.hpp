@@ -16,6 +16,6 @@ namespace faqem::detail {
 ///         another material, or normals on the other side, has a group that it shares with others of its kind
 ///         at most.
 /// O(n log n)
-std::vector<Index> set_looks_apart(const Part& part, std::vector<Index> groups);
+std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index> groups);
 
 }  // namespace faqem::detail

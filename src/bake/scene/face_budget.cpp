@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "faqem/detail/simplify/target.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
-#include "faqem/detail/simplify/target.hpp"
 
 namespace faqem::detail {
 
@@ -15,16 +15,16 @@ namespace {
 std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
 
 // The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
-std::uint64_t faces_of_components(const Part& part) {
+std::uint64_t min_faces_for_components(const Part& part) {
     const std::vector<Index> welded = engine::weld_exact(part.positions);
-    engine::DisjointSets joined(welded.size());
+    engine::UnionFind joined(welded.size());
     for (const Triangle& t : part.triangles) {
-        for (const Index v : {t[1], t[2]}) joined.join(welded[t[0]], welded[v]);
+        for (const Index v : {t[1], t[2]}) joined.unite(welded[t[0]], welded[v]);
     }
     std::vector<std::uint8_t> counted(welded.size(), 0);
     std::uint64_t sum = 0;
     for (const Triangle& t : part.triangles) {
-        std::uint8_t& count = counted[joined.root(welded[t[0]])];
+        std::uint8_t& count = counted[joined.find(welded[t[0]])];
         if (count == 4) continue;
         ++count;
         ++sum;
@@ -33,34 +33,34 @@ std::uint64_t faces_of_components(const Part& part) {
 }
 
 // What no part's share may fall below. Components go before the target where the target has no room for them.
-std::vector<std::uint64_t> least_shares(const Asset& asset, std::uint64_t goal) {
+std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t goal) {
     std::vector<std::uint64_t> least;
     std::uint64_t sum = 0;
-    for (const Part& part : asset.parts) sum += least.emplace_back(faces_of_components(part));
+    for (const Part& part : asset.parts) sum += least.emplace_back(min_faces_for_components(part));
     for (std::size_t p = 0; p < least.size() && sum > goal; ++p)
-        least[p] = std::min<std::uint64_t>(smallest_target, faces_of(asset, p));
+        least[p] = std::min<std::uint64_t>(min_target_faces, faces_of(asset, p));
     return least;
 }
 
 }  // namespace
 
 // Parts whose share would be below their least are given that, and the others pay for it.
-std::vector<std::uint64_t> share_by_faces(const Asset& asset, std::uint64_t goal) {
+std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal) {
     const std::size_t parts = asset.parts.size();
-    std::vector<std::uint64_t> share = least_shares(asset, goal);
+    std::vector<std::uint64_t> share = min_budgets(asset, goal);
     double rest = 0, left = static_cast<double>(goal);
     std::vector<std::size_t> order;
     for (std::size_t p = 0; p < parts; ++p) {
         rest += static_cast<double>(faces_of(asset, p));
         if (faces_of(asset, p) > 0) order.push_back(p);
     }
-    const auto least_ratio = [&](std::size_t p) {
+    const auto min_ratio = [&](std::size_t p) {
         return static_cast<double>(share[p]) / static_cast<double>(faces_of(asset, p));
     };
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return least_ratio(a) > least_ratio(b); });
+                     [&](std::size_t a, std::size_t b) { return min_ratio(a) > min_ratio(b); });
     auto first = order.begin();
-    for (; first != order.end() && least_ratio(*first) * rest > left; ++first) {
+    for (; first != order.end() && min_ratio(*first) * rest > left; ++first) {
         rest -= static_cast<double>(faces_of(asset, *first));
         left -= static_cast<double>(share[*first]);
     }

@@ -15,7 +15,7 @@ namespace faqem::detail {
 /// fewer than 4.
 /// \return per part; their sum is above `goal` only where the parts' 4 faces each are.
 /// O(faces)
-std::vector<std::uint64_t> share_by_faces(const Asset& asset, std::uint64_t goal);
+std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal);
 
 /// How much a squared distance times an area in a part's own units counts in the scene: lengths scale with
 /// the part's instances, and what is seen twice counts twice. 1 for what has no size there.

@@ -24,7 +24,7 @@ std::vector<double> level_coverage(const Asset& source, const SceneSize& size, d
                                    double error_share) {
     std::vector<double> result;
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const double diagonal = size.scales[p].most * diagonal_of(source.parts[p].positions);
+        const double diagonal = size.scales[p].largest * diagonal_of(source.parts[p].positions);
         result.push_back(error > 0 ? diagonal / error * error_share
                                    : std::numeric_limits<double>::infinity());
     }

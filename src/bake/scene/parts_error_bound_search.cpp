@@ -4,39 +4,42 @@
 
 namespace faqem::detail {
 
-MeasuredParts::MeasuredParts(const Asset& source, const Options& options, Poll poll)
+ReferenceParts::ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled)
     : options_(options), size_(scene_size(source)) {
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const Part& part = source.parts[p];
         originals_.emplace_back(MeshView{part.positions, part.triangles},
-                                part_options(options, size_, size_.scales[p]), poll);
+                                part_options(options, size_, size_.scales[p]), check_cancelled);
         faces_ += part.triangles.size();
     }
 }
 
-Distance MeasuredParts::operator()(const SmallParts& small, double allowed, Look look, Poll poll) const {
-    Distance most;
+MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, double allowed,
+                                            MeasureMode mode, CancellationCheck check_cancelled) const {
+    MeasuredDistance most;
     for (std::size_t p = 0; p < originals_.size(); ++p) {
         const PartScale& scale = size_.scales[p];
-        if (originals_[p].surface().triangles.empty() || !(scale.most > 0)) continue;
-        const Distance own =
-            distance(originals_[p], small.parts[p], allowed / scale.most, look, options_, poll);
-        most.value = std::max(most.value, own.value > 0 ? own.value * scale.least : 0);
-        most.bound = std::max(most.bound, own.bound > 0 ? own.bound * scale.most : 0);
-        most.unsettled += own.unsettled;
+        if (originals_[p].surface().triangles.empty() || !(scale.largest > 0)) continue;
+        const MeasuredDistance own = distance(originals_[p], simplified.parts[p], allowed / scale.largest,
+                                              mode, options_, check_cancelled);
+        most.value = std::max(most.value, own.value > 0 ? own.value * scale.smallest : 0);
+        most.bound = std::max(most.bound, own.bound > 0 ? own.bound * scale.largest : 0);
+        most.undecided_count += own.undecided_count;
     }
     return most;
 }
 
-SmallParts simplify_parts_within(const Asset& source, const Options& options) try {
-    const AskMeanwhile meanwhile(options, 0);
-    const MeasuredParts measured(source, options, meanwhile.poll());
+SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options) try {
+    const MeasurementMonitor monitor(options, 0);
+    const ReferenceParts measured(source, options, monitor.cancellation_check());
     const double allowed = measured.size()(*options.max_error);
-    return run_within<SmallParts>(
+    return search_within_error<SimplifiedParts>(
         options, measured.faces(), allowed, [&](const Options& own) { return simplify_parts(source, own); },
-        [&](const SmallParts& small, Look look, Poll poll) { return measured(small, allowed, look, poll); });
+        [&](const SimplifiedParts& simplified, MeasureMode mode, CancellationCheck check_cancelled) {
+            return measured(simplified, allowed, mode, check_cancelled);
+        });
 } catch (const engine::Cancelled&) {
-    SmallParts nothing = cancelled<SmallParts>();
+    SimplifiedParts nothing = cancelled_result<SimplifiedParts>();
     nothing.parts.resize(source.parts.size());
     return nothing;
 }

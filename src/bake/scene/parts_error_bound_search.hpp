@@ -12,28 +12,29 @@
 namespace faqem::detail {
 
 /// The parts of an asset to measure several results against.
-class MeasuredParts {
+class ReferenceParts {
 public:
     /// \param options  of the runs; borrowed
     /// \throws InputError  an index is out of range
-    MeasuredParts(const Asset& source, const Options& options, Poll poll = {});
+    ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled = {});
 
     const SceneSize& size() const { return size_; }
     /// Of all parts.
     std::uint64_t faces() const { return faces_; }
     /// In the units of the scene, the largest of all parts.
-    Distance operator()(const SmallParts& small, double allowed, Look look, Poll poll) const;
+    MeasuredDistance operator()(const SimplifiedParts& simplified, double allowed, MeasureMode mode,
+                                CancellationCheck check_cancelled) const;
 
 private:
     const Options& options_;
     SceneSize size_;
-    std::vector<Original> originals_;
+    std::vector<DistanceReference> originals_;
     std::uint64_t faces_ = 0;
 };
 
 /// simplify_parts() with max_error: searches over the face count of the whole asset, one call of
 /// simplify_parts() for each try.
 /// \pre options are valid
-SmallParts simplify_parts_within(const Asset& source, const Options& options);
+SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options);
 
 }  // namespace faqem::detail

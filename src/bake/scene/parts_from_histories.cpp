@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "faqem/cut.hpp"
 #include "faqem/error.hpp"
+#include "faqem/truncate.hpp"
 
 namespace faqem::detail {
 
 namespace {
 
-bool fits(const Part& part, const CollapseHistory& history) {
+bool matches(const Part& part, const CollapseHistory& history) {
     if (history.triangles.size() != part.triangles.size()) return false;
     double most = 0;
     for (const Vec3& at : part.positions)
@@ -31,24 +31,24 @@ bool fits(const Part& part, const CollapseHistory& history) {
 
 }  // namespace
 
-SmallParts restored(std::vector<CollapseHistory> cuts) {
-    SmallParts small;
+SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts) {
+    SimplifiedParts simplified;
     for (CollapseHistory& cut : cuts) {
-        const Report& report = small.parts.emplace_back(restore(std::move(cut))).report;
-        small.report.faces_in += report.faces_in;
-        small.report.faces_out += report.faces_out;
-        small.report.vertices_in += report.vertices_in;
-        small.report.vertices_out += report.vertices_out;
-        small.report.collapses += report.collapses;
+        const Report& report = simplified.parts.emplace_back(restore(std::move(cut))).report;
+        simplified.report.faces_in += report.faces_in;
+        simplified.report.faces_out += report.faces_out;
+        simplified.report.vertices_in += report.vertices_in;
+        simplified.report.vertices_out += report.vertices_out;
+        simplified.report.collapses += report.collapses;
     }
-    return small;
+    return simplified;
 }
 
-void check_source(const Asset& source, const SmallParts& small) {
-    if (source.parts.size() != small.parts.size())
+void check_source_matches_histories(const Asset& source, const SimplifiedParts& simplified) {
+    if (source.parts.size() != simplified.parts.size())
         throw InputError("", "", "has another number of meshes than the history");
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        if (!fits(source.parts[p], small.parts[p].history))
+        if (!matches(source.parts[p], simplified.parts[p].history))
             throw InputError("", "mesh " + std::to_string(p), "is not the one of the history");
     }
 }

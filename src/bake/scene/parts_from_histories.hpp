@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From histories that were cut to the small parts that bake() takes.
+/// From histories that were cut to the simplified parts that bake() takes.
 
 #include <vector>
 
@@ -9,14 +9,14 @@
 
 namespace faqem::detail {
 
-/// The small meshes of the parts, and sums over their reports.
-/// \param cuts  one per part, as cut_to() gives them
+/// The simplified meshes of the parts, and sums over their reports.
+/// \param cuts  one per part, as truncate_to_faces() gives them
 /// O(size)
-FAQEM_EXPORT SmallParts restored(std::vector<CollapseHistory> cuts);
+FAQEM_EXPORT SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts);
 
 /// Whether the corners of the source's faces are where the histories say, but for welding.
 /// \throws InputError  they are not, or the source has another number of parts
 /// O(faces)
-FAQEM_EXPORT void check_source(const Asset& source, const SmallParts& small);
+FAQEM_EXPORT void check_source_matches_histories(const Asset& source, const SimplifiedParts& simplified);
 
 }  // namespace faqem::detail

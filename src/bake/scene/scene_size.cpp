@@ -25,7 +25,7 @@ SceneSize scene_size(const Asset& source) {
     std::vector<std::vector<Vec3>> positions(source.parts.size());
     for (std::size_t p = 0; p < positions.size(); ++p) {
         const Part& part = source.parts[p];
-        positions[p] = surface_of({part.positions, part.triangles}).positions;
+        positions[p] = extract_surface({part.positions, part.triangles}).positions;
     }
     std::vector<bool> shown(source.parts.size(), false);
     Eigen::AlignedBox3d box;
@@ -33,7 +33,7 @@ SceneSize scene_size(const Asset& source) {
         const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
         const PartScale scale = scale_of(transform);
         PartScale& all = size.scales[instance.part];
-        all = {std::max(all.least, scale.least), std::max(all.most, scale.most)};
+        all = {std::max(all.smallest, scale.smallest), std::max(all.largest, scale.largest)};
         shown[instance.part] = true;
         for (const Vec3& p : positions[instance.part])
             box.extend((transform * engine::to_eigen(p).homogeneous()).head<3>());
@@ -50,10 +50,10 @@ Options part_options(const Options& options, const SceneSize& size, const PartSc
     if (!options.topology.prune) return own;
     // A part that the scene shrinks to nothing has no units to say a size in.
     own.topology.prune.reset();
-    if (!(scale.most > 0)) return own;
+    if (!(scale.largest > 0)) return own;
     using Limits = std::numeric_limits<double>;
     own.topology.prune =
-        model_units(std::clamp(size(*options.topology.prune) / scale.most, Limits::min(), Limits::max()));
+        model_units(std::clamp(size(*options.topology.prune) / scale.largest, Limits::min(), Limits::max()));
     return own;
 }
 

@@ -13,7 +13,7 @@ namespace faqem::detail {
 /// By how much the scene shrinks and stretches a part at least and at most, over all its instances; 1 and 1
 /// where it does not show the part.
 struct PartScale {
-    double least = 1, most = 1;
+    double smallest = 1, largest = 1;
 };
 
 /// Sizes of a scene.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bake/scene/parts_error_bound_search.hpp"
-#include "faqem/detail/lod/lod_chain.hpp"
 #include "faqem/bake_levels.hpp"
+#include "faqem/detail/lod/lod_chain.hpp"
 
 namespace faqem::detail {
 
@@ -16,10 +16,12 @@ void check_shared_texture(const Options& options);
 
 /// Bakes the finest level, and makes the others of it with its UVs. Each is measured against the original.
 /// \param measured  of the source
-/// \param goals     of the source, at least one
+/// \param level_targets     of the source, at least one
 /// \pre options are valid and checked as above, the asset is checked
 /// \return as simplify_levels()
-std::vector<LightLevel> levels_with_shared_texture(const Asset& source, const MeasuredParts& measured,
-                                                   std::span<const Goal> goals, const Options& options);
+std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,
+                                                             const ReferenceParts& measured,
+                                                             std::span<const LevelTarget> level_targets,
+                                                             const Options& options);
 
 }  // namespace faqem::detail

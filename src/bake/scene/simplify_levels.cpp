@@ -1,33 +1,33 @@
 #include <utility>
 
 #include "bake/scene/check_asset.hpp"
-#include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/shared_texture.hpp"
+#include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/step_progress.hpp"
-#include "faqem/detail/lod/lod_chain.hpp"
 #include "faqem/bake_levels.hpp"
+#include "faqem/detail/lod/lod_chain.hpp"
 
 namespace faqem {
 
-std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
-                                                   const Options& options) try {
+std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
+                                                        const Options& options) try {
     validate(options);
-    const Options own = detail::step_of(options, Phase::simplify, 0, 1);
+    const Options own = detail::step_options(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
-    const detail::AskMeanwhile meanwhile(own, 0);
-    const detail::MeasuredParts measured(source, own, meanwhile.poll());
-    const std::vector<detail::Goal> goals =
-        detail::goals(levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
-    if (goals.empty()) return {};
-    return detail::run_chain<SmallPartsLevel>(
-        goals, own, measured.faces(),
+    const detail::MeasurementMonitor monitor(own, 0);
+    const detail::ReferenceParts measured(source, own, monitor.cancellation_check());
+    const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
+        levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
+    if (level_targets.empty()) return {};
+    return detail::run_lod_chain<SimplifiedPartsLevel>(
+        level_targets, own, measured.faces(),
         [&](const std::vector<std::uint64_t>& targets, const Options& tried) {
-            return detail::run_parts_to(source, targets, tried);
+            return detail::simplify_parts_to_targets(source, targets, tried);
         },
         measured);
 } catch (const engine::Cancelled&) {
-    std::vector<SmallPartsLevel> none(1);
+    std::vector<SimplifiedPartsLevel> none(1);
     none.front().result.parts.resize(source.parts.size());
     none.front().result.report.stop = StopReason::cancelled;
     return none;
@@ -35,36 +35,36 @@ std::vector<SmallPartsLevel> simplify_parts_levels(const Asset& source, const st
 
 namespace {
 
-std::vector<LightLevel> with_shared_texture(const Asset& source, const std::vector<Level>& levels,
-                                            const Options& options) try {
+std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const std::vector<Level>& levels,
+                                                      const Options& options) try {
     validate(options);
     detail::check_shared_texture(options);
     detail::check_asset(source);
-    const detail::AskMeanwhile meanwhile(options, 0);
-    const detail::MeasuredParts measured(source, options, meanwhile.poll());
-    const std::vector<detail::Goal> goals =
-        detail::goals(levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
-    if (goals.empty()) return {};
-    return detail::levels_with_shared_texture(source, measured, goals, options);
+    const detail::MeasurementMonitor monitor(options, 0);
+    const detail::ReferenceParts measured(source, options, monitor.cancellation_check());
+    const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
+        levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
+    if (level_targets.empty()) return {};
+    return detail::levels_with_shared_texture(source, measured, level_targets, options);
 } catch (const engine::Cancelled&) {
-    std::vector<LightLevel> none(1);
+    std::vector<SimplifiedAssetLevel> none(1);
     none.front().result.report.stop = StopReason::cancelled;
     return none;
 }
 
 }  // namespace
 
-std::vector<LightLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
-                                        const Options& options, LevelTextures textures) {
+std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
+                                                  const Options& options, LevelTextures textures) {
     if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
-    std::vector<LightLevel> out;
-    std::vector<SmallPartsLevel> made = simplify_parts_levels(source, levels, options);
+    std::vector<SimplifiedAssetLevel> out;
+    std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);
     const auto count = static_cast<double>(made.size());
-    for (SmallPartsLevel& level : made) {
-        const SmallParts small = std::move(level.result);
+    for (SimplifiedPartsLevel& level : made) {
+        const SimplifiedParts simplified = std::move(level.result);
         const auto before = static_cast<double>(out.size());
-        const Options step = detail::step_of(options, Phase::bake, before / count, (before + 1) / count);
-        out.push_back({bake(source, small, step), level.distance, level.error});
+        const Options step = detail::step_options(options, Phase::bake, before / count, (before + 1) / count);
+        out.push_back({bake(source, simplified, step), level.distance, level.error});
         if (out.back().result.report.stop == StopReason::cancelled) break;
     }
     return out;

@@ -3,20 +3,20 @@
 #include <optional>
 #include <string>
 
-#include "bake/scene/face_budget.hpp"
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/duplicate_faces.hpp"
-#include "bake/transfer/material_groups.hpp"
-#include "bake/texture/bake_job.hpp"
-#include "bake/scene/simplify_parts.hpp"
+#include "bake/scene/face_budget.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/scene_size.hpp"
+#include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/visibility.hpp"
-#include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "bake/texture/bake_job.hpp"
+#include "bake/transfer/material_groups.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/detail/simplify/target.hpp"
-#include "faqem/detail/simplify/error_bound_search.hpp"
 
 namespace faqem {
 namespace {
@@ -42,7 +42,7 @@ std::vector<Index> face_groups(const Part& part, const std::optional<detail::Mat
     std::vector<Index> result;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         const Index material = detail::face_material(part, f);
-        result.push_back(groups ? groups->of(material) : material);
+        result.push_back(groups ? groups->group_of(material) : material);
     }
     const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
     return one ? std::vector<Index>{} : result;
@@ -63,8 +63,8 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.components_pruned += part.components_pruned;
     sum.faces_pruned += part.faces_pruned;
     sum.components_deleted += part.components_deleted;
-    sum.vertices_relaxed += part.vertices_relaxed;
-    sum.edges_swapped += part.edges_swapped;
+    sum.vertices_fitted += part.vertices_fitted;
+    sum.edges_flipped += part.edges_flipped;
     sum.virtual_edges += part.virtual_edges;
     for (const std::string& warning : part.warnings) sum.warnings.push_back(title + ": " + warning);
     sum.seconds.weld += part.seconds.weld;
@@ -82,7 +82,7 @@ struct PartInput {
     PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake,
               std::span<const float> weights)
         : groups(face_groups(part, material_groups)) {
-        if (material_groups) groups = detail::set_looks_apart(part, std::move(groups));
+        if (material_groups) groups = detail::separate_coincident_faces(part, std::move(groups));
         if (bake == Bake::keep) attributes = corner_attributes(part);
         view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {},
                 weights};
@@ -104,71 +104,72 @@ public:
         for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
     }
 
-    std::vector<SmallParts> operator()(std::span<const std::uint64_t> targets) {
-        small_.resize(targets.size());
-        for (SmallParts& level : small_) {
+    std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
+        results_.resize(targets.size());
+        for (SimplifiedParts& level : results_) {
             level.parts.resize(source_.parts.size());
             level.report.preset = options_.preset;
         }
-        if (options_.visibility == Visibility::weighs) look();
-        const std::vector<std::vector<std::uint64_t>> share = shares(targets);
+        if (options_.visibility == Visibility::weighted) compute_visibility();
+        const std::vector<std::vector<std::uint64_t>> share = budgets(targets);
         for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
             own.history = Recording::on;
-            std::vector<SimplifyResult> results = detail::run_to(view, share[p], own);
+            std::vector<SimplifyResult> results = detail::run_to_targets(view, share[p], own);
             is_cancelled_ = results.back().report.stop == StopReason::cancelled;
             for (std::size_t i = 0; i < results.size(); ++i) {
-                small_[i].parts[p] = std::move(results[i]);
-                if (groups_) regroup(p, small_[i].parts[p]);
-                add(small_[i].report, small_[i].parts[p].report, detail::part_title(source_, p));
+                results_[i].parts[p] = std::move(results[i]);
+                if (groups_) restore_face_groups(p, results_[i].parts[p]);
+                add(results_[i].report, results_[i].parts[p].report, detail::part_title(source_, p));
             }
         });
         if (is_cancelled_) {
-            small_.resize(1);
-            small_.front().report.stop = StopReason::cancelled;
+            results_.resize(1);
+            results_.front().report.stop = StopReason::cancelled;
         }
-        for (SmallParts& level : small_) level.report.seconds.total = level.report.seconds.simplify;
-        return std::move(small_);
+        for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
+        return std::move(results_);
     }
 
 private:
-    void look() try {
+    void compute_visibility() try {
         const detail::Stopwatch watch;
-        const detail::AskMeanwhile meanwhile(options_, 0);
-        detail::SeenShares seen = detail::seen_shares(source_, {options_.threads, meanwhile.poll()});
+        const detail::MeasurementMonitor monitor(options_, 0);
+        detail::VertexVisibility seen =
+            detail::vertex_visibility(source_, {options_.threads, monitor.cancellation_check()});
         weights_ = std::move(seen.weights);
         const std::string warning = detail::visibility_warning(source_);
-        for (SmallParts& level : small_) {
-            level.report.vertices_hidden = seen.hidden;
+        for (SimplifiedParts& level : results_) {
+            level.report.vertices_hidden = seen.hidden_vertices;
             if (!warning.empty()) level.report.warnings.push_back(warning);
         }
-        small_.front().report.seconds.simplify += watch.seconds();
+        results_.front().report.seconds.simplify += watch.seconds();
     } catch (const engine::Cancelled&) {
         is_cancelled_ = true;
     }
 
     // Per part and target; none of a part is above the one before it.
-    std::vector<std::vector<std::uint64_t>> shares(std::span<const std::uint64_t> targets) {
+    std::vector<std::vector<std::uint64_t>> budgets(std::span<const std::uint64_t> targets) {
         const detail::Stopwatch watch;
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
         const bool by_cost = options_.budget == Budget::scene && filled >= 2;
-        if (by_cost) find_curves();
+        if (by_cost) compute_cost_curves();
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
         for (const std::uint64_t target : targets) {
             const std::uint64_t goal = std::min(target, static_cast<std::uint64_t>(faces_));
             const std::vector<std::uint64_t> share =
-                by_cost ? detail::share_by_cost(
+                by_cost ? detail::distribute_face_budget(
                               curves_, detail::cost_weights(curves_.size(), instances(source_)), goal)
-                        : detail::share_by_faces(source_, goal);
+                        : detail::budget_by_faces(source_, goal);
             for (std::size_t p = 0; p < share.size(); ++p)
                 result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
         }
         curves_.clear();
-        small_.front().report.seconds.simplify += watch.seconds();
+        results_.front().report.seconds.simplify += watch.seconds();
         return result;
     }
 
-    void find_curves() {
+    void compute_cost_curves() {
         passes_ = 2;
         curves_.resize(source_.parts.size());
         for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
@@ -177,10 +178,10 @@ private:
         });
     }
 
-    bool keeps_groups() const { return options_.topology.group_borders == GroupBorders::kept; }
+    bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
 
     // Kept borders, and faces set apart, say nothing about what is baked into one page.
-    void regroup(std::size_t p, SimplifyResult& result) const {
+    void restore_face_groups(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
         result.mesh.face_groups.clear();
         if (result.history.face_groups.empty()) return;
@@ -213,7 +214,7 @@ private:
     const Asset& source_;
     const Options& options_;
     std::optional<detail::MaterialGroups> groups_;
-    std::vector<SmallParts> small_;
+    std::vector<SimplifiedParts> results_;
     std::vector<detail::CostCurve> curves_;
     bool is_cancelled_ = false;
     detail::SceneSize size_;
@@ -225,19 +226,20 @@ private:
 
 }  // namespace
 
-std::vector<SmallParts> detail::run_parts_to(const Asset& source, std::span<const std::uint64_t> targets,
-                                             const Options& options) {
+std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& source,
+                                                               std::span<const std::uint64_t> targets,
+                                                               const Options& options) {
     return PartsRun(source, options)(targets);
 }
 
-SmallParts simplify_parts(const Asset& source, const Options& options) {
+SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
     detail::check_asset(source);
-    if (options.max_error) return detail::simplify_parts_within(source, options);
+    if (options.max_error) return detail::simplify_parts_within_error(source, options);
     double faces = 0;
     for (const Part& part : source.parts) faces += static_cast<double>(part.triangles.size());
-    const std::uint64_t target = detail::faces_wanted(options.target, faces);
-    return std::move(detail::run_parts_to(source, {&target, 1}, options).front());
+    const std::uint64_t target = detail::target_face_count(options.target, faces);
+    return std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options).front());
 }
 
 }  // namespace faqem

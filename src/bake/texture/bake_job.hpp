@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
 #include "bake/transfer/material_groups.hpp"
-#include "bake/transfer/corner_normals.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/export.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -24,19 +24,21 @@ public:
 
     const Asset& source;
     const Options& options;
-    std::vector<SmallPart> parts;
+    std::vector<BakePart> parts;
     std::vector<CornerNormals> normals;  ///< by part
-    LightAsset result;
+    SimplifiedAsset result;
 
     /// Tells how far the work is. \throws engine::Cancelled
-    void go_on(Phase phase, double fraction) const {
+    void report_progress(Phase phase, double fraction) const {
         phase_ = phase;
         fraction_ = fraction;
-        poll().now();
+        check_cancelled().now();
     }
     /// Asks while the work goes on from there.
-    Poll poll() const { return options.progress ? Poll(asker_) : Poll(); }
-    Workers workers() const { return {options.threads, poll()}; }
+    CancellationCheck cancellation_check() const {
+        return options.progress ? CancellationCheck(monitor_) : CancellationCheck();
+    }
+    Workers workers() const { return {options.threads, check_cancelled()}; }
 
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
 
@@ -44,19 +46,21 @@ private:
     // What the callback is told next; no part of the work.
     mutable Phase phase_ = Phase::map;
     mutable double fraction_ = 0;
-    mutable engine::Asker asker_{[this] { return options.progress(phase_, fraction_); }};
+    mutable engine::ProgressMonitor monitor_{[this] { return options.progress(phase_, fraction_); }};
 };
 
 /// parallel_blocks() with a work that polls; `done` of `total` work was done before.
 template <class Work>
-void polled_blocks(const BakeJob& job, Phase phase, std::size_t size, std::size_t block, double done,
-                   double total, Work&& work) {
+void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t size, std::size_t block,
+                                   double done, double total, Work&& work) {
     const std::size_t stretch = std::max(block, (size / 32 / block + 1) * block);
     for (std::size_t begin = 0; begin < size; begin += stretch) {
-        job.go_on(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
+        job.report_progress(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
         const std::size_t count = std::min(stretch, size - begin);
         parallel_blocks(count, block, job.workers(),
-                        [&](std::size_t b, std::size_t e, Poll poll) { work(begin + b, begin + e, poll); });
+                        [&](std::size_t b, std::size_t e, CancellationCheck check_cancelled) {
+                            work(begin + b, begin + e, check_cancelled);
+                        });
     }
 }
 
@@ -72,7 +76,7 @@ bool bake_pages(BakeJob& job);
 /// Colours on vertices.
 void bake_vertex(BakeJob& job);
 
-/// The source's UVs, colours and images. \throws InputError  the small mesh does not carry them
+/// The source's UVs, colours and images. \throws InputError  the simplified mesh does not carry them
 void bake_keep(BakeJob& job);
 
 /// No UVs, no images.

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <map>
 
-#include "bake/transfer/extension_layers.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
+#include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
 #include "faqem/error.hpp"
@@ -39,41 +39,41 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     return result;
 }
 
-void finish_part(BakeJob& job, const SmallPart& part, const CornerLayers& layers,
+void finish_part(BakeJob& job, const BakePart& part, const CornerLayers& layers,
                  std::vector<Index> materials) {
-    JoinedPart joined = join_corners(part, layers, job.poll());
-    transfer_skin_and_morphs(part, joined, job.poll());
-    joined.part.face_material = std::move(materials);
-    job.result.asset.parts.push_back(std::move(joined.part));
+    WeldedPart welded = weld_corners(part, layers, job.cancellation_check());
+    transfer_skin_and_morphs(part, welded, job.cancellation_check());
+    welded.part.face_material = std::move(materials);
+    job.result.asset.parts.push_back(std::move(welded.part));
 }
 
-std::vector<Index> kept_materials(const SmallPart& part) {
+std::vector<Index> kept_materials(const BakePart& part) {
     std::vector<Index> result;
-    for (Index f : part.small->history.kept_faces) result.push_back(face_material(*part.source, f));
+    for (Index f : part.simplified->history.kept_faces) result.push_back(face_material(*part.source, f));
     return result;
 }
 
 // Tangents where there are normal maps. Those of a file are taken to be made from the UVs as they are;
 // viewers make theirs from what the texture's transform makes of them.
-std::vector<Vec4f> kept_tangents(const BakeJob& job, const SmallPart& part,
+std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
                                  const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> faces_of;
     for (Index f = 0; f < part.faces(); ++f) {
-        faces_of[face_material(*part.source, part.small->history.kept_faces[f])].push_back(f);
+        faces_of[face_material(*part.source, part.simplified->history.kept_faces[f])].push_back(f);
     }
     for (const auto& [material, faces] : faces_of) {
-        const TextureRef* use = tangent_texture(material_or_default(job.source, material));
-        if (!use || use->uv_set >= uvs.size()) continue;
-        std::vector<Vec2f> moved = uvs[use->uv_set];
+        const TextureRef* texture_ref = tangent_texture(material_or_default(job.source, material));
+        if (!texture_ref || texture_ref->uv_set >= uvs.size()) continue;
+        std::vector<Vec2f> moved = uvs[texture_ref->uv_set];
         if (part.source->tangents.empty()) {
-            const UvTransform transform = uv_transform(*use);
+            const UvTransform transform = uv_transform(*texture_ref);
             for (Vec2f& uv : moved) {
                 const auto to = transform.apply(uv[0], uv[1]);
                 uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
             }
         }
-        set_tangents(part, job.normals[part.index], faces, moved, job.poll(), result);
+        set_tangents(part, job.normals[part.index], faces, moved, job.cancellation_check(), result);
     }
     return result;
 }
@@ -84,7 +84,7 @@ void bake_vertex(BakeJob& job) {
     const MaterialGroups groups = group_materials(job.source, Bake::vertex);
     Channels wanted;
     wanted.base = true;
-    const SourceSurface surface(job.source, wanted, job.workers());
+    const SourceSampler sampler(job.source, wanted, job.workers());
     for (const MaterialGroup& group : groups.groups) {
         Material material = without_textures(job, group.materials.front(), true);
         for (std::size_t m = 1; m < group.materials.size(); ++m)
@@ -93,34 +93,34 @@ void bake_vertex(BakeJob& job) {
         job.result.asset.materials.push_back(std::move(material));
     }
     double done = 0;
-    for (const SmallPart& part : job.parts) {
-        job.go_on(Phase::bake, done++ / static_cast<double>(job.parts.size()));
+    for (const BakePart& part : job.parts) {
+        job.report_progress(Phase::bake, done++ / static_cast<double>(job.parts.size()));
         const CornerNormals& normals = job.normals[part.index];
         CornerLayers layers{normals.normals, {}, {}};
-        if (part.map) layers.colors = corner_colors(part, surface, normals, job.workers());
+        if (part.map) layers.colors = corner_colors(part, sampler, normals, job.workers());
         std::vector<Index> materials = kept_materials(part);
-        for (Index& m : materials) m = groups.of(m);
+        for (Index& m : materials) m = groups.group_of(m);
         finish_part(job, part, layers, std::move(materials));
     }
 }
 
 void bake_keep(BakeJob& job) {
-    const Poll poll = job.poll();
+    const CancellationCheck check_cancelled = job.cancellation_check();
     job.result.asset.materials = job.source.materials;
     job.result.asset.images = job.source.images;
-    for (const SmallPart& part : job.parts) {
+    for (const BakePart& part : job.parts) {
         const std::size_t sets = part.source->uvs.size();
         const bool colors = !part.source->colors.empty();
         const std::size_t width = 2 * sets + (colors ? 4 : 0), corners = 3 * part.faces();
-        const CornerAttributes& from = part.small->mesh.attributes;
+        const CornerAttributes& from = part.simplified->mesh.attributes;
         if (from.values.size() != corners * width) {
             throw InputError(
                 "", part_title(job.source, part.index),
-                "its small mesh does not carry UVs and colours; simplify_parts() with Bake::keep");
+                "its simplified mesh does not carry UVs and colours; simplify_parts() with Bake::keep");
         }
         CornerLayers layers{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {
-            poll();
+            check_cancelled();
             const float* values = from.values.data() + c * width;
             for (std::size_t s = 0; s < sets; ++s)
                 layers.uvs[s].push_back({values[2 * s], values[2 * s + 1]});
@@ -137,7 +137,7 @@ void bake_none(BakeJob& job) {
     for (std::size_t m = 0; m < job.source.materials.size(); ++m) {
         job.result.asset.materials.push_back(without_textures(job, static_cast<Index>(m), false));
     }
-    for (const SmallPart& part : job.parts) {
+    for (const BakePart& part : job.parts) {
         if (!part.source->colors.empty())
             job.warn(part_title(job.source, part.index) + ": vertex colours left out");
         finish_part(job, part, {job.normals[part.index].normals, {}, {}}, kept_materials(part));

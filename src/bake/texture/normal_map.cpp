@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "bake/transfer/vector_conversion.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "bake/transfer/tangents.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -15,7 +15,7 @@ using engine::to_eigen;
 using engine::Vector3;
 
 // Below this mean angle, degrees, a normal map from geometry shows less than its bytes are worth.
-constexpr double least_deviation = 5;
+constexpr double min_deviation = 5;
 
 struct Deviation {
     double sum = 0, area = 0;
@@ -23,10 +23,10 @@ struct Deviation {
 
 Deviation face_deviation(const BakeJob& job, const PageFace& at) {
     constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
-    const SmallPart& part = job.parts[at.part];
-    const TriangleMesh& mesh = part.small->mesh;
+    const BakePart& part = job.parts[at.part];
+    const TriangleMesh& mesh = part.simplified->mesh;
     const Triangle& t = mesh.triangles[at.face];
-    const Vector3 side = face_side(part, job.normals[at.part], at.face);
+    const Vector3 face_normal = oriented_face_normal(part, job.normals[at.part], at.face);
     const Vector3 twice = engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
                                               to_eigen(mesh.positions[t[2]]));
     const std::vector<Vec3f>& normals = job.normals[at.part].normals;
@@ -35,8 +35,8 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
          {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
         Vector3 own = Vector3::Zero();
         for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * at.face + i]);
-        Vector3 other = smooth_normal(*part.source, part.map->map(at.face, w));
-        if (other.dot(side) < 0) other = -other;
+        Vector3 other = interpolated_normal(*part.source, part.map->map(at.face, w));
+        if (other.dot(face_normal) < 0) other = -other;
         sum += std::atan2(own.cross(other).norm(), own.dot(other));
     }
     const double area = twice.norm();
@@ -47,12 +47,13 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
 
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end, Poll poll) {
-        for (std::size_t i = begin; i < end; ++i) {
-            poll(4 * operations_of_map);
-            each[i] = face_deviation(job, faces[i]);
-        }
-    });
+    parallel_blocks(faces.size(), 256, job.workers(),
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        for (std::size_t i = begin; i < end; ++i) {
+                            check_cancelled(4 * map_query_cost);
+                            each[i] = face_deviation(job, faces[i]);
+                        }
+                    });
     Deviation all;
     for (const Deviation& d : each) {
         all.sum += d.sum;
@@ -68,23 +69,24 @@ bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<
     const bool has_one = std::any_of(group.materials.begin(), group.materials.end(), [&](Index m) {
         return bool(material_or_default(job.source, m).normal_texture);
     });
-    return has_one || normal_deviation(job, faces) > least_deviation;
+    return has_one || normal_deviation(job, faces) > min_deviation;
 }
 
-void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, Poll poll, std::vector<Vec4f>& tangents) {
-    const TriangleMesh& mesh = part.small->mesh;
+void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
+                  std::span<const Vec2f> uvs, CancellationCheck check_cancelled,
+                  std::vector<Vec4f>& tangents) {
+    const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
     for (const Index f : faces) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t c = std::size_t{3} * f + i;
             corners.push_back(
-                {to_float(to_eigen(mesh.positions[mesh.triangles[f][i]])), normals.normals[c], uvs[c]});
+                {to_vec3f(to_eigen(mesh.positions[mesh.triangles[f][i]])), normals.normals[c], uvs[c]});
         }
     }
     tangents.resize(3 * part.faces(), Vec4f{});
-    const std::vector<Vec4f> made = mikk_tangents(corners, poll);
+    const std::vector<Vec4f> made = mikk_tangents(corners, check_cancelled);
     for (std::size_t i = 0; i < made.size(); ++i) {
         tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
     }

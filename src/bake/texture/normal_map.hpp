@@ -15,14 +15,15 @@ namespace faqem::detail {
 bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<const PageFace> faces);
 
 /// How much the normals that the original is lit with, its normal maps left aside, differ from those of the
-/// small mesh: mean angle in degrees over the faces by area, at four places of each. O(faces)
+/// simplified mesh: mean angle in degrees over the faces by area, at four places of each. O(faces)
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces);
 
-/// Gives the corners of some faces of a small mesh tangents (MikkTSpace).
-/// \param faces     of the small mesh; they have one material
-/// \param uvs       by corner of the small mesh
-/// \param tangents  by corner of the small mesh; made so long if it is empty
-void set_tangents(const SmallPart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, Poll poll, std::vector<Vec4f>& tangents);
+/// Gives the corners of some faces of a simplified mesh tangents (MikkTSpace).
+/// \param faces     of the simplified mesh; they have one material
+/// \param uvs       by corner of the simplified mesh
+/// \param tangents  by corner of the simplified mesh; made so long if it is empty
+void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
+                  std::span<const Vec2f> uvs, CancellationCheck check_cancelled,
+                  std::vector<Vec4f>& tangents);
 
 }  // namespace faqem::detail

@@ -15,30 +15,30 @@ namespace {
 using engine::Vector3;
 
 // Below this a texel's colour is that of texels around it.
-constexpr float clear = 1.0f / 512;
+constexpr float min_visible_alpha = 1.0f / 512;
 
 constexpr std::size_t texels_per_poll = 4096;
 
-Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, Poll poll) {
+Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, CancellationCheck check_cancelled) {
     if (!wanted) return {};
-    poll.now();
+    check_cancelled.now();
     const std::size_t texels = std::size_t{atlas.width} * atlas.height;
     return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * texels, 255), has_alpha};
 }
 
 // Sums of samples.
-struct Texel {
-    explicit Texel(std::size_t layer_count) : layers(layer_count) {}
+struct TexelSums {
+    explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
 
-    Linear base{};
+    LinearColor base{};
     std::array<float, 3> orm{};
     Vec3f emissive{};
     Vector3 normal = Vector3::Zero();  // in tangent space
-    std::vector<Linear> layers;        // of the page's own material; normals in tangent space in RGB
+    std::vector<LinearColor> layers;   // of the page's own material; normals in tangent space in RGB
     std::uint32_t layer_samples = 0;
     std::array<std::uint8_t, 3> steps{};  // samples by MapStep
     TexelOrigin origin;                   // of the sample next to the middle
-    double off_middle = std::numeric_limits<double>::infinity();
+    double distance_to_center = std::numeric_limits<double>::infinity();
 
     void add(const Appearance& a, float share) {
         for (std::size_t k = 0; k < 4; ++k) base[k] += share * a.base[k];
@@ -48,7 +48,7 @@ struct Texel {
         for (std::size_t k = 0; k < 3; ++k) emissive[k] += share * a.emissive[k];
     }
 
-    void add_layer(std::size_t layer, const Linear& value) {
+    void add_layer(std::size_t layer, const LinearColor& value) {
         for (std::size_t k = 0; k < 4; ++k) layers[layer][k] += value[k];
     }
 };
@@ -60,61 +60,61 @@ void write_normal(const Vector3& sum, std::uint8_t* to) {
     for (Eigen::Index k = 0; k < 3; ++k) to[k] = linear_byte((n[k] + 1) / 2);
 }
 
-class Page {
+class PageBaker {
 public:
-    Page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request)
-        : job_(job), surface_(surface), request_(request), samples_(job.options.bake.samples) {
+    PageBaker(const BakeJob& job, const SourceSampler& sampler, const PageRequest& request)
+        : job_(job), sampler_(sampler), request_(request), samples_(job.options.bake.samples) {
         const Atlas& atlas = request.atlas;
         const Channels& channels = request.channels;
-        const Poll poll = job.poll();
-        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque, poll);
+        const CancellationCheck check_cancelled = job.cancellation_check();
+        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque, check_cancelled);
         images_.occlusion_roughness_metallic =
-            blank(atlas, channels.occlusion || channels.metallic_roughness, false, poll);
-        images_.emissive = blank(atlas, channels.emissive, false, poll);
-        images_.normal = blank(atlas, channels.normal, false, poll);
+            blank(atlas, channels.occlusion || channels.metallic_roughness, false, check_cancelled);
+        images_.emissive = blank(atlas, channels.emissive, false, check_cancelled);
+        images_.normal = blank(atlas, channels.normal, false, check_cancelled);
         for (const ExtensionLayer& layer : request.layers)
-            images_.layers.push_back(blank(atlas, true, layer.has_alpha(), poll));
-        known_.assign(std::size_t{atlas.width} * atlas.height, 0);
-        relaxed_.assign(known_.size(), 0);
-        closest_.assign(known_.size(), 0);
-        if (job.options.bake.correspondence == Recording::on) images_.origins.resize(known_.size());
-        if (images_.base.has_alpha) opaque_.assign(known_.size(), 0);
-        if (!request.layers.empty()) own_.assign(known_.size(), 0);
+            images_.layers.push_back(blank(atlas, true, layer.has_alpha(), check_cancelled));
+        is_covered_.assign(std::size_t{atlas.width} * atlas.height, 0);
+        approximate_samples_.assign(is_covered_.size(), 0);
+        closest_samples_.assign(is_covered_.size(), 0);
+        if (job.options.bake.correspondence == Recording::on) images_.origins.resize(is_covered_.size());
+        if (images_.base.has_alpha) has_color_.assign(is_covered_.size(), 0);
+        if (!request.layers.empty()) has_layer_samples_.assign(is_covered_.size(), 0);
     }
 
-    void bake(const AtlasCell& cell, Poll poll) {
-        Painter first = painter(cell.first);
+    void bake(const AtlasCell& cell, CancellationCheck check_cancelled) {
+        TexelProjector first = projector(cell.first);
         if (cell.second == no_index) {
-            bake_texels(cell, poll, [&](double, double) -> Painter& { return first; });
+            bake_texels(cell, check_cancelled, [&](double, double) -> TexelProjector& { return first; });
             return;
         }
         // The two face each other with their hypotenuses and have the same legs: the weights of their right
         // corners tell which one is nearer.
-        Painter second = painter(cell.second);
-        bake_texels(cell, poll, [&](double x, double y) -> Painter& {
-            return second.right_weight(x, y) > first.right_weight(x, y) ? second : first;
+        TexelProjector second = projector(cell.second);
+        bake_texels(cell, check_cancelled, [&](double x, double y) -> TexelProjector& {
+            return second.right_angle_weight(x, y) > first.right_angle_weight(x, y) ? second : first;
         });
     }
 
-    void bake(const ChartTile& tile, Poll poll) {
+    void bake(const ChartTile& tile, CancellationCheck check_cancelled) {
         const TileOwners owned =
-            tile_owners(request_.atlas, request_.charts[tile.chart], request_.across, tile, samples_);
-        std::vector<Painter> painters;
-        painters.reserve(owned.triangles.size());
-        for (Index t : owned.triangles) painters.push_back(painter(t));
+            tile_owners(request_.atlas, request_.charts[tile.chart], request_.adjacent, tile, samples_);
+        std::vector<TexelProjector> projectors;
+        projectors.reserve(owned.triangles.size());
+        for (Index t : owned.triangles) projectors.push_back(projector(t));
         for (std::uint32_t y = 0; y < tile.height; ++y) {
             for (std::uint32_t x = 0; x < tile.width; ++x) {
                 const std::size_t first = (std::size_t{y} * tile.width * samples_ + x) * samples_;
                 if (owned.owners[first] == TileOwners::none) continue;
-                poll(std::uint64_t{samples_} * samples_);
-                Texel sum(request_.layers.size());
+                check_cancelled(std::uint64_t{samples_} * samples_);
+                TexelSums sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
                         const double s = (i + 0.5) / samples_, t = (j + 0.5) / samples_;
-                        Painter& painter =
-                            painters[owned.owners[first + std::size_t{j} * tile.width * samples_ + i]];
-                        add_sample(sum, painter, tile.x + x, tile.y + y,
-                                   painter.point(tile.x + x, tile.y + y, s, t));
+                        TexelProjector& projector =
+                            projectors[owned.owners[first + std::size_t{j} * tile.width * samples_ + i]];
+                        add_sample(sum, projector, tile.x + x, tile.y + y,
+                                   projector.point(tile.x + x, tile.y + y, s, t));
                     }
                 }
                 write(tile.x + x, tile.y + y, sum);
@@ -128,38 +128,41 @@ public:
             Pixels& image;
             const std::vector<std::uint8_t>&known, &known_alpha;
         };
-        std::vector<Filled> all = {{images_.base, images_.base.has_alpha ? opaque_ : known_, known_},
-                                   {images_.occlusion_roughness_metallic, known_, known_},
-                                   {images_.emissive, known_, known_},
-                                   {images_.normal, known_, known_}};
-        for (Pixels& layer : images_.layers) all.push_back({layer, own_, own_});
-        parallel_blocks(all.size(), 1, job_.workers(), [&](std::size_t i, std::size_t, Poll poll) {
-            auto& [image, known, known_alpha] = all[i];
-            if (image.rgba.empty()) return;
-            push_pull(image, known, {0, 3}, poll);
-            if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, poll);
-        });
+        std::vector<Filled> all = {
+            {images_.base, images_.base.has_alpha ? has_color_ : is_covered_, is_covered_},
+            {images_.occlusion_roughness_metallic, is_covered_, is_covered_},
+            {images_.emissive, is_covered_, is_covered_},
+            {images_.normal, is_covered_, is_covered_}};
+        for (Pixels& layer : images_.layers) all.push_back({layer, has_layer_samples_, has_layer_samples_});
+        parallel_blocks(all.size(), 1, job_.workers(),
+                        [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+                            auto& [image, known, known_alpha] = all[i];
+                            if (image.rgba.empty()) return;
+                            push_pull(image, known, {0, 3}, check_cancelled);
+                            if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, check_cancelled);
+                        });
         return std::move(images_);
     }
 
 private:
-    Painter painter(Index triangle) const {
+    TexelProjector projector(Index triangle) const {
         return {
-            job_, {request_.atlas, request_.across, request_.faces, request_.tangents}, triangle, samples_};
+            job_, {request_.atlas, request_.adjacent, request_.faces, request_.tangents}, triangle, samples_};
     }
 
     // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
     template <class Choose>
-    void bake_texels(const AtlasCell& cell, Poll poll, Choose&& choose) {
+    void bake_texels(const AtlasCell& cell, CancellationCheck check_cancelled, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
             for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-                poll(std::uint64_t{samples_} * samples_);
-                Texel sum(request_.layers.size());
+                check_cancelled(std::uint64_t{samples_} * samples_);
+                TexelSums sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
                         const double s = (i + 0.5) / samples_, t = (j + 0.5) / samples_;
-                        Painter& painter = cell.joined ? choose(x + s, y + t) : choose(x + 0.5, y + 0.5);
-                        add_sample(sum, painter, x, y, painter.point(x, y, s, t));
+                        TexelProjector& projector =
+                            cell.has_shared_hypotenuse ? choose(x + s, y + t) : choose(x + 0.5, y + 0.5);
+                        add_sample(sum, projector, x, y, projector.point(x, y, s, t));
                     }
                 }
                 write(x, y, sum);
@@ -167,55 +170,58 @@ private:
         }
     }
 
-    void add_sample(Texel& sum, Painter& painter, std::uint32_t x, std::uint32_t y,
-                    const SmallPoint& at) const {
-        const SurfacePoint point = painter.on_original(at, x, y);
+    void add_sample(TexelSums& sum, TexelProjector& projector, std::uint32_t x, std::uint32_t y,
+                    const TexelSample& at) const {
+        const SurfacePoint point = projector.project_to_source(at, x, y);
         ++sum.steps[static_cast<std::size_t>(point.step)];
-        sum.add(surface_.sample(painter.part(), point, painter.spacing()),
+        sum.add(sampler_.sample(projector.part(), point, projector.spacing()),
                 1.0f / static_cast<float>(samples_ * samples_));
-        const double off_middle = std::hypot(at.x - x - 0.5, at.y - y - 0.5);
-        if (off_middle < sum.off_middle) {
-            sum.off_middle = off_middle;
-            sum.origin = {painter.part(), point};
+        const double distance_to_center = std::hypot(at.x - x - 0.5, at.y - y - 0.5);
+        if (distance_to_center < sum.distance_to_center) {
+            sum.distance_to_center = distance_to_center;
+            sum.origin = {projector.part(), point};
         }
         if (request_.channels.normal) {
-            sum.normal += painter.in_tangent_space(
-                at, surface_.normal(painter.part(), point, painter.spacing(), painter.side(at)));
+            sum.normal += projector.to_tangent_space(
+                at, sampler_.normal(projector.part(), point, projector.spacing(), projector.face_normal(at)));
         }
-        add_layers(sum, painter, at, point);
+        add_layers(sum, projector, at, point);
     }
 
     // What a neighbour of another material shows has nothing to do with this one's extensions.
-    void add_layers(Texel& sum, const Painter& painter, const SmallPoint& at,
+    void add_layers(TexelSums& sum, const TexelProjector& projector, const TexelSample& at,
                     const SurfacePoint& point) const {
-        if (request_.layers.empty() || surface_.material(painter.part(), point) != request_.material) return;
+        if (request_.layers.empty() || sampler_.material(projector.part(), point) != request_.material)
+            return;
         ++sum.layer_samples;
-        const double spacing = painter.spacing();
+        const double spacing = projector.spacing();
         for (std::size_t i = 0; i < request_.layers.size(); ++i) {
             const ExtensionLayer& layer = request_.layers[i];
-            if (!layer.is_normal()) {
-                sum.add_layer(i, surface_.layer(painter.part(), point, spacing, layer));
+            if (!layer.is_normal_map()) {
+                sum.add_layer(i, sampler_.layer(projector.part(), point, spacing, layer));
                 continue;
             }
-            const Vector3 normal = painter.in_tangent_space(
-                at, surface_.layer_normal(painter.part(), point, spacing, painter.side(at), layer));
+            const Vector3 normal = projector.to_tangent_space(
+                at,
+                sampler_.layer_normal(projector.part(), point, spacing, projector.face_normal(at), layer));
             sum.add_layer(i, {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
                               static_cast<float>(normal.z()), 0});
         }
     }
 
-    void write(std::uint32_t x, std::uint32_t y, const Texel& texel) {
+    void write(std::uint32_t x, std::uint32_t y, const TexelSums& texel) {
         const std::size_t at = std::size_t{y} * request_.atlas.width + x;
-        known_[at] = 1;
-        relaxed_[at] = texel.steps[static_cast<std::size_t>(MapStep::relaxed)];
-        closest_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
+        is_covered_[at] = 1;
+        approximate_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::approximate)];
+        closest_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
         if (!images_.origins.empty()) images_.origins[at] = texel.origin;
         if (request_.channels.base) {
             const float alpha = texel.base[3];
             std::uint8_t* p = &images_.base.rgba[4 * at];
-            for (std::size_t k = 0; k < 3; ++k) p[k] = alpha > clear ? srgb_byte(texel.base[k] / alpha) : 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                p[k] = alpha > min_visible_alpha ? srgb_byte(texel.base[k] / alpha) : 0;
             p[3] = linear_byte(alpha);
-            if (!opaque_.empty()) opaque_[at] = alpha > clear;
+            if (!has_color_.empty()) has_color_[at] = alpha > min_visible_alpha;
         }
         if (!images_.occlusion_roughness_metallic.rgba.empty()) {
             std::uint8_t* p = &images_.occlusion_roughness_metallic.rgba[4 * at];
@@ -227,54 +233,58 @@ private:
         }
         if (request_.channels.normal) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
         if (texel.layer_samples == 0) return;
-        own_[at] = 1;
+        has_layer_samples_[at] = 1;
         for (std::size_t i = 0; i < request_.layers.size(); ++i)
             write_layer(request_.layers[i], texel.layers[i], 1.0f / static_cast<float>(texel.layer_samples),
                         &images_.layers[i].rgba[4 * at]);
     }
 
-    static void write_layer(const ExtensionLayer& layer, const Linear& sum, float share, std::uint8_t* to) {
-        if (layer.is_normal()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
-        const bool is_colour = layer.encoding() == Encoding::colour_and_number;
-        for (std::size_t k = 0; k < 3 && layer.has_colour(); ++k)
-            to[k] = is_colour ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
+    static void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share,
+                            std::uint8_t* to) {
+        if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
+        const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
+        for (std::size_t k = 0; k < 3 && layer.has_color(); ++k)
+            to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
         if (layer.has_alpha()) to[3] = linear_byte(sum[3] * share);
     }
 
     void count_samples() {
-        const Poll poll = job_.poll();
-        auto& [history, relaxed, closest] = images_.samples;
-        for (std::size_t i = 0; i < known_.size(); ++i) {
-            if (i % texels_per_poll == 0) poll(texels_per_poll / 16);
-            images_.texels += known_[i];
-            history += known_[i] * (std::uint64_t{samples_} * samples_ - relaxed_[i] - closest_[i]);
-            relaxed += relaxed_[i];
-            closest += closest_[i];
-            images_.uncertain_texels += relaxed_[i] + closest_[i] > 0;
+        const CancellationCheck check_cancelled = job_.cancellation_check();
+        auto& [history, approximate, closest] = images_.samples;
+        for (std::size_t i = 0; i < is_covered_.size(); ++i) {
+            if (i % texels_per_poll == 0) check_cancelled(texels_per_poll / 16);
+            images_.texels += is_covered_[i];
+            history += is_covered_[i] *
+                       (std::uint64_t{samples_} * samples_ - approximate_samples_[i] - closest_samples_[i]);
+            approximate += approximate_samples_[i];
+            closest += closest_samples_[i];
+            images_.uncertain_texels += approximate_samples_[i] + closest_samples_[i] > 0;
         }
     }
 
     const BakeJob& job_;
-    const SourceSurface& surface_;
+    const SourceSampler& sampler_;
     const PageRequest& request_;
     std::uint32_t samples_;
     PageImages images_;
-    std::vector<std::uint8_t> relaxed_, closest_;  // samples of each texel that were found so
-    std::vector<std::uint8_t> known_;              // texels in cells
-    std::vector<std::uint8_t> opaque_;             // those with a colour
-    std::vector<std::uint8_t> own_;                // those with samples of the page's own material
+    std::vector<std::uint8_t> approximate_samples_,
+        closest_samples_;                          // samples of each texel that were found so
+    std::vector<std::uint8_t> is_covered_;         // texels in cells
+    std::vector<std::uint8_t> has_color_;          // those with a colour
+    std::vector<std::uint8_t> has_layer_samples_;  // those with samples of the page's own material
 };
 
 }  // namespace
 
-PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,
+PageImages bake_page(const BakeJob& job, const SourceSampler& sampler, const PageRequest& request,
                      double done, double total) {
-    Page page(job, surface, request);
+    PageBaker page(job, sampler, request);
     const auto bake_all = [&](const auto& pieces, std::size_t block) {
-        polled_blocks(job, Phase::bake, pieces.size(), block, done, total,
-                      [&](std::size_t begin, std::size_t end, Poll poll) {
-                          for (std::size_t i = begin; i < end; ++i) page.bake(pieces[i], poll);
-                      });
+        parallel_blocks_with_progress(
+            job, Phase::bake, pieces.size(), block, done, total,
+            [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                for (std::size_t i = begin; i < end; ++i) page.bake(pieces[i], check_cancelled);
+            });
         done += static_cast<double>(pieces.size());
     };
     bake_all(request.atlas.cells, 4);

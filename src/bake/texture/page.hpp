@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/transfer/extension_layers.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_atlas.hpp"
+#include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/source_surface.hpp"
 
 namespace faqem::detail {
@@ -16,9 +16,9 @@ namespace faqem::detail {
 struct PageRequest {
     const Atlas& atlas;
     std::span<const AtlasChart> charts;
-    std::span<const ChartTile> tiles;               ///< of the charts
-    std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
-    std::span<const PageFace> faces;                ///< by triangle of the atlas
+    std::span<const ChartTile> tiles;                           ///< of the charts
+    std::span<const std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle of the atlas
+    std::span<const PageFace> faces;                            ///< by triangle of the atlas
     /// By part and corner, as they are written; needed for normal maps.
     std::span<const std::vector<Vec4f>> tangents;
     Channels channels;
@@ -40,12 +40,12 @@ struct PageImages {
 /// Averages options.bake.samples^2 samples per texel, in linear light and premultiplied, encodes once, and
 /// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
 /// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
-/// triangle's closest point where there is none. Normals are averaged in the tangent space of the small mesh;
+/// triangle's closest point where there is none. Normals are averaged in the tangent space of the simplified mesh;
 /// texels outside a triangle use that of its closest point. Cells and tiles are independent of each other, so
 /// the result does not depend on the number of threads.
 /// \param done, total  cells and tiles, for the progress
 /// \throws Cancelled
-PageImages bake_page(const BakeJob& job, const SourceSurface& surface, const PageRequest& request,
+PageImages bake_page(const BakeJob& job, const SourceSampler& sampler, const PageRequest& request,
                      double done, double total);
 
 }  // namespace faqem::detail

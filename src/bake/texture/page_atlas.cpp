@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "bake/atlas/charts.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/detail/base/morton.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -16,15 +16,15 @@ using engine::to_eigen;
 using engine::Vector3;
 
 // Charts of fewer faces have more gutter than cells of pairs do.
-constexpr std::size_t few_faces = 3;
+constexpr std::size_t min_mean_faces_per_chart = 3;
 
-// Source texels per length at a small face, root mean square over four places.
-double density_at(const SmallPart& part, const SourceSurface& surface, Index face) {
+// Source texels per length at a simplified face, root mean square over four places.
+double density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
     constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
     double sum = 0;
     for (const Vec3& w :
          {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
-        const double d = surface.texel_density(part.index, part.map->map(face, w).face);
+        const double d = sampler.texel_density(part.index, part.map->map(face, w).face);
         sum += d * d;
     }
     return std::sqrt(sum / 4);
@@ -44,7 +44,7 @@ void clamp_densities(const BakeJob& job, std::span<const PageFace> faces, std::v
         std::vector<Weighted> sorted;
         double total = 0;
         for (end = begin; end < faces.size() && faces[end].part == faces[begin].part; ++end) {
-            const auto p = corners_of(job.parts[faces[end].part].small->mesh, faces[end].face);
+            const auto p = corners_of(job.parts[faces[end].part].simplified->mesh, faces[end].face);
             sorted.push_back({density[end], engine::area_vector(p[0], p[1], p[2]).norm()});
             total += sorted.back().area;
         }
@@ -61,18 +61,18 @@ void clamp_densities(const BakeJob& job, std::span<const PageFace> faces, std::v
 }
 
 // Along a Morton curve over the box of its part, part by part.
-std::vector<std::uint64_t> spatial_orders(const BakeJob& job, std::span<const PageFace> faces) {
+std::vector<std::uint64_t> morton_codes(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<std::uint64_t> result(faces.size());
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-        const SmallPart& part = job.parts[faces[begin].part];
+        const BakePart& part = job.parts[faces[begin].part];
         Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-        for (const Vec3& p : part.small->mesh.positions) {
+        for (const Vec3& p : part.simplified->mesh.positions) {
             low = low.cwiseMin(to_eigen(p));
             high = high.cwiseMax(to_eigen(p));
         }
         const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
         for (end = begin; end < faces.size() && faces[end].part == faces[begin].part; ++end) {
-            const auto p = corners_of(part.small->mesh, faces[end].face);
+            const auto p = corners_of(part.simplified->mesh, faces[end].face);
             const Vector3 middle = (p[0] + p[1] + p[2]) / 3;
             result[end] = (std::uint64_t{part.index & 0xffff} << 48) | morton<16>((middle - low) / size);
         }
@@ -86,41 +86,42 @@ std::uint8_t opposite_longest_edge(const PairTriangle& triangle) {
 }
 
 // Half an edge: a side of one face.
-struct HalfEdge {
+struct FaceEdge {
     Index part, low, high;  // vertices
     std::uint64_t corner;   // 3 * triangle + the corner opposite
     bool up;                // runs from low to high
 
-    bool same_edge(const HalfEdge& o) const { return part == o.part && low == o.low && high == o.high; }
+    bool same_edge(const FaceEdge& o) const { return part == o.part && low == o.low && high == o.high; }
 };
 
 }  // namespace
 
-std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<const PageFace> faces) {
-    const Poll poll = job.poll();
-    std::vector<HalfEdge> edges;
+std::vector<std::array<AdjacentTriangle, 3>> face_adjacency(const BakeJob& job,
+                                                            std::span<const PageFace> faces) {
+    const CancellationCheck check_cancelled = job.cancellation_check();
+    std::vector<FaceEdge> edges;
     edges.reserve(3 * faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        poll();
-        const Triangle& t = job.parts[faces[i].part].small->mesh.triangles[faces[i].face];
+        check_cancelled();
+        const Triangle& t = job.parts[faces[i].part].simplified->mesh.triangles[faces[i].face];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
             edges.push_back({faces[i].part, std::min(a, b), std::max(a, b), 3 * i + c, a < b});
         }
     }
-    std::sort(edges.begin(), edges.end(), [poll](const HalfEdge& a, const HalfEdge& b) {
-        poll();
+    std::sort(edges.begin(), edges.end(), [check_cancelled](const FaceEdge& a, const FaceEdge& b) {
+        check_cancelled();
         if (a.part != b.part) return a.part < b.part;
         if (a.low != b.low) return a.low < b.low;
         return a.high != b.high ? a.high < b.high : a.corner < b.corner;
     });
-    std::vector<std::array<Across, 3>> result(faces.size());
+    std::vector<std::array<AdjacentTriangle, 3>> result(faces.size());
     const auto set = [&](std::uint64_t at, std::uint64_t other) {
         result[at / 3][at % 3] = {static_cast<Index>(other / 3), static_cast<std::uint8_t>(other % 3)};
     };
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
         for (end = begin + 1; end < edges.size() && edges[end].same_edge(edges[begin]);) ++end;
-        const HalfEdge &a = edges[begin], &b = edges[end - 1];
+        const FaceEdge &a = edges[begin], &b = edges[end - 1];
         if (end - begin != 2 || a.up == b.up || a.corner / 3 == b.corner / 3) continue;
         set(a.corner, b.corner);
         set(b.corner, a.corner);
@@ -130,11 +131,11 @@ std::vector<std::array<Across, 3>> neighbours(const BakeJob& job, std::span<cons
 
 namespace {
 
-double wanted_texels(const BakeJob& job, std::span<const PageFace> faces,
-                     const std::vector<double>& density) {
+double total_wanted_texels(const BakeJob& job, std::span<const PageFace> faces,
+                           const std::vector<double>& density) {
     double sum = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const auto p = corners_of(job.parts[faces[i].part].small->mesh, faces[i].face);
+        const auto p = corners_of(job.parts[faces[i].part].simplified->mesh, faces[i].face);
         const double area = engine::area_vector(p[0], p[1], p[2]).norm() / 2;
         if (std::isfinite(area)) sum += area * density[i] * density[i];
     }
@@ -142,51 +143,54 @@ double wanted_texels(const BakeJob& job, std::span<const PageFace> faces,
 }
 
 // Pages below this get up to twice the texels.
-constexpr double small_page = 1 << 18;
+constexpr double small_page_texels = 1 << 18;
 
 double small_page_factor(double texels) {
-    return std::clamp(std::sqrt(small_page / texels), 1.0, std::numbers::sqrt2);
+    return std::clamp(std::sqrt(small_page_texels / texels), 1.0, std::numbers::sqrt2);
 }
 
 // By face.
-std::vector<double> wanted_densities(const BakeJob& job, const SourceSurface& surface,
+std::vector<double> wanted_densities(const BakeJob& job, const SourceSampler& sampler,
                                      std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end, Poll poll) {
-        for (std::size_t i = begin; i < end; ++i) {
-            poll(4 * operations_of_map);
-            density[i] = density_at(job.parts[faces[i].part], surface, faces[i].face);
-        }
-    });
+    parallel_blocks(faces.size(), 256, job.workers(),
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        for (std::size_t i = begin; i < end; ++i) {
+                            check_cancelled(4 * map_query_cost);
+                            density[i] = density_at(job.parts[faces[i].part], sampler, faces[i].face);
+                        }
+                    });
     clamp_densities(job, faces, density);
     const double factor = job.options.bake.texel_density
                               ? *job.options.bake.texel_density
-                              : small_page_factor(wanted_texels(job, faces, density));
+                              : small_page_factor(total_wanted_texels(job, faces, density));
     for (double& d : density) d *= factor;
     return density;
 }
 
-bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
-                       const std::vector<double>& density, PageAtlas& result) {
+bool layout_triangles(const BakeJob& job, std::span<const PageFace> faces, const std::vector<double>& density,
+                      PageAtlas& result) {
     std::vector<PairTriangle> shapes(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const auto p = corners_of(job.parts[faces[i].part].small->mesh, faces[i].face);
+        const auto p = corners_of(job.parts[faces[i].part].simplified->mesh, faces[i].face);
         for (std::size_t c = 0; c < 3; ++c) {
             shapes[i].edges[c] = density[i] * (p[(c + 1) % 3] - p[(c + 2) % 3]).norm();
         }
-        shapes[i].across = result.across[i];
+        shapes[i].adjacent = result.adjacent[i];
     }
-    const std::vector<std::uint8_t> corner = pair_triangles(shapes, job.poll());
-    const std::vector<std::uint64_t> orders = spatial_orders(job, faces);
+    const std::vector<std::uint8_t> corner = pair_triangles(shapes, job.cancellation_check());
+    const std::vector<std::uint64_t> orders = morton_codes(job, faces);
     std::vector<AtlasTriangle> triangles(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         AtlasTriangle& t = triangles[i];
-        t.right = corner[i] < 3 ? corner[i] : opposite_longest_edge(shapes[i]);
-        t.legs = {shapes[i].edges[(t.right + 2) % 3], shapes[i].edges[(t.right + 1) % 3]};
+        t.right_angle_corner = corner[i] < 3 ? corner[i] : opposite_longest_edge(shapes[i]);
+        t.legs = {shapes[i].edges[(t.right_angle_corner + 2) % 3],
+                  shapes[i].edges[(t.right_angle_corner + 1) % 3]};
         t.order = orders[i];
-        if (corner[i] < 3) t.partner = shapes[i].across[corner[i]].triangle;
+        if (corner[i] < 3) t.partner = shapes[i].adjacent[corner[i]].triangle;
     }
-    std::optional<Atlas> atlas = pack_triangles(triangles, job.options.bake.texture_size, job.poll());
+    std::optional<Atlas> atlas =
+        pack_triangles(triangles, job.options.bake.texture_size, job.cancellation_check());
     if (!atlas) return false;
     result.atlas = *std::move(atlas);
     result.summary.kind = Bake::per_triangle;
@@ -194,35 +198,36 @@ bool lay_out_triangles(const BakeJob& job, std::span<const PageFace> faces,
     return true;
 }
 
-bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const std::vector<double>& density,
-                    PageAtlas& result) {
+bool layout_charts(const BakeJob& job, std::span<const PageFace> faces, const std::vector<double>& density,
+                   PageAtlas& result) {
     std::vector<ChartFace> shapes(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const TriangleMesh& mesh = job.parts[faces[i].part].small->mesh;
+        const TriangleMesh& mesh = job.parts[faces[i].part].simplified->mesh;
         for (std::size_t c = 0; c < 3; ++c) {
             shapes[i].corners[c] = mesh.positions[mesh.triangles[faces[i].face][c]];
-            const Across& across = result.across[i][c];
+            const AdjacentTriangle& adjacent = result.adjacent[i][c];
             shapes[i].crease[c] =
-                across.triangle != no_index && is_crease(job.normals[faces[i].part], faces[i].face, c,
-                                                         faces[across.triangle].face, across.corner);
+                adjacent.triangle != no_index && is_crease(job.normals[faces[i].part], faces[i].face, c,
+                                                           faces[adjacent.triangle].face, adjacent.corner);
         }
         shapes[i].density = density[i];
-        shapes[i].across = result.across[i];
+        shapes[i].adjacent = result.adjacent[i];
     }
     Charts charts = make_charts(shapes, job.workers());
-    if (job.options.bake.kind == Bake::automatic && few_faces * charts.charts.size() > faces.size()) {
-        return lay_out_triangles(job, faces, density, result);
+    if (job.options.bake.kind == Bake::automatic &&
+        min_mean_faces_per_chart * charts.charts.size() > faces.size()) {
+        return layout_triangles(job, faces, density, result);
     }
     std::optional<ChartPage> page =
-        pack_charts(charts.charts, faces.size(), job.options.bake.texture_size, job.poll());
+        pack_charts(charts.charts, faces.size(), job.options.bake.texture_size, job.cancellation_check());
     if (!page) return false;
     result.atlas = std::move(page->atlas);
     result.charts = std::move(page->charts);
-    result.tiles = cut_tiles(result.charts);
+    result.tiles = split_into_tiles(result.charts);
     BakedPage& summary = result.summary;
     summary.kind = Bake::atlas;
     summary.charts = charts.charts.size();
-    summary.faces_alone = charts.given_up;
+    summary.faces_outside_charts = charts.faces_over_work_limit;
     double stretch = 0, texels = 0;
     for (const Chart& chart : charts.charts) {
         stretch += chart.stretch * chart.texels;
@@ -234,13 +239,13 @@ bool lay_out_charts(const BakeJob& job, std::span<const PageFace> faces, const s
 
 }  // namespace
 
-std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSurface& surface,
+std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSampler& sampler,
                                          std::span<const PageFace> faces) {
-    const std::vector<double> density = wanted_densities(job, surface, faces);
-    PageAtlas result{{}, {}, {}, neighbours(job, faces), {}};
+    const std::vector<double> density = wanted_densities(job, sampler, faces);
+    PageAtlas result{{}, {}, {}, face_adjacency(job, faces), {}};
     const bool fits = job.options.bake.kind == Bake::per_triangle
-                          ? lay_out_triangles(job, faces, density, result)
-                          : lay_out_charts(job, faces, density, result);
+                          ? layout_triangles(job, faces, density, result)
+                          : layout_charts(job, faces, density, result);
     if (!fits) return std::nullopt;
     BakedPage& summary = result.summary;
     summary.width = result.atlas.width;

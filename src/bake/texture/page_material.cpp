@@ -12,7 +12,7 @@
 namespace faqem::detail {
 namespace {
 
-using Slot = TextureRef Material::*;
+using TextureMember = TextureRef Material::*;
 
 // Adds images of one page to the result: first their places, then what is in them, side by side.
 class ImageWriter {
@@ -28,22 +28,22 @@ public:
         ref.image = static_cast<Index>(images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
         images.emplace_back();
-        waiting_.push_back({pixels, name_ + suffix, content, as_jpeg(pixels, from), ref.image});
+        pending_.push_back({pixels, name_ + suffix, content, should_use_jpeg(pixels, from), ref.image});
         return ref;
     }
 
     void write() const {
-        const auto encode = [&](std::size_t i, std::size_t, Poll poll) {
-            const auto& [pixels, name, content, is_jpeg, image] = waiting_[i];
+        const auto encode = [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+            const auto& [pixels, name, content, is_jpeg, image] = pending_[i];
             job_.result.asset.images[image] =
-                is_jpeg ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, poll)
-                        : encode_png(pixels, name, poll);
+                is_jpeg ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, check_cancelled)
+                        : encode_png(pixels, name, check_cancelled);
         };
-        parallel_blocks(waiting_.size(), 1, job_.workers(), encode);
+        parallel_blocks(pending_.size(), 1, job_.workers(), encode);
     }
 
 private:
-    struct Waiting {
+    struct PendingImage {
         const Pixels& pixels;
         std::string name;
         Content content;
@@ -51,7 +51,7 @@ private:
         Index image;
     };
 
-    bool as_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {
+    bool should_use_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {
         if (pixels.has_alpha) return false;
         switch (job_.options.bake.image_format) {
             case ImageFormat::png:
@@ -61,14 +61,14 @@ private:
             case ImageFormat::source:
                 break;
         }
-        return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& use) {
-            return job_.source.images[use.image].mime_type == "image/jpeg";
+        return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& texture_ref) {
+            return job_.source.images[texture_ref.image].mime_type == "image/jpeg";
         });
     }
 
     BakeJob& job_;
     std::string name_;
-    std::vector<Waiting> waiting_;
+    std::vector<PendingImage> pending_;
 };
 
 // "sheenColorTexture" -> "_sheenColor"
@@ -82,9 +82,10 @@ void add_layers(ImageWriter& writer, const Material& source, std::span<const Ext
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const ExtensionLayer& layer = layers[i];
         const Content content =
-            layer.encoding() == Encoding::colour_and_number ? Content::colour : Content::data;
-        const TextureRef ref = writer.add(
-            images[i], suffix_of(source.extension_textures[layer.textures.front()]), content, {layer.use});
+            layer.encoding() == TexelEncoding::color_and_data_alpha ? Content::color : Content::data;
+        const TextureRef ref =
+            writer.add(images[i], suffix_of(source.extension_textures[layer.textures.front()]), content,
+                       {layer.texture_ref});
         for (const Index t : layer.textures) {
             const ExtensionTexture& texture = source.extension_textures[t];
             result.extension_textures.push_back({texture.extension, texture.name, ref});
@@ -103,11 +104,12 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
     result.normal_scale = result.occlusion_strength = 1;
     result.extension_textures.clear();
     // Textures of the group that an image is baked from.
-    const auto uses = [&](std::initializer_list<Slot> slots) {
+    const auto uses = [&](std::initializer_list<TextureMember> slots) {
         std::vector<TextureRef> found;
         for (const Index m : group.materials) {
-            for (const Slot slot : slots) {
-                if (const TextureRef& use = material_or_default(job.source, m).*slot) found.push_back(use);
+            for (const TextureMember slot : slots) {
+                if (const TextureRef& texture_ref = material_or_default(job.source, m).*slot)
+                    found.push_back(texture_ref);
             }
         }
         return found;
@@ -118,7 +120,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
     if (channels.base) {
         result.base_color = {1, 1, 1, 1};
         result.base_color_texture =
-            writer.add(images.base, "_baseColor", Content::colour, uses({&Material::base_color_texture}));
+            writer.add(images.base, "_baseColor", Content::color, uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
         const TextureRef orm =
@@ -133,7 +135,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
     if (channels.emissive) {
         result.emissive = {1, 1, 1};
         result.emissive_texture =
-            writer.add(images.emissive, "_emissive", Content::colour, uses({&Material::emissive_texture}));
+            writer.add(images.emissive, "_emissive", Content::color, uses({&Material::emissive_texture}));
     }
     if (channels.normal) {
         result.normal_texture =

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <optional>
 
-#include "bake/transfer/extension_layers.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
 #include "bake/texture/page.hpp"
 #include "bake/texture/page_material.hpp"
+#include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
@@ -23,7 +23,7 @@ struct GroupPage {
     std::optional<PageAtlas> atlas;  // none where no image is needed
 };
 
-bool has_colors(const Part& part) {
+bool has_non_white_colors(const Part& part) {
     return std::any_of(part.colors.begin(), part.colors.end(), [](const Vec4f& c) {
         return c != Vec4f{1, 1, 1, 1};
     });
@@ -53,16 +53,16 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
         pages[g].channels = needed_channels(job.source, groups.groups[g]);
         std::vector<ExtensionLayer>& layers = pages[g].layers;
         layers = extension_layers(groups.groups[g].material);
-        const auto is_normal = [](const ExtensionLayer& layer) { return layer.is_normal(); };
-        if (job.options.bake.normal_map == NormalMap::off) std::erase_if(layers, is_normal);
+        const auto is_normal_map = [](const ExtensionLayer& layer) { return layer.is_normal_map(); };
+        if (job.options.bake.normal_map == NormalMap::off) std::erase_if(layers, is_normal_map);
         pages[g].channels.layers = !layers.empty();
-        pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal);
+        pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal_map);
     }
-    for (const SmallPart& part : job.parts) {
-        const bool colors = has_colors(*part.source);
-        const std::vector<Index>& kept = part.small->history.kept_faces;
+    for (const BakePart& part : job.parts) {
+        const bool colors = has_non_white_colors(*part.source);
+        const std::vector<Index>& kept = part.simplified->history.kept_faces;
         for (Index f = 0; f < part.faces(); ++f) {
-            GroupPage& page = pages[groups.of(face_material(*part.source, kept[f]))];
+            GroupPage& page = pages[groups.group_of(face_material(*part.source, kept[f]))];
             page.faces.push_back({part.index, f});
             page.channels.base = page.channels.base || colors;
         }
@@ -94,7 +94,7 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
             std::vector<Vec2f>& uvs = result[face.part];
             uvs.resize(3 * job.parts[face.part].faces(), Vec2f{0, 0});
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto& uv = atlas.places[i].uv[c];
+                const auto& uv = atlas.placements[i].uv[c];
                 uvs[std::size_t{3} * face.face + c] = {static_cast<float>(uv[0] / atlas.width),
                                                        static_cast<float>(uv[1] / atlas.height)};
             }
@@ -105,25 +105,27 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
 
 // Pages with a smaller share of the source's texels per length are told of: mostly a tiled texture that no page
 // could hold.
-constexpr double coarse_page = 0.2;
+constexpr double min_relative_density = 0.2;
 
-// Texels per length: of the page over the source's, both root mean squares over the small surface.
-double relative_density(const BakeJob& job, const SourceSurface& surface, const GroupPage& page) {
-    const Poll poll = job.poll();
+// Texels per length: of the page over the source's, both root mean squares over the simplified surface.
+double relative_density(const BakeJob& job, const SourceSampler& sampler, const GroupPage& page) {
+    const CancellationCheck check_cancelled = job.cancellation_check();
     double own = 0, wanted = 0;
     for (std::size_t i = 0; i < page.faces.size(); ++i) {
-        poll(operations_of_map);
+        check_cancelled(map_query_cost);
         const PageFace& at = page.faces[i];
-        const SmallPart& part = job.parts[at.part];
-        const Triangle& t = part.small->mesh.triangles[at.face];
-        const auto corner = [&](std::size_t k) { return engine::to_eigen(part.small->mesh.positions[t[k]]); };
-        const auto& uv = page.atlas->atlas.places[i].uv;
+        const BakePart& part = job.parts[at.part];
+        const Triangle& t = part.simplified->mesh.triangles[at.face];
+        const auto corner = [&](std::size_t k) {
+            return engine::to_eigen(part.simplified->mesh.positions[t[k]]);
+        };
+        const auto& uv = page.atlas->atlas.placements[i].uv;
         const double area = engine::area_vector(corner(0), corner(1), corner(2)).norm();
         const double texels = std::abs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
                                        (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
         constexpr double third = 1.0 / 3;
         const double density =
-            surface.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);
+            sampler.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);
         if (!std::isfinite(area * density * density)) continue;
         own += texels;
         wanted += area * density * density;
@@ -131,23 +133,24 @@ double relative_density(const BakeJob& job, const SourceSurface& surface, const 
     return wanted > 0 ? std::sqrt(own / wanted) : 0;
 }
 
-void add_to_report(BakeJob& job, const SourceSurface& surface, const GroupPage& page, PageImages& images) {
+void add_to_report(BakeJob& job, const SourceSampler& sampler, const GroupPage& page, PageImages& images) {
     const Atlas& atlas = page.atlas->atlas;
     const Index material = static_cast<Index>(job.result.asset.materials.size());
     BakedPage baked = page.atlas->summary;
     baked.material = material_or_default(job.source, page.material).name;
     baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
-    baked.density = relative_density(job, surface, page);
+    baked.density = relative_density(job, sampler, page);
     baked.samples = images.samples;
     baked.uncertain_texels = images.uncertain_texels;
-    if (baked.density > 0 && baked.density < coarse_page * job.options.bake.texel_density.value_or(1)) {
+    if (baked.density > 0 &&
+        baked.density < min_relative_density * job.options.bake.texel_density.value_or(1)) {
         const std::string side = std::to_string(std::lround(1 / baked.density));
         job.warn("atlas of " + material_title(job.source, page.material) + ": one texel for " + side + " x " +
                  side + " of the source's; texture_size is " + std::to_string(job.options.bake.texture_size));
     }
     job.result.report.pages.push_back(std::move(baked));
-    if (page.atlas->summary.faces_alone > 0) {
-        job.warn("atlas: " + std::to_string(page.atlas->summary.faces_alone) +
+    if (page.atlas->summary.faces_outside_charts > 0) {
+        job.warn("atlas: " + std::to_string(page.atlas->summary.faces_outside_charts) +
                  " faces lie alone: the bound on the work for their charts was reached");
     }
     if (job.options.bake.correspondence == Recording::on) {
@@ -160,14 +163,15 @@ std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::v
                                                 const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<std::vector<Vec4f>> result(job.parts.size());
     for (const GroupPage& page : pages) {
-        if (!page.atlas || !page.channels.tangents()) continue;
+        if (!page.atlas || !page.channels.needs_tangents()) continue;
         for (std::size_t begin = 0, end = 0; begin < page.faces.size(); begin = end) {
             const Index part = page.faces[begin].part;
             std::vector<Index> faces;
             for (; end < page.faces.size() && page.faces[end].part == part; ++end) {
                 faces.push_back(page.faces[end].face);
             }
-            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], job.poll(), result[part]);
+            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], job.cancellation_check(),
+                         result[part]);
         }
     }
     return result;
@@ -180,11 +184,11 @@ bool bake_pages(BakeJob& job) {
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;
-    const SourceSurface surface(job.source, wanted, job.workers());
+    const SourceSampler sampler(job.source, wanted, job.workers());
     double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;
-        page.atlas = make_page_atlas(job, surface, page.faces);
+        page.atlas = make_page_atlas(job, sampler, page.faces);
         if (!page.atlas) return false;
         pieces += static_cast<double>(page.atlas->pieces());
     }
@@ -199,25 +203,25 @@ bool bake_pages(BakeJob& job) {
         PageImages images;
         if (page.atlas) {
             images =
-                bake_page(job, surface,
-                          {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->across,
+                bake_page(job, sampler,
+                          {page.atlas->atlas, page.atlas->charts, page.atlas->tiles, page.atlas->adjacent,
                            page.faces, tangents, page.channels, first.alpha_mode, page.layers, page.material},
                           done, pieces);
             done += static_cast<double>(page.atlas->pieces());
         }
-        if (page.atlas) add_to_report(job, surface, page, images);
+        if (page.atlas) add_to_report(job, sampler, page, images);
         out.materials.push_back(page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{},
                                               page.layers, images));
     }
-    for (const SmallPart& part : job.parts) {
+    for (const BakePart& part : job.parts) {
         CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) layers.uvs.push_back(std::move(uvs[part.index]));
-        JoinedPart joined = join_corners(part, layers, job.poll());
-        transfer_skin_and_morphs(part, joined, job.poll());
-        for (Index f : part.small->history.kept_faces) {
-            joined.part.face_material.push_back(groups.of(face_material(*part.source, f)));
+        WeldedPart welded = weld_corners(part, layers, job.cancellation_check());
+        transfer_skin_and_morphs(part, welded, job.cancellation_check());
+        for (Index f : part.simplified->history.kept_faces) {
+            welded.part.face_material.push_back(groups.group_of(face_material(*part.source, f)));
         }
-        out.parts.push_back(std::move(joined.part));
+        out.parts.push_back(std::move(welded.part));
     }
     return true;
 }

@@ -7,19 +7,19 @@
 namespace faqem::detail {
 namespace {
 
-struct Level {
+struct PyramidLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba, known;
 };
 
-Level push(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba,
-           const std::vector<std::uint8_t>& known, engine::Poll poll) {
-    Level result{(width + 1) / 2, (height + 1) / 2, {}, {}};
+PyramidLevel push(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba,
+                  const std::vector<std::uint8_t>& known, engine::CancellationCheck check_cancelled) {
+    PyramidLevel result{(width + 1) / 2, (height + 1) / 2, {}, {}};
     const std::size_t size = std::size_t{result.width} * result.height;
     result.rgba.resize(4 * size);
     result.known.resize(size);
     for (std::uint32_t y = 0; y < result.height; ++y) {
-        poll(result.width / 8);
+        check_cancelled(result.width / 8);
         for (std::uint32_t x = 0; x < result.width; ++x) {
             std::array<unsigned, 4> sum{};
             unsigned count = 0;
@@ -43,7 +43,7 @@ Level push(std::uint32_t width, std::uint32_t height, const std::vector<std::uin
 }
 
 // Weights 9 3 3 1 of the four coarse texels around the centre of a fine one.
-std::uint8_t pulled(const Level& coarse, std::uint32_t x, std::uint32_t y, std::size_t k) {
+std::uint8_t upsampled(const PyramidLevel& coarse, std::uint32_t x, std::uint32_t y, std::size_t k) {
     const auto other = [](std::uint32_t i, std::uint32_t n) {
         const std::uint32_t c = i / 2;
         return i % 2 ? std::min(c + 1, n - 1) : c - (c > 0);
@@ -57,41 +57,42 @@ std::uint8_t pulled(const Level& coarse, std::uint32_t x, std::uint32_t y, std::
 }
 
 void pull(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& rgba,
-          const std::vector<std::uint8_t>& known, const Level& coarse, ChannelRange channels,
-          engine::Poll poll) {
+          const std::vector<std::uint8_t>& known, const PyramidLevel& coarse, ChannelRange channels,
+          engine::CancellationCheck check_cancelled) {
     for (std::uint32_t y = 0; y < height; ++y) {
-        poll(width / 8);
+        check_cancelled(width / 8);
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
             if (known[at]) continue;
             for (std::size_t k = channels.begin; k < channels.end; ++k) {
-                rgba[4 * at + k] = pulled(coarse, x, y, k);
+                rgba[4 * at + k] = upsampled(coarse, x, y, k);
             }
         }
     }
 }
 
-bool complete(const std::vector<std::uint8_t>& known) {
+bool is_complete(const std::vector<std::uint8_t>& known) {
     return std::find(known.begin(), known.end(), 0) == known.end();
 }
 
 }  // namespace
 
 void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
-               engine::Poll poll) {
-    if (complete(known) || std::none_of(known.begin(), known.end(), [](std::uint8_t k) { return k; })) return;
-    std::vector<Level> levels;
-    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known, poll));
-    while (!complete(levels.back().known)) {
-        const Level& last = levels.back();
-        Level next = push(last.width, last.height, last.rgba, last.known, poll);
+               engine::CancellationCheck check_cancelled) {
+    if (is_complete(known) || std::none_of(known.begin(), known.end(), [](std::uint8_t k) { return k; }))
+        return;
+    std::vector<PyramidLevel> levels;
+    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known, check_cancelled));
+    while (!is_complete(levels.back().known)) {
+        const PyramidLevel& last = levels.back();
+        PyramidLevel next = push(last.width, last.height, last.rgba, last.known, check_cancelled);
         levels.push_back(std::move(next));
     }
     for (std::size_t i = levels.size() - 1; i-- > 0;) {
-        Level& fine = levels[i];
-        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {}, poll);
+        PyramidLevel& fine = levels[i];
+        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {}, check_cancelled);
     }
-    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels, poll);
+    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels, check_cancelled);
 }
 
 }  // namespace faqem::detail

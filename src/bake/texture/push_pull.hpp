@@ -22,6 +22,6 @@ struct ChannelRange {
 /// O(texels) time, 5/3 bytes per texel.
 /// \throws what the poll throws
 void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
-               engine::Poll poll = {});
+               engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

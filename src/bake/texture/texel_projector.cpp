@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/transfer/vector_conversion.hpp"
 #include "bake/transfer/corner_normals.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -13,9 +13,9 @@ using engine::to_eigen;
 using engine::Vector3;
 
 // The right corner is the one whose UV is level with one other corner and plumb with the other.
-std::size_t right_corner(const AtlasPlace& place) {
+std::size_t right_angle_corner(const TrianglePlacement& placement) {
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto &r = place.uv[i], &a = place.uv[(i + 1) % 3], &b = place.uv[(i + 2) % 3];
+        const auto &r = placement.uv[i], &a = placement.uv[(i + 1) % 3], &b = placement.uv[(i + 2) % 3];
         if ((r[0] == a[0] && r[1] == b[1]) || (r[1] == a[1] && r[0] == b[0])) return i;
     }
     return 0;
@@ -23,14 +23,15 @@ std::size_t right_corner(const AtlasPlace& place) {
 
 }  // namespace
 
-Painter::Painter(const BakeJob& job, const PaintedPage& page, Index triangle, std::uint32_t samples)
+TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle,
+                               std::uint32_t samples)
     : face_(page.faces[triangle]),
-      place_(page.atlas.places[triangle]),
-      frame_(place_),
-      right_(right_corner(place_)),
+      placement_(page.atlas.placements[triangle]),
+      frame_(placement_),
+      right_angle_corner_(right_angle_corner(placement_)),
       part_(job.parts[face_.part]),
       normals_(job.normals[face_.part]),
-      mesh_(part_.small->mesh),
+      mesh_(part_.simplified->mesh),
       spacing_(texel_length() / samples) {
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
@@ -38,83 +39,84 @@ Painter::Painter(const BakeJob& job, const PaintedPage& page, Index triangle, st
         frames_[i] = {to_vector(normals_.normals[c]), tangents[c]};
     }
     for (std::size_t c = 0; c < 3; ++c) {
-        const Across& across = page.across[triangle][c];
-        if (across.triangle == no_index) continue;
-        const Index other = page.faces[across.triangle].face;
+        const AdjacentTriangle& adjacent = page.adjacent[triangle][c];
+        if (adjacent.triangle == no_index) continue;
+        const Index other = page.faces[adjacent.triangle].face;
         // Beyond a crease another side begins, whose colours would run into a strip a texel wide.
-        if (!is_crease(normals_, face_.face, c, other, across.corner)) {
-            folds_[c] = fold(c, other, across.corner);
+        if (!is_crease(normals_, face_.face, c, other, adjacent.corner)) {
+            unfolded_[c] = unfold(c, other, adjacent.corner);
         }
     }
 }
 
-Vector3 Painter::corner(Index face, std::size_t i) const {
+Vector3 TexelProjector::corner(Index face, std::size_t i) const {
     return to_eigen(mesh_.positions[mesh_.triangles[face][i % 3]]);
 }
 
-// Length of a texel on the small surface, the longer one of its sides.
-double Painter::texel_length() const {
+// Length of a texel on the simplified surface, the longer one of its sides.
+double TexelProjector::texel_length() const {
     const auto at = [&](std::size_t i) { return corner(face_.face, i); };
-    if (single()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
+    if (is_single_texel()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
     const auto side_length = [&](double x, double y) {
-        const auto& a = place_.uv[0];
+        const auto& a = placement_.uv[0];
         const Vec3 w = frame_.at(a[0] + x, a[1] + y);
         return (w[1] * (at(1) - at(0)) + w[2] * (at(2) - at(0))).norm();
     };
     return std::max(side_length(1, 0), side_length(0, 1));
 }
 
-Painter::Fold Painter::fold(std::size_t c, Index neighbour, std::size_t other) const {
+TexelProjector::UnfoldedNeighbour TexelProjector::unfold(std::size_t c, Index neighbour,
+                                                         std::size_t other) const {
     const Vector3 start = corner(face_.face, c + 1);
     const Vector3 edge = corner(face_.face, c + 2) - start;
     const Vector3 a = corner(face_.face, c) - start, b = corner(neighbour, other) - start;
     const double length = edge.squaredNorm(), foot = a.dot(edge) / length, other_foot = b.dot(edge) / length;
-    const double heights = (a - foot * edge).norm() / (b - other_foot * edge).norm();
-    if (!std::isfinite(heights) || !std::isfinite(foot) || !std::isfinite(other_foot)) return {};
-    return {neighbour, other, heights, foot, other_foot};
+    const double height_ratio = (a - foot * edge).norm() / (b - other_foot * edge).norm();
+    if (!std::isfinite(height_ratio) || !std::isfinite(foot) || !std::isfinite(other_foot)) return {};
+    return {neighbour, other, height_ratio, foot, other_foot};
 }
 
-SmallPoint Painter::point(std::uint32_t x, std::uint32_t y, double s, double t) const {
-    if (single())
+TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, double t) const {
+    if (is_single_texel())
         return {face_.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0, x + s,
                 y + t};
     // The neighbour runs along the edge the other way. What is outside of it too is drawn in.
-    const auto across = [](const Fold& fold, const Vec3& w, std::size_t c) {
-        const double up = std::min(1.0, -w[c] * fold.heights);
-        const double along = w[(c + 2) % 3] + w[c] * fold.foot;
-        const double end = std::clamp(along - up * fold.other_foot, 0.0, 1 - up);
+    const auto weights_in_neighbour = [](const UnfoldedNeighbour& neighbour, const Vec3& w, std::size_t c) {
+        const double up = std::min(1.0, -w[c] * neighbour.height_ratio);
+        const double along = w[(c + 2) % 3] + w[c] * neighbour.foot;
+        const double end = std::clamp(along - up * neighbour.other_foot, 0.0, 1 - up);
         Vec3 result;
-        result[fold.corner] = up;
-        result[(fold.corner + 1) % 3] = end;
-        result[(fold.corner + 2) % 3] = 1 - up - end;
+        result[neighbour.corner] = up;
+        result[(neighbour.corner + 1) % 3] = end;
+        result[(neighbour.corner + 2) % 3] = 1 - up - end;
         return result;
     };
     const Vec3 w = frame_.at(x + s, y + t);
     for (std::size_t c = 0; c < 3; ++c) {
-        if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && folds_[c].face != no_index) {
-            return {folds_[c].face, across(folds_[c], w, c), c + 1, x + s, y + t};
+        if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && unfolded_[c].face != no_index) {
+            return {unfolded_[c].face, weights_in_neighbour(unfolded_[c], w, c), c + 1, x + s, y + t};
         }
     }
     return {face_.face, frame_.closest(x + s, y + t), 0, x + s, y + t};
 }
 
-SurfacePoint Painter::on_original(const SmallPoint& at, std::uint32_t x, std::uint32_t y) {
-    Trail& trail = trails_[at.trail];
-    const SurfacePoint* near = trail.to(x, y);
+SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
+    WarmStartCache& cache = warm_starts_[at.cache_index];
+    const SurfacePoint* near = cache.start_near(x, y);
     const SurfacePoint point =
         near ? part_.map->map_near(at.face, at.weights, *near) : part_.map->map(at.face, at.weights);
-    trail.add(point, x, y);
+    cache.add(point, x, y);
     return point;
 }
 
 // Weights of the point of this triangle that is closest to a sample.
-Vec3 Painter::own_weights(const SmallPoint& at) const {
-    return at.trail == 0 ? at.weights : frame_.closest(at.x, at.y);
+Vec3 TexelProjector::own_weights(const TexelSample& at) const {
+    return at.cache_index == 0 ? at.weights : frame_.closest(at.x, at.y);
 }
 
-Vector3 Painter::in_tangent_space(const SmallPoint& at, const Vector3& normal) const {
+Vector3 TexelProjector::to_tangent_space(const TexelSample& at, const Vector3& normal) const {
     const TangentFrame here = blend_frames(frames_, own_weights(at));
-    if (at.trail == 0) return here.from_mesh(normal);
+    if (at.cache_index == 0) return here.from_mesh(normal);
     Vector3 there = Vector3::Zero();
     for (std::size_t i = 0; i < 3; ++i)
         there += at.weights[i] * to_vector(normals_.normals[std::size_t{3} * at.face + i]);

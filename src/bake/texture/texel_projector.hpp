@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the texels of a triangle to points of the small mesh.
+/// From the texels of a triangle to points of the simplified mesh.
 
 #include <array>
 #include <cstdint>
@@ -9,84 +9,86 @@
 
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_atlas.hpp"
-#include "bake/transfer/source_normals.hpp"
 #include "bake/texture/warm_start_cache.hpp"
+#include "bake/transfer/source_normals.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 
-/// A point on a face of the small mesh.
-struct SmallPoint {
+/// A point on a face of the simplified mesh.
+struct TexelSample {
     Index face = 0;
     Vec3 weights = {};
-    std::size_t trail = 0;  ///< of the painter
-    double x = 0, y = 0;    ///< on the page
+    std::size_t cache_index = 0;  ///< of the painter
+    double x = 0, y = 0;          ///< on the page
 };
 
 /// What painters find their triangles in.
-struct PaintedPage {
+struct ProjectorInput {
     const Atlas& atlas;
-    std::span<const std::array<Across, 3>> across;  ///< by triangle of the atlas
-    std::span<const PageFace> faces;                ///< by triangle of the atlas
+    std::span<const std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle of the atlas
+    std::span<const PageFace> faces;                            ///< by triangle of the atlas
     /// By part and corner, as they are written; empty parts where no normals are painted.
     std::span<const std::vector<Vec4f>> tangents;
 };
 
 /// A triangle of the atlas, its neighbours, and where its last samples were.
-class Painter {
+class TexelProjector {
 public:
     /// \param triangle  of the atlas
     /// \param samples   per texel and axis
     /// \pre all that is referred to outlives this
-    Painter(const BakeJob& job, const PaintedPage& page, Index triangle, std::uint32_t samples);
+    TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle, std::uint32_t samples);
 
     /// The point for place (s, t) of texel (x, y): on the triangle, or across an edge on its neighbour, unfolded
     /// into the triangle's plane.
-    SmallPoint point(std::uint32_t x, std::uint32_t y, double s, double t) const;
+    TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
 
     /// The original's point there. The trail is followed and prolonged.
-    SurfacePoint on_original(const SmallPoint& at, std::uint32_t x, std::uint32_t y);
+    SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 
-    /// Which way the small face at a point looks.
-    engine::Vector3 side(const SmallPoint& at) const { return face_side(part_, normals_, at.face); }
+    /// Which way the simplified face at a point looks.
+    engine::Vector3 face_normal(const TexelSample& at) const {
+        return oriented_face_normal(part_, normals_, at.face);
+    }
 
-    /// A normal of the original in the small mesh's tangent space. One that lies across an edge is turned with
+    /// A normal of the original in the simplified mesh's tangent space. One that lies across an edge is turned with
     /// its face into this triangle's plane: at a crease it would lean over by the whole fold.
-    engine::Vector3 in_tangent_space(const SmallPoint& at, const engine::Vector3& normal) const;
+    engine::Vector3 to_tangent_space(const TexelSample& at, const engine::Vector3& normal) const;
 
     /// Weight of the right corner at a place of the page: tells which of a pair's triangles is nearer.
-    double right_weight(double x, double y) const { return frame_.at(x, y)[right_]; }
+    double right_angle_weight(double x, double y) const { return frame_.at(x, y)[right_angle_corner_]; }
 
     Index part() const { return face_.part; }
-    /// Distance between samples on the small surface.
+    /// Distance between samples on the simplified surface.
     double spacing() const { return spacing_; }
 
 private:
     // How weights of this face become weights of the neighbour across an edge, unfolded into one plane.
-    struct Fold {
+    struct UnfoldedNeighbour {
         Index face = no_index;
         std::size_t corner = 0;           // of the neighbour, opposite the edge
-        double heights = 0;               // this face's over the neighbour's, above the edge
+        double height_ratio = 0;          // this face's over the neighbour's, above the edge
         double foot = 0, other_foot = 0;  // of the corners opposite, along the edge, 0 to 1
     };
 
-    bool single() const { return place_.uv[0] == place_.uv[1]; }
+    bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
     engine::Vector3 corner(Index face, std::size_t i) const;
     double texel_length() const;
-    Fold fold(std::size_t c, Index neighbour, std::size_t other) const;
-    Vec3 own_weights(const SmallPoint& at) const;
+    UnfoldedNeighbour unfold(std::size_t c, Index neighbour, std::size_t other) const;
+    Vec3 own_weights(const TexelSample& at) const;
 
     const PageFace face_;
-    const AtlasPlace& place_;
-    const AtlasFrame frame_;
-    const std::size_t right_;
-    const SmallPart& part_;
+    const TrianglePlacement& placement_;
+    const BarycentricFrame frame_;
+    const std::size_t right_angle_corner_;
+    const BakePart& part_;
     const CornerNormals& normals_;
     const TriangleMesh& mesh_;
     const double spacing_;
-    std::array<Fold, 3> folds_;          // by corner opposite
-    std::array<FrameCorner, 3> frames_;  // for normals
-    std::array<Trail, 4> trails_;        // the triangle's own, then those across
+    std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite
+    std::array<FrameCorner, 3> frames_;          // for normals
+    std::array<WarmStartCache, 4> warm_starts_;  // the triangle's own, then those across
 };
 
 }  // namespace faqem::detail

@@ -10,10 +10,10 @@ namespace faqem::detail {
 
 /// The last sample on a face and the first one of its row, by texel: the next one may start from there if it is
 /// close by. Rows come from the top, each from the left.
-class Trail {
+class WarmStartCache {
 public:
     /// The answer that a sample in texel (x, y) may start from. Null where there is none.
-    const SurfacePoint* to(std::uint32_t x, std::uint32_t y) const {
+    const SurfacePoint* start_near(std::uint32_t x, std::uint32_t y) const {
         if (!started_) return nullptr;
         if (last_.y == y && x - last_.x <= 1) return &last_.point;
         return row_.is_near(x, y) ? &row_.point : nullptr;
@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    struct Mark {
+    struct CachedSample {
         SurfacePoint point;
         std::uint32_t x = 0, y = 0;
 
@@ -36,7 +36,7 @@ private:
         }
     };
 
-    Mark last_, row_;
+    CachedSample last_, row_;
     bool started_ = false;
 };
 

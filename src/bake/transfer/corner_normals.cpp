@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/transfer/vector_conversion.hpp"
 #include "bake/transfer/source_normals.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
@@ -15,7 +15,7 @@ using engine::Vector3;
 
 constexpr double inset = 0.02;
 // Vertices with more creases than this keep the rest of their corners apart, so that the work stays bounded.
-constexpr std::size_t most_clusters = 64;
+constexpr std::size_t max_clusters = 64;
 
 // Angle times area: a large flat face keeps its normal next to a narrow bevel, and how a fan is cut up does
 // not matter.
@@ -34,15 +34,15 @@ struct Cluster {
 
 // Writes the mean normals of one vertex; clusters are numbered by their first corner.
 void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corners,
-                   const std::vector<Vector3>& sides, const std::vector<Vector3>& raw, double least_cosine,
-                   CornerNormals& result) {
+                   const std::vector<Vector3>& face_normals, const std::vector<Vector3>& raw,
+                   double min_normal_cosine, CornerNormals& result) {
     std::vector<Cluster> clusters;
     std::vector<std::size_t> member(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vector3& n = raw[corners[i]];
         std::size_t k = 0;
-        const std::size_t searched = std::min(clusters.size(), most_clusters);
-        while (k < searched && !(clusters[k].seed.dot(n) >= least_cosine)) ++k;
+        const std::size_t searched = std::min(clusters.size(), max_clusters);
+        while (k < searched && !(clusters[k].seed.dot(n) >= min_normal_cosine)) ++k;
         if (k == searched) {
             k = clusters.size();
             clusters.push_back({n, Vector3::Zero()});
@@ -53,22 +53,22 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     std::vector<Index> number(clusters.size(), no_index);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint64_t c = corners[i];
-        const Vector3& side = sides[c / 3];
+        const Vector3& face_normal = face_normals[c / 3];
         Vector3 n = unit_or_zero(clusters[member[i]].sum);
         Index& first = number[member[i]];
         Index cluster = first == no_index ? first = static_cast<Index>(c) : first;
         if (n.isZero(0)) n = raw[c];
-        if (!side.isZero(0) && !(n.dot(side) > 0)) {
-            n = side;
+        if (!face_normal.isZero(0) && !(n.dot(face_normal) > 0)) {
+            n = face_normal;
             cluster = static_cast<Index>(c);
         }
-        result.normals[c] = to_float(n);
+        result.normals[c] = to_vec3f(n);
         result.clusters[c] = cluster;
     }
 }
 
 // Above 0 where a face looks the way its normals do, below where it is wound against them; by area.
-double agreement(const Part& part, std::size_t face) {
+double normal_winding_agreement(const Part& part, std::size_t face) {
     Vector3 looks = Vector3::Zero();
     for (std::size_t c = 0; c < 3; ++c) looks += corner_normal(part, face, c);
     const Triangle& t = part.triangles[face];
@@ -78,26 +78,28 @@ double agreement(const Part& part, std::size_t face) {
     return result > 0 ? wound.norm() : result < 0 ? -wound.norm() : 0;
 }
 
-std::vector<std::uint8_t> turned_faces(const SmallPart& part, engine::Poll poll) {
+std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part,
+                                                      engine::CancellationCheck check_cancelled) {
     std::vector<std::uint8_t> result(part.faces(), 0);
     if (part.source->normals.empty()) return result;
     double most = 0;
     for (std::size_t f = 0; f < part.source->triangles.size(); ++f) {
-        poll();
-        most += agreement(*part.source, f);
+        check_cancelled();
+        most += normal_winding_agreement(*part.source, f);
     }
     if (!(most > 0)) return result;
     for (std::size_t f = 0; f < result.size(); ++f) {
-        result[f] = agreement(*part.source, part.small->history.kept_faces[f]) < 0;
+        result[f] = normal_winding_agreement(*part.source, part.simplified->history.kept_faces[f]) < 0;
     }
     return result;
 }
 
 }  // namespace
 
-Vector3 face_side(const SmallPart& part, const CornerNormals& normals, std::size_t face) {
-    const Vector3 side = winding_normal(part.small->mesh.positions, part.small->mesh.triangles[face]);
-    return normals.turned[face] ? Vector3(-side) : side;
+Vector3 oriented_face_normal(const BakePart& part, const CornerNormals& normals, std::size_t face) {
+    const Vector3 face_normal =
+        winding_normal(part.simplified->mesh.positions, part.simplified->mesh.triangles[face]);
+    return normals.has_reversed_winding[face] ? Vector3(-face_normal) : face_normal;
 }
 
 bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
@@ -107,41 +109,43 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
            cluster(face, corner + 2) != cluster(other, other_corner + 1);
 }
 
-CornerNormals make_normals(const SmallPart& part, const BakeOptions& options, Workers workers) {
-    const TriangleMesh& mesh = part.small->mesh;
+CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers) {
+    const TriangleMesh& mesh = part.simplified->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
     const bool transfers = options.normals == Normals::transfer;
-    std::vector<Vector3> raw(corners), sides(mesh.triangles.size());
+    std::vector<Vector3> raw(corners), face_normals(mesh.triangles.size());
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
-                         turned_faces(part, workers.poll)};
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end, Poll poll) {
-        for (std::size_t f = begin; f < end; ++f) {
-            sides[f] =
-                transfers ? face_side(part, result, f) : winding_normal(mesh.positions, mesh.triangles[f]);
-        }
-        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-            poll(transfers ? operations_of_map : 1);
-            const Vector3& side = sides[c / 3];
-            raw[c] = side;
-            if (transfers) {
-                const SurfacePoint point =
-                    part.map->map(static_cast<Index>(c / 3), near_corner(c % 3, inset));
-                const Vector3 original = smooth_normal(*part.source, point);
-                if (!original.isZero(0)) raw[c] = original;
-            }
-            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
-            if (!side.isZero(0) && !(raw[c].dot(side) > 0)) raw[c] = side;
-        }
-    });
+                         faces_with_reversed_winding(part, workers.check_cancelled)};
+    parallel_blocks(mesh.triangles.size(), 256, workers,
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        for (std::size_t f = begin; f < end; ++f) {
+                            face_normals[f] = transfers ? oriented_face_normal(part, result, f)
+                                                        : winding_normal(mesh.positions, mesh.triangles[f]);
+                        }
+                        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+                            check_cancelled(transfers ? map_query_cost : 1);
+                            const Vector3& face_normal = face_normals[c / 3];
+                            raw[c] = face_normal;
+                            if (transfers) {
+                                const SurfacePoint point = part.map->map(
+                                    static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, inset));
+                                const Vector3 original = interpolated_normal(*part.source, point);
+                                if (!original.isZero(0)) raw[c] = original;
+                            }
+                            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
+                            if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0))
+                                raw[c] = face_normal;
+                        }
+                    });
     // The cosine is lowered a little: equal normals differ by rounding.
-    const double least_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
-    const VertexCorners at = vertex_corners(mesh, workers.poll);
+    const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
+    const VertexCorners at = vertex_corners(mesh, workers.check_cancelled);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        workers.poll();
-        smooth_vertex(mesh, at.at(v), sides, raw, least_cosine, result);
+        workers.check_cancelled();
+        smooth_vertex(mesh, at.at(v), face_normals, raw, min_normal_cosine, result);
     }
     if (options.normals == Normals::flat) {
-        std::transform(raw.begin(), raw.end(), result.normals.begin(), to_float);
+        std::transform(raw.begin(), raw.end(), result.normals.begin(), to_vec3f);
     }
     return result;
 }

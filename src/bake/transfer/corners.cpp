@@ -32,16 +32,16 @@ int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
 
 // For each corner the first corner of its vertex that agrees with it.
 std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers,
-                                           engine::Poll poll) {
-    const VertexCorners at = vertex_corners(mesh, poll);
+                                           engine::CancellationCheck check_cancelled) {
+    const VertexCorners at = vertex_corners(mesh, check_cancelled);
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
     std::vector<std::uint64_t> sorted;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        poll();
+        check_cancelled();
         const auto corners = at.at(v);
         sorted.assign(corners.begin(), corners.end());
         std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
-            poll();
+            check_cancelled();
             const int c = compare(layers, a, b);
             return c ? c < 0 : a < b;
         });
@@ -55,41 +55,42 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
 
 }  // namespace
 
-VertexCorners vertex_corners(const TriangleMesh& mesh, engine::Poll poll) {
+VertexCorners vertex_corners(const TriangleMesh& mesh, engine::CancellationCheck check_cancelled) {
     VertexCorners result;
     result.begin.assign(mesh.positions.size() + 1, 0);
     for (const Triangle& t : mesh.triangles) {
-        poll();
+        check_cancelled();
         for (Index v : t) ++result.begin[std::size_t{v} + 1];
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) result.begin[v + 1] += result.begin[v];
     result.corners.resize(result.begin.back());
     std::vector<std::uint64_t> fill(result.begin.begin(), result.begin.end() - 1);
     for (std::uint64_t c = 0; c < result.corners.size(); ++c) {
-        poll();
+        check_cancelled();
         result.corners[fill[mesh.triangles[c / 3][c % 3]]++] = c;
     }
     return result;
 }
 
-Vec3 near_corner(std::size_t corner, double inset) {
+Vec3 barycentrics_near_corner(std::size_t corner, double inset) {
     Vec3 w = {inset / 2, inset / 2, inset / 2};
     w[corner] = 1 - inset;
     return w;
 }
 
-JoinedPart join_corners(const SmallPart& small, const CornerLayers& layers, engine::Poll poll) {
-    const TriangleMesh& mesh = small.small->mesh;
-    const std::vector<std::uint64_t> first = representatives(mesh, layers, poll);
+WeldedPart weld_corners(const BakePart& bake_part, const CornerLayers& layers,
+                        engine::CancellationCheck check_cancelled) {
+    const TriangleMesh& mesh = bake_part.simplified->mesh;
+    const std::vector<std::uint64_t> first = representatives(mesh, layers, check_cancelled);
     std::vector<Index> number(first.size(), no_index);
-    JoinedPart result;
+    WeldedPart result;
     Part& part = result.part;
-    part.name = small.source->name;
-    part.source = small.source->source;
+    part.name = bake_part.source->name;
+    part.source = bake_part.source->source;
     part.triangles.resize(mesh.triangles.size());
     part.uvs.resize(layers.uvs.size());
     for (std::uint64_t c = 0; c < first.size(); ++c) {
-        poll();
+        check_cancelled();
         Index& n = number[first[c]];
         if (n == no_index) {
             n = static_cast<Index>(result.corner.size());

@@ -7,22 +7,22 @@ namespace faqem::detail {
 namespace {
 
 // What a layer of one content holds when it takes in another; none where it cannot.
-std::optional<TextureContent> joined(TextureContent a, TextureContent b) {
-    const auto is_coloured = [](TextureContent c) {
-        return c == TextureContent::colour || c == TextureContent::alpha ||
-               c == TextureContent::colour_and_alpha;
+std::optional<TextureContent> merged_content(TextureContent a, TextureContent b) {
+    const auto is_colored = [](TextureContent c) {
+        return c == TextureContent::color || c == TextureContent::alpha ||
+               c == TextureContent::color_and_alpha;
     };
     if (a == b) return a;
-    if (is_coloured(a) && is_coloured(b)) return TextureContent::colour_and_alpha;
+    if (is_colored(a) && is_colored(b)) return TextureContent::color_and_alpha;
     return std::nullopt;
 }
 
 }  // namespace
 
-Encoding ExtensionLayer::encoding() const {
-    return content == TextureContent::colour || content == TextureContent::colour_and_alpha
-               ? Encoding::colour_and_number
-               : Encoding::data;
+TexelEncoding ExtensionLayer::encoding() const {
+    return content == TextureContent::color || content == TextureContent::color_and_alpha
+               ? TexelEncoding::color_and_data_alpha
+               : TexelEncoding::data;
 }
 
 std::vector<ExtensionLayer> extension_layers(const Material& material) {
@@ -31,15 +31,16 @@ std::vector<ExtensionLayer> extension_layers(const Material& material) {
         const ExtensionTexture& texture = material.extension_textures[i];
         const KnownTexture* known = find_known_texture(texture.extension, texture.name);
         if (!known || !texture.texture) continue;
-        const bool is_normal = known->content == TextureContent::normal;
-        const float scale = is_normal ? texture.normal_scale : 1;
+        const bool is_normal_map = known->content == TextureContent::normal;
+        const float scale = is_normal_map ? texture.normal_scale : 1;
         const auto layer = std::find_if(result.begin(), result.end(), [&](const ExtensionLayer& l) {
-            return l.use == texture.texture && l.normal_scale == scale && joined(l.content, known->content);
+            return l.texture_ref == texture.texture && l.normal_scale == scale &&
+                   merged_content(l.content, known->content);
         });
         if (layer == result.end()) {
             result.push_back({known->content, texture.texture, scale, {i}});
         } else {
-            layer->content = *joined(layer->content, known->content);
+            layer->content = *merged_content(layer->content, known->content);
             layer->textures.push_back(i);
         }
     }

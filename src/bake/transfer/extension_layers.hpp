@@ -12,16 +12,16 @@ namespace faqem::detail {
 /// One image on the page, for one or more textures of a material's extensions.
 struct ExtensionLayer {
     TextureContent content;
-    TextureRef use;  ///< of the source's image
+    TextureRef texture_ref;  ///< of the source's image
     float normal_scale = 1;
     std::vector<Index> textures;  ///< into Material::extension_textures, at least one
 
-    bool is_normal() const { return content == TextureContent::normal; }
-    bool has_colour() const { return content != TextureContent::alpha; }
+    bool is_normal_map() const { return content == TextureContent::normal; }
+    bool has_color() const { return content != TextureContent::alpha; }
     bool has_alpha() const {
-        return content == TextureContent::alpha || content == TextureContent::colour_and_alpha;
+        return content == TextureContent::alpha || content == TextureContent::color_and_alpha;
     }
-    Encoding encoding() const;
+    TexelEncoding encoding() const;
 };
 
 /// Textures that show the same image in the same way share a layer where its channels can mean both.

@@ -5,7 +5,7 @@
 namespace faqem::detail {
 namespace {
 
-bool may_merge(const Material& a, const Material& b, Bake kind) {
+bool can_merge(const Material& a, const Material& b, Bake kind) {
     if (!a.extensions.empty() || !b.extensions.empty()) return false;
     if (!a.extension_textures.empty() || !b.extension_textures.empty()) return false;
     if (a.alpha_mode != b.alpha_mode || a.double_sided != b.double_sided || a.unlit != b.unlit) return false;
@@ -31,16 +31,16 @@ MaterialGroups group_materials(const Asset& asset, Bake kind) {
         }
     }
     MaterialGroups result;
-    result.of_material.assign(count + 1, no_index);
+    result.group_of_material.assign(count + 1, no_index);
     for (std::size_t m = 0; m <= count; ++m) {
         if (!used[m]) continue;
         const Index index = m == count ? no_index : static_cast<Index>(m);
         const Material& material = material_or_default(asset, index);
         std::size_t g = 0;
-        while (g < result.groups.size() && !may_merge(result.groups[g].material, material, kind)) ++g;
+        while (g < result.groups.size() && !can_merge(result.groups[g].material, material, kind)) ++g;
         if (g == result.groups.size()) result.groups.push_back({material, {}});
         result.groups[g].materials.push_back(index);
-        result.of_material[m] = static_cast<Index>(g);
+        result.group_of_material[m] = static_cast<Index>(g);
     }
     return result;
 }

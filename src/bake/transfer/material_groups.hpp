@@ -18,12 +18,12 @@ struct MaterialGroup {
 
 /// The groups of the materials that an asset's faces use.
 struct MaterialGroups {
-    std::vector<MaterialGroup> groups;  ///< by smallest material
-    std::vector<Index> of_material;     ///< materials + 1: group of each, no_index where no face uses it
+    std::vector<MaterialGroup> groups;     ///< by smallest material
+    std::vector<Index> group_of_material;  ///< materials + 1: group of each, no_index where no face uses it
 
     /// \param material  into Asset::materials, or no_index
-    Index of(Index material) const {
-        return of_material[material == no_index ? of_material.size() - 1 : material];
+    Index group_of(Index material) const {
+        return group_of_material[material == no_index ? group_of_material.size() - 1 : material];
     }
 };
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "bake/transfer/vector_conversion.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "bake/transfer/tangents.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -24,27 +24,28 @@ bool has_tangents(const Part& part, std::size_t face) {
     });
 }
 
-TangentCorner tangent_corner(const Part& part, const TextureRef& use, std::size_t face, std::size_t corner) {
+TangentCorner tangent_corner(const Part& part, const TextureRef& texture_ref, std::size_t face,
+                             std::size_t corner) {
     const Index v = part.triangles[face][corner];
     TangentCorner result{
-        to_float(to_eigen(part.positions[v])), to_float(corner_normal(part, face, corner)), {}};
-    if (use.uv_set < part.uvs.size()) {
-        const Vec2f& uv = part.uvs[use.uv_set][v];
-        const auto moved = uv_transform(use).apply(uv[0], uv[1]);
+        to_vec3f(to_eigen(part.positions[v])), to_vec3f(corner_normal(part, face, corner)), {}};
+    if (texture_ref.uv_set < part.uvs.size()) {
+        const Vec2f& uv = part.uvs[texture_ref.uv_set][v];
+        const auto moved = uv_transform(texture_ref).apply(uv[0], uv[1]);
         result.uv = {static_cast<float>(moved[0]), static_cast<float>(moved[1])};
     }
     return result;
 }
 
-void add_mikk_tangents(const Part& part, const TextureRef& use, const std::vector<Index>& faces,
-                       engine::Poll poll, std::vector<Vec4f>& result) {
+void add_mikk_tangents(const Part& part, const TextureRef& texture_ref, const std::vector<Index>& faces,
+                       engine::CancellationCheck check_cancelled, std::vector<Vec4f>& result) {
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
     for (const Index f : faces) {
-        poll();
-        for (std::size_t c = 0; c < 3; ++c) corners.push_back(tangent_corner(part, use, f, c));
+        check_cancelled();
+        for (std::size_t c = 0; c < 3; ++c) corners.push_back(tangent_corner(part, texture_ref, f, c));
     }
-    const std::vector<Vec4f> tangents = mikk_tangents(corners, poll);
+    const std::vector<Vec4f> tangents = mikk_tangents(corners, check_cancelled);
     for (std::size_t i = 0; i < tangents.size(); ++i) {
         result[std::size_t{3} * faces[i / 3] + i % 3] = tangents[i];
     }
@@ -77,7 +78,7 @@ Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t) {
         engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]), to_eigen(positions[t[2]])));
 }
 
-Vector3 smooth_normal(const Part& part, const SurfacePoint& point) {
+Vector3 interpolated_normal(const Part& part, const SurfacePoint& point) {
     const Triangle& t = part.triangles[point.face];
     Vector3 n = Vector3::Zero();
     if (!part.normals.empty()) {
@@ -94,11 +95,12 @@ Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner) {
     return n.isZero(0) ? winding_normal(part.positions, t) : n;
 }
 
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine::Poll poll) {
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
+                                   engine::CancellationCheck check_cancelled) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> without;  // by material
     for (Index f = 0; f < part.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Index material = face_material(part, f);
         if (!tangent_texture(material_or_default(asset, material))) continue;
         result.resize(3 * part.triangles.size(), Vec4f{});
@@ -108,12 +110,13 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine:
         }
         for (std::size_t c = 0; c < 3; ++c) {
             const Vec4f& t = part.tangents[part.triangles[f][c]];
-            const Vec3f along = to_float(unit_or_zero(to_vector({t[0], t[1], t[2]})));
+            const Vec3f along = to_vec3f(unit_or_zero(to_vector({t[0], t[1], t[2]})));
             result[std::size_t{3} * f + c] = {along[0], along[1], along[2], t[3] < 0 ? -1.0f : 1.0f};
         }
     }
     for (const auto& [material, faces] : without) {
-        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces, poll, result);
+        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces,
+                          check_cancelled, result);
     }
     return result;
 }

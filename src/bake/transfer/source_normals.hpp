@@ -36,14 +36,15 @@ TangentFrame blend_frames(const std::array<FrameCorner, 3>& corners, const Vec3&
 engine::Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t);
 
 /// The part's normal at a point: interpolated, the face's where there is none. Zero where there is neither.
-engine::Vector3 smooth_normal(const Part& part, const SurfacePoint& point);
+engine::Vector3 interpolated_normal(const Part& part, const SurfacePoint& point);
 
-/// The part's normal at a corner of a face, as smooth_normal().
+/// The part's normal at a corner of a face, as interpolated_normal().
 engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner);
 
 /// Tangents of the corners of all faces whose material has a normal map, in Part's own coordinates: those of
 /// the file where it has them for all corners of a face, else MikkTSpace's, from the texture coordinates with
 /// the texture's transform. Empty where no face has such a material. O(n log n)
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part, engine::Poll poll = {});
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
+                                   engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

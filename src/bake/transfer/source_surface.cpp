@@ -37,9 +37,10 @@ double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std
 }
 
 /// The error says which material the image is for: images need not have names.
-Pixels decode_for(const Asset& asset, Index image, Index material, engine::Poll poll) {
+Pixels decode_for(const Asset& asset, Index image, Index material,
+                  engine::CancellationCheck check_cancelled) {
     try {
-        return decode(asset.images[image], poll);
+        return decode(asset.images[image], check_cancelled);
     } catch (const UnsupportedError& error) {
         throw UnsupportedError("", material_title(asset, material), error.what());
     } catch (const InputError& error) {
@@ -49,7 +50,7 @@ Pixels decode_for(const Asset& asset, Index image, Index material, engine::Poll 
 
 }  // namespace
 
-SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, const Workers& workers)
+SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers)
     : asset_(asset), wanted_(wanted) {
     std::vector<bool> used(asset.materials.size() + 1, false);
     for (const Part& part : asset.parts) {
@@ -59,97 +60,106 @@ SourceSurface::SourceSurface(const Asset& asset, const Channels& wanted, const W
     }
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
         const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
-        surfaces_.push_back(used[m] ? surface_of(index, workers)
-                                    : Surface{&material_or_default(asset, index), {}, {}, {}, {}, {}, {}});
+        material_slots_.push_back(
+            used[m] ? load_material(index, workers)
+                    : MaterialSlots{&material_or_default(asset, index), {}, {}, {}, {}, {}, {}});
     }
-    scales_.resize(asset.parts.size());
+    densities_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
-        measure(asset.parts[p], workers.poll, scales_[p]);
-        if (wanted.tangents()) tangents_[p] = source_tangents(asset, asset.parts[p], workers.poll);
+        measure_densities(asset.parts[p], workers.check_cancelled, densities_[p]);
+        if (wanted.needs_tangents())
+            tangents_[p] = source_tangents(asset, asset.parts[p], workers.check_cancelled);
     }
 }
 
-SourceSurface::Surface SourceSurface::surface_of(Index index, const Workers& workers) {
-    Surface result;
+SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const Workers& workers) {
+    MaterialSlots result;
     result.material = &material_or_default(asset_, index);
     const Material& m = *result.material;
-    const Encoding colour = m.alpha_mode == AlphaMode::opaque ? Encoding::opaque_colour : Encoding::colour;
-    const auto set = [&](Slot& to, bool wanted, const TextureRef& use, Encoding encoding) {
-        if (wanted) to = slot(use, encoding, index, workers);
+    const TexelEncoding color =
+        m.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
+    const auto set = [&](TextureSlot& to, bool wanted, const TextureRef& texture_ref,
+                         TexelEncoding encoding) {
+        if (wanted) to = load_slot(texture_ref, encoding, index, workers);
     };
-    set(result.base, wanted_.base, m.base_color_texture, colour);
-    set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture, Encoding::data);
-    set(result.occlusion, wanted_.occlusion, m.occlusion_texture, Encoding::data);
-    set(result.emissive, wanted_.emissive, m.emissive_texture, Encoding::opaque_colour);
-    set(result.normal, wanted_.normal && !m.unlit, m.normal_texture, Encoding::data);
+    set(result.base, wanted_.base, m.base_color_texture, color);
+    set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture,
+        TexelEncoding::data);
+    set(result.occlusion, wanted_.occlusion, m.occlusion_texture, TexelEncoding::data);
+    set(result.emissive, wanted_.emissive, m.emissive_texture, TexelEncoding::opaque_color);
+    set(result.normal, wanted_.normal && !m.unlit, m.normal_texture, TexelEncoding::data);
     if (!wanted_.layers) return result;
     result.extensions.resize(m.extension_textures.size());
     for (const ExtensionLayer& layer : extension_layers(m)) {
         const Index first = layer.textures.front();
-        set(result.extensions[first], !layer.is_normal() || wanted_.layer_normals,
+        set(result.extensions[first], !layer.is_normal_map() || wanted_.layer_normals,
             m.extension_textures[first].texture, layer.encoding());
     }
     return result;
 }
 
-SourceSurface::Slot SourceSurface::slot(const TextureRef& use, Encoding encoding, Index material,
-                                        const Workers& workers) {
-    if (!use) return {};
-    auto& image = images_[{use.image, encoding}];
+SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_ref, TexelEncoding encoding,
+                                                    Index material, const Workers& workers) {
+    if (!texture_ref) return {};
+    auto& image = images_[{texture_ref.image, encoding}];
     if (!image) {
-        Pixels pixels = decode_for(asset_, use.image, material, workers.poll);
+        Pixels pixels = decode_for(asset_, texture_ref.image, material, workers.check_cancelled);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "its image has no pixels");
         }
         image = std::make_unique<const MipImage>(std::move(pixels), encoding, workers);
     }
     const double texels = double(image->width()) * image->height();
-    return {image.get(), &use, std::sqrt(texels * std::abs(double(use.scale[0]) * use.scale[1])),
-            uv_transform(use)};
+    return {image.get(), &texture_ref,
+            std::sqrt(texels * std::abs(double(texture_ref.scale[0]) * texture_ref.scale[1])),
+            uv_transform(texture_ref)};
 }
 
-void SourceSurface::measure(const Part& part, engine::Poll poll, PartScale& scale) const {
+void SourceSampler::measure_densities(const Part& part, engine::CancellationCheck check_cancelled,
+                                      PartDensity& density) const {
     const std::size_t faces = part.triangles.size();
     std::vector<float> length(faces);  // sqrt of the area
     double area = 0;
     for (std::size_t f = 0; f < faces; ++f) {
-        poll();
+        check_cancelled();
         const double a = face_area(part, f);
         area += a;
         length[f] = static_cast<float>(std::sqrt(a));
     }
-    if (area > 0) scale.untextured = std::sqrt(2 * static_cast<double>(faces) / area);
-    scale.uv_per_length.resize(part.uvs.size());
+    if (area > 0) density.untextured_density = std::sqrt(2 * static_cast<double>(faces) / area);
+    density.uv_per_length.resize(part.uvs.size());
     for (std::size_t set = 0; set < part.uvs.size(); ++set) {
         bool needed = false;
-        for (const Surface& surface : surfaces_)
-            surface.for_each_image([&](const Slot& slot) { needed = needed || slot.use->uv_set == set; });
+        for (const MaterialSlots& slots : material_slots_)
+            slots.for_each_image(
+                [&](const TextureSlot& slot) { needed = needed || slot.texture_ref->uv_set == set; });
         if (!needed) continue;
-        std::vector<float>& ratio = scale.uv_per_length[set];
+        std::vector<float>& ratio = density.uv_per_length[set];
         ratio.resize(faces, 0.0f);
         for (std::size_t f = 0; f < faces; ++f) {
-            poll();
+            check_cancelled();
             const double r = std::sqrt(uv_area(part.uvs[set], part.triangles[f])) / length[f];
             if (std::isfinite(r)) ratio[f] = static_cast<float>(r);
         }
     }
 }
 
-Linear SourceSurface::fetch(const Slot& slot, Index p, const SurfacePoint& point, double spacing) const {
+LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const SurfacePoint& point,
+                                 double spacing) const {
     const Part& part = asset_.parts[p];
-    const std::uint32_t set = slot.use->uv_set;
-    if (set >= part.uvs.size()) return slot.image->sample(*slot.use, 0, 0, 0);
+    const std::uint32_t set = slot.texture_ref->uv_set;
+    if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, 0, 0, 0);
     const Triangle& t = part.triangles[point.face];
     const auto uv = slot.transform.apply(blend(part.uvs[set], t, point.barycentric, 0),
                                          blend(part.uvs[set], t, point.barycentric, 1));
-    const double footprint = scales_[p].uv_per_length[set][point.face] * slot.texels_per_uv * spacing;
-    return slot.image->sample(*slot.use, uv[0], uv[1], footprint > 1 ? std::log2(footprint) : 0);
+    const double footprint = densities_[p].uv_per_length[set][point.face] * slot.texels_per_uv * spacing;
+    return slot.image->sample(*slot.texture_ref, uv[0], uv[1], footprint > 1 ? std::log2(footprint) : 0);
 }
 
-Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spacing) const {
+Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spacing) const {
     const Part& part = asset_.parts[p];
-    const Surface& s = surface(p, point);
+    const MaterialSlots& s = slots(p, point);
     const Material& m = *s.material;
     Appearance result;
     Vec4f factor = m.base_color;
@@ -159,14 +169,14 @@ Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spac
             factor[k] *= static_cast<float>(blend(part.colors, t, point.barycentric, k));
     }
     if (m.alpha_mode == AlphaMode::opaque) factor[3] = 1;
-    const Linear base = s.base.image ? fetch(s.base, p, point, spacing) : Linear{1, 1, 1, 1};
+    const LinearColor base = s.base.image ? fetch(s.base, p, point, spacing) : LinearColor{1, 1, 1, 1};
     for (std::size_t k = 0; k < 3; ++k) result.base[k] = base[k] * factor[k] * factor[3];
     result.base[3] = base[3] * factor[3];
 
     result.metallic = m.metallic;
     result.roughness = m.roughness;
     if (s.metallic_roughness.image) {
-        const Linear c = fetch(s.metallic_roughness, p, point, spacing);
+        const LinearColor c = fetch(s.metallic_roughness, p, point, spacing);
         result.roughness *= c[1];
         result.metallic *= c[2];
     }
@@ -175,60 +185,63 @@ Appearance SourceSurface::sample(Index p, const SurfacePoint& point, double spac
     }
     result.emissive = m.emissive;
     if (s.emissive.image) {
-        const Linear c = fetch(s.emissive, p, point, spacing);
+        const LinearColor c = fetch(s.emissive, p, point, spacing);
         for (std::size_t k = 0; k < 3; ++k) result.emissive[k] *= c[k];
     }
     return result;
 }
 
-Vector3 SourceSurface::normal(Index p, const SurfacePoint& point, double spacing, const Vector3& side) const {
-    const Surface& s = surface(p, point);
-    return bent(s.normal, s.material->normal_scale, p, point, spacing, side);
+Vector3 SourceSampler::normal(Index p, const SurfacePoint& point, double spacing,
+                              const Vector3& face_normal) const {
+    const MaterialSlots& s = slots(p, point);
+    return perturbed_normal(s.normal, s.material->normal_scale, p, point, spacing, face_normal);
 }
 
-Vector3 SourceSurface::bent(const Slot& slot, double scale, Index p, const SurfacePoint& point,
-                            double spacing, const Vector3& side) const {
+Vector3 SourceSampler::perturbed_normal(const TextureSlot& slot, double scale, Index p,
+                                        const SurfacePoint& point, double spacing,
+                                        const Vector3& face_normal) const {
     const Part& part = asset_.parts[p];
-    const Vector3 smooth = smooth_normal(part, point);
+    const Vector3 smooth = interpolated_normal(part, point);
     Vector3 result = smooth;
     if (slot.image) {
-        const Linear c = fetch(slot, p, point, spacing);
-        const Vector3 bent(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0), 2 * c[2] - 1.0);
+        const LinearColor c = fetch(slot, p, point, spacing);
+        const Vector3 tangent_space_normal(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0),
+                                           2 * c[2] - 1.0);
         std::array<FrameCorner, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) {
             corners[i] = {corner_normal(part, point.face, i), tangents_[p][std::size_t{3} * point.face + i]};
         }
-        result = blend_frames(corners, point.barycentric).to_mesh(bent);
+        result = blend_frames(corners, point.barycentric).to_mesh(tangent_space_normal);
         const double length = result.norm();
         result = length > 1e-6 && std::isfinite(length) ? Vector3(result / length) : smooth;
     }
-    const bool from_behind =
-        smooth.dot(side) < 0 && winding_normal(part.positions, part.triangles[point.face]).dot(side) < 0;
+    const bool from_behind = smooth.dot(face_normal) < 0 &&
+                             winding_normal(part.positions, part.triangles[point.face]).dot(face_normal) < 0;
     return from_behind ? Vector3(-result) : result;
 }
 
-Linear SourceSurface::layer(Index p, const SurfacePoint& point, double spacing,
-                            const ExtensionLayer& layer) const {
-    return fetch(surface(p, point).extensions[layer.textures.front()], p, point, spacing);
+LinearColor SourceSampler::layer(Index p, const SurfacePoint& point, double spacing,
+                                 const ExtensionLayer& layer) const {
+    return fetch(slots(p, point).extensions[layer.textures.front()], p, point, spacing);
 }
 
-Vector3 SourceSurface::layer_normal(Index p, const SurfacePoint& point, double spacing, const Vector3& side,
-                                    const ExtensionLayer& layer) const {
-    const Slot& slot = surface(p, point).extensions[layer.textures.front()];
-    return bent(slot, layer.normal_scale, p, point, spacing, side);
+Vector3 SourceSampler::layer_normal(Index p, const SurfacePoint& point, double spacing,
+                                    const Vector3& face_normal, const ExtensionLayer& layer) const {
+    const TextureSlot& slot = slots(p, point).extensions[layer.textures.front()];
+    return perturbed_normal(slot, layer.normal_scale, p, point, spacing, face_normal);
 }
 
-double SourceSurface::texel_density(Index p, Index face) const {
+double SourceSampler::texel_density(Index p, Index face) const {
     const Part& part = asset_.parts[p];
-    const Surface& s = surface(face_material(part, face));
+    const MaterialSlots& s = slots(face_material(part, face));
     double density = 0;
-    s.for_each_image([&](const Slot& slot) {
-        const std::uint32_t set = slot.use->uv_set;
+    s.for_each_image([&](const TextureSlot& slot) {
+        const std::uint32_t set = slot.texture_ref->uv_set;
         if (set < part.uvs.size())
-            density = std::max(density, scales_[p].uv_per_length[set][face] * slot.texels_per_uv);
+            density = std::max(density, densities_[p].uv_per_length[set][face] * slot.texels_per_uv);
     });
     const bool geometry = wanted_.normal && !s.normal.image;
-    return density > 0 && !geometry ? density : std::max(density, scales_[p].untextured);
+    return density > 0 && !geometry ? density : std::max(density, densities_[p].untextured_density);
 }
 
 }  // namespace faqem::detail

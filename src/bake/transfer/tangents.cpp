@@ -16,38 +16,41 @@ using Eigen::Vector3f;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-Vector3f to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+Vector3f to_vector3f(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
-bool counts(float x) { return std::abs(x) > std::numeric_limits<float>::min(); }
+bool is_not_zero(float x) { return std::abs(x) > std::numeric_limits<float>::min(); }
 
 Vector3f unit(const Vector3f& v) {
     const float length = v.norm();
-    return counts(length) && std::isfinite(length) ? Vector3f(v / length) : Vector3f::Zero();
+    return is_not_zero(length) && std::isfinite(length) ? Vector3f(v / length) : Vector3f::Zero();
 }
 
-Vector3f unit_across(const Vector3f& v, const Vector3f& normal) { return unit(v - normal.dot(v) * normal); }
+Vector3f project_and_normalize(const Vector3f& v, const Vector3f& normal) {
+    return unit(v - normal.dot(v) * normal);
+}
 
 Vec4f any_tangent(const Vector3f& normal) {
     const Vector3f axis = std::abs(normal.x()) < 0.7f ? Vector3f::UnitX() : Vector3f::UnitY();
-    Vector3f tangent = unit_across(axis, normal);
+    Vector3f tangent = project_and_normalize(axis, normal);
     if (tangent.isZero(0)) tangent = axis;
     return {tangent.x(), tangent.y(), tangent.z(), 1};
 }
 
 // Equal corners get the number of the first one. -0 and 0 are equal.
-std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners, engine::Poll poll) {
+std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners,
+                                engine::CancellationCheck check_cancelled) {
     std::vector<std::uint32_t> order(corners.size()), result(corners.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t c) {
         return std::tie(corners[c].position, corners[c].normal, corners[c].uv);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        poll();
+        check_cancelled();
         if (key(a) < key(b)) return true;
         return !(key(b) < key(a)) && a < b;
     });
     for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
-        poll();
+        check_cancelled();
         if (key(order[first]) != key(order[i])) first = i;
         result[order[i]] = order[first];
     }
@@ -56,12 +59,12 @@ std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners, engine::
 
 class Tangents {
 public:
-    Tangents(std::span<const TangentCorner> corners, engine::Poll poll)
-        : poll_(poll),
+    Tangents(std::span<const TangentCorner> corners, engine::CancellationCheck check_cancelled)
+        : check_cancelled_(check_cancelled),
           corners_(corners),
-          vertex_(weld(corners, poll)),
+          vertex_(weld(corners, check_cancelled)),
           faces_(corners.size() / 3),
-          across_(corners.size(), none),
+          adjacent_face_(corners.size(), none),
           group_(corners.size(), none) {
         for (std::size_t f = 0; f < faces_.size(); ++f) measure(f);
         find_neighbours();
@@ -70,49 +73,49 @@ public:
     std::vector<Vec4f> operator()() {
         for (std::uint32_t c = 0; c < group_.size(); ++c) {
             const Face& face = faces_[c / 3];
-            if (face.flat || !face.has_tangent || group_[c] != none) continue;
-            grow(c);
+            if (face.is_degenerate || !face.has_tangent || group_[c] != none) continue;
+            grow_group(c);
         }
         std::vector<Vec4f> result(corners_.size());
         for (std::size_t c = 0; c < result.size(); ++c) {
-            poll_();
+            check_cancelled_();
             result[c] = group_[c] == none ? any_tangent(normal(c)) : tangents_[group_[c]];
         }
-        adopt(result);
+        copy_to_degenerate_faces(result);
         return result;
     }
 
 private:
     struct Face {
-        Vector3f along_u = Vector3f::Zero();  // unit
-        bool forward = false;                 // UVs run as the corners do, v pointing down
-        bool has_tangent = false;             // it has area in the UVs
-        bool flat = false;                    // two corners at one place
+        Vector3f along_u = Vector3f::Zero();     // unit
+        bool is_orientation_preserving = false;  // UVs run as the corners do, v pointing down
+        bool has_tangent = false;                // it has area in the UVs
+        bool is_degenerate = false;              // two corners at one position
     };
 
-    Vector3f place(std::size_t c) const { return to_vector(corners_[c].position); }
-    Vector3f normal(std::size_t c) const { return to_vector(corners_[c].normal); }
+    Vector3f position(std::size_t c) const { return to_vector3f(corners_[c].position); }
+    Vector3f normal(std::size_t c) const { return to_vector3f(corners_[c].normal); }
     static std::size_t next(std::size_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
     static std::size_t previous(std::size_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
     void measure(std::size_t f) {
-        poll_();
+        check_cancelled_();
         const std::size_t c = 3 * f;
         Face& face = faces_[f];
         const Vec3f &p0 = corners_[c].position, &p1 = corners_[c + 1].position,
                     &p2 = corners_[c + 2].position;
-        face.flat = p0 == p1 || p0 == p2 || p1 == p2;
+        face.is_degenerate = p0 == p1 || p0 == p2 || p1 == p2;
         const Vec2f &a = corners_[c].uv, &b = corners_[c + 1].uv, &d = corners_[c + 2].uv;
         const float u1 = b[0] - a[0], v1 = b[1] - a[1], u2 = d[0] - a[0], v2 = d[1] - a[1];
-        const Vector3f e1 = place(c + 1) - place(c), e2 = place(c + 2) - place(c);
+        const Vector3f e1 = position(c + 1) - position(c), e2 = position(c + 2) - position(c);
         const float area = u1 * v2 - v1 * u2;
-        face.forward = area > 0;
-        if (!counts(area)) return;
+        face.is_orientation_preserving = area > 0;
+        if (!is_not_zero(area)) return;
         const Vector3f along_u = e1 * v2 - e2 * v1, along_v = e2 * u1 - e1 * u2;
         const float length = along_u.norm();
-        face.along_u = (face.forward ? 1.0f : -1.0f) * unit(along_u);
-        face.has_tangent = counts(length / std::abs(area)) && counts(along_v.norm() / std::abs(area)) &&
-                           std::isfinite(length);
+        face.along_u = (face.is_orientation_preserving ? 1.0f : -1.0f) * unit(along_u);
+        face.has_tangent = is_not_zero(length / std::abs(area)) &&
+                           is_not_zero(along_v.norm() / std::abs(area)) && std::isfinite(length);
     }
 
     // Over each edge at most one other face, wound alike: the first one that is free.
@@ -123,18 +126,18 @@ private:
         std::vector<Edge> edges;
         edges.reserve(corners_.size());
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
-            if (faces_[c / 3].flat) continue;
-            poll_();
+            if (faces_[c / 3].is_degenerate) continue;
+            check_cancelled_();
             const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
             edges.push_back({low, high, c});
         }
         std::sort(edges.begin(), edges.end(), [this](const Edge& a, const Edge& b) {
-            poll_();
+            check_cancelled_();
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         std::vector<std::uint32_t> waiting;
         for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-            poll_(2);
+            check_cancelled_(2);
             // All that wait run the same way.
             waiting.clear();
             std::size_t first = 0;
@@ -143,8 +146,8 @@ private:
                  ++end) {
                 const std::uint32_t c = edges[end].corner;
                 if (first < waiting.size() && vertex_[waiting[first]] != vertex_[c]) {
-                    across_[c] = waiting[first] / 3;
-                    across_[waiting[first]] = c / 3;
+                    adjacent_face_[c] = waiting[first] / 3;
+                    adjacent_face_[waiting[first]] = c / 3;
                     ++first;
                 } else {
                     waiting.push_back(c);
@@ -154,73 +157,76 @@ private:
     }
 
     // The triangles about a vertex that share a tangent with this corner's.
-    void grow(std::uint32_t seed) {
-        const bool forward = faces_[seed / 3].forward;
+    void grow_group(std::uint32_t seed) {
+        const bool is_orientation_preserving = faces_[seed / 3].is_orientation_preserving;
         const auto number = static_cast<std::uint32_t>(tangents_.size());
         const std::uint32_t vertex = vertex_[seed];
         Vector3f sum = Vector3f::Zero();
         std::vector<std::uint32_t> stack = {seed / 3};
         while (!stack.empty()) {
-            poll_();
+            check_cancelled_();
             const std::uint32_t f = stack.back();
             stack.pop_back();
             std::size_t c = 3 * std::size_t{f};
             while (vertex_[c] != vertex) ++c;
             if (group_[c] != none) continue;
             Face& face = faces_[f];
-            if (!face.has_tangent && is_free(f)) face.forward = forward;
-            if (face.forward != forward) continue;
+            if (!face.has_tangent && has_no_group(f))
+                face.is_orientation_preserving = is_orientation_preserving;
+            if (face.is_orientation_preserving != is_orientation_preserving) continue;
             group_[c] = number;
             if (face.has_tangent) sum += weighted_tangent(c);
             // Depth first, this way round first, as the reference goes: it decides for faces without a
             // tangent.
-            for (const std::uint32_t other : {across_[previous(c)], across_[c]}) {
+            for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]}) {
                 if (other != none) stack.push_back(other);
             }
         }
         const Vector3f tangent = unit(sum);
         // glTF's v points down, MikkTSpace's up: UVs that run as the corners do are mirrored ones.
-        tangents_.push_back(tangent.isZero(0)
-                                ? any_tangent(normal(seed))
-                                : Vec4f{tangent.x(), tangent.y(), tangent.z(), forward ? -1.0f : 1.0f});
+        tangents_.push_back(tangent.isZero(0) ? any_tangent(normal(seed))
+                                              : Vec4f{tangent.x(), tangent.y(), tangent.z(),
+                                                      is_orientation_preserving ? -1.0f : 1.0f});
     }
 
-    bool is_free(std::size_t f) const {
+    bool has_no_group(std::size_t f) const {
         return group_[3 * f] == none && group_[3 * f + 1] == none && group_[3 * f + 2] == none;
     }
 
     Vector3f weighted_tangent(std::size_t c) const {
         const Vector3f n = normal(c);
-        const Vector3f a = unit_across(place(previous(c)) - place(c), n);
-        const Vector3f b = unit_across(place(next(c)) - place(c), n);
-        return std::acos(std::clamp(a.dot(b), -1.0f, 1.0f)) * unit_across(faces_[c / 3].along_u, n);
+        const Vector3f a = project_and_normalize(position(previous(c)) - position(c), n);
+        const Vector3f b = project_and_normalize(position(next(c)) - position(c), n);
+        return std::acos(std::clamp(a.dot(b), -1.0f, 1.0f)) * project_and_normalize(faces_[c / 3].along_u, n);
     }
 
     // Triangles of no extent take what others have at the same vertex.
-    void adopt(std::vector<Vec4f>& result) const {
+    void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
         std::vector<std::uint32_t> donor(corners_.size(), none);
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
-            poll_();
-            if (!faces_[c / 3].flat && donor[vertex_[c]] == none) donor[vertex_[c]] = c;
+            check_cancelled_();
+            if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == none) donor[vertex_[c]] = c;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) {
-            if (faces_[c / 3].flat && donor[vertex_[c]] != none) result[c] = result[donor[vertex_[c]]];
+            if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != none)
+                result[c] = result[donor[vertex_[c]]];
         }
     }
 
-    engine::Poll poll_;
+    engine::CancellationCheck check_cancelled_;
     std::span<const TangentCorner> corners_;
     std::vector<std::uint32_t> vertex_;  // by corner
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> across_;  // face over the edge from a corner to the next
-    std::vector<std::uint32_t> group_;   // by corner
-    std::vector<Vec4f> tangents_;        // by group
+    std::vector<std::uint32_t> adjacent_face_;  // face over the edge from a corner to the next
+    std::vector<std::uint32_t> group_;          // by corner
+    std::vector<Vec4f> tangents_;               // by group
 };
 
 }  // namespace
 
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners, engine::Poll poll) {
-    return Tangents(corners, poll)();
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners,
+                                 engine::CancellationCheck check_cancelled) {
+    return Tangents(corners, check_cancelled)();
 }
 
 }  // namespace faqem::detail

@@ -31,6 +31,7 @@ struct TangentCorner {
 /// \return one per corner.
 /// \throws what the poll throws.
 /// O(n log n)
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners, engine::Poll poll = {});
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners,
+                                 engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

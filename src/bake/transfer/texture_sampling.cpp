@@ -27,8 +27,8 @@ std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
     return static_cast<std::uint32_t>(r < n ? r : period - 1 - r);
 }
 
-Linear mix(const Linear& a, const Linear& b, float t) {
-    Linear result;
+LinearColor mix(const LinearColor& a, const LinearColor& b, float t) {
+    LinearColor result;
     for (std::size_t k = 0; k < 4; ++k) result[k] = a[k] + t * (b[k] - a[k]);
     return result;
 }
@@ -50,17 +50,17 @@ Taps taps(std::uint32_t i, std::uint32_t from, std::uint32_t to) {
     return result;
 }
 
-double usable(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
+double valid_or_zero(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
 }  // namespace
 
-MipImage::MipImage(Pixels pixels, Encoding encoding, const Workers& workers)
+MipImage::MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers)
     : pixels_(std::move(pixels)), encoding_(encoding) {
     for (std::size_t level = 0; width(level) > 1 || height(level) > 1; ++level)
-        levels_.push_back(half(level, workers));
+        levels_.push_back(downsample(level, workers));
 }
 
-Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const {
+LinearColor MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const {
     const std::size_t at = (std::size_t{y} * width(level) + x) * 4;
     if (level > 0) {
         const std::uint16_t* p = &levels_[level - 1].rgba[at];
@@ -69,15 +69,15 @@ Linear MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const
     }
     const std::uint8_t* p = &pixels_.rgba[at];
     constexpr float unit = 1.0f / 255;
-    if (encoding_ == Encoding::data) return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
+    if (encoding_ == TexelEncoding::data) return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
     const auto& linear = srgb_table();
-    if (encoding_ == Encoding::colour_and_number)
+    if (encoding_ == TexelEncoding::color_and_data_alpha)
         return {linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
-    const float alpha = encoding_ == Encoding::colour ? p[3] * unit : 1;
+    const float alpha = encoding_ == TexelEncoding::color ? p[3] * unit : 1;
     return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
 }
 
-MipImage::Level MipImage::half(std::size_t from, const Workers& workers) const {
+MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
     // Not a vector: to clear half a gigabyte first would take long, with nobody asked.
     result.rgba =
@@ -87,10 +87,10 @@ MipImage::Level MipImage::half(std::size_t from, const Workers& workers) const {
         std::uint16_t* to = &result.rgba[std::size_t{y} * result.width * 4];
         for (std::uint32_t x = 0; x < result.width; ++x) {
             const Taps columns = taps(x, width(from), result.width);
-            Linear sum{};
+            LinearColor sum{};
             for (std::uint32_t j = 0; j < rows.count; ++j) {
                 for (std::uint32_t i = 0; i < columns.count; ++i) {
-                    const Linear c = read(from, columns.first + i, rows.first + j);
+                    const LinearColor c = read(from, columns.first + i, rows.first + j);
                     for (std::size_t k = 0; k < 4; ++k) sum[k] += rows.weight[j] * columns.weight[i] * c[k];
                 }
             }
@@ -98,47 +98,51 @@ MipImage::Level MipImage::half(std::size_t from, const Workers& workers) const {
         }
     };
     constexpr std::size_t rows_at_once = 16;
-    parallel_blocks(result.height, rows_at_once, workers, [&](std::size_t y, std::size_t end, Poll poll) {
-        for (; y < end; ++y) {
-            poll(result.width / 4);
-            fill_row(static_cast<std::uint32_t>(y));
-        }
-    });
+    parallel_blocks(result.height, rows_at_once, workers,
+                    [&](std::size_t y, std::size_t end, CancellationCheck check_cancelled) {
+                        for (; y < end; ++y) {
+                            check_cancelled(result.width / 4);
+                            fill_row(static_cast<std::uint32_t>(y));
+                        }
+                    });
     return result;
 }
 
-Linear MipImage::texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& use) const {
-    return read(level, wrapped(x, width(level), use.wrap_u), wrapped(y, height(level), use.wrap_v));
+LinearColor MipImage::texel(std::size_t level, std::int64_t x, std::int64_t y,
+                            const TextureRef& texture_ref) const {
+    return read(level, wrapped(x, width(level), texture_ref.wrap_u),
+                wrapped(y, height(level), texture_ref.wrap_v));
 }
 
-Linear MipImage::at_level(std::size_t level, double u, double v, const TextureRef& use) const {
+LinearColor MipImage::sample_level(std::size_t level, double u, double v,
+                                   const TextureRef& texture_ref) const {
     const double x = u * width(level), y = v * height(level);
-    if (use.filter == Filter::nearest) {
+    if (texture_ref.filter == Filter::nearest) {
         return texel(level, static_cast<std::int64_t>(std::floor(x)),
-                     static_cast<std::int64_t>(std::floor(y)), use);
+                     static_cast<std::int64_t>(std::floor(y)), texture_ref);
     }
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
     const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(top);
     const float s = static_cast<float>(x - 0.5 - left), t = static_cast<float>(y - 0.5 - top);
-    return mix(mix(texel(level, i, j, use), texel(level, i + 1, j, use), s),
-               mix(texel(level, i, j + 1, use), texel(level, i + 1, j + 1, use), s), t);
+    return mix(mix(texel(level, i, j, texture_ref), texel(level, i + 1, j, texture_ref), s),
+               mix(texel(level, i, j + 1, texture_ref), texel(level, i + 1, j + 1, texture_ref), s), t);
 }
 
-Linear MipImage::sample(const TextureRef& use, double u, double v, double lod) const {
-    u = usable(u);
-    v = usable(v);
+LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, double lod) const {
+    u = valid_or_zero(u);
+    v = valid_or_zero(v);
     const double deepest = static_cast<double>(levels_.size());
     const double at = lod > 0 ? std::min(lod, deepest) : 0;
     const auto level = static_cast<std::size_t>(at);
     const float t = static_cast<float>(at - static_cast<double>(level));
-    const Linear fine = at_level(level, u, v, use);
-    return t > 0 ? mix(fine, at_level(level + 1, u, v, use), t) : fine;
+    const LinearColor fine = sample_level(level, u, v, texture_ref);
+    return t > 0 ? mix(fine, sample_level(level + 1, u, v, texture_ref), t) : fine;
 }
 
-UvTransform uv_transform(const TextureRef& use) {
-    const double c = std::cos(double(use.rotation)), s = std::sin(double(use.rotation));
-    return {{c * use.scale[0], s * use.scale[1], use.offset[0]},
-            {-s * use.scale[0], c * use.scale[1], use.offset[1]}};
+UvTransform uv_transform(const TextureRef& texture_ref) {
+    const double c = std::cos(double(texture_ref.rotation)), s = std::sin(double(texture_ref.rotation));
+    return {{c * texture_ref.scale[0], s * texture_ref.scale[1], texture_ref.offset[0]},
+            {-s * texture_ref.scale[0], c * texture_ref.scale[1], texture_ref.offset[1]}};
 }
 
 std::uint8_t linear_byte(double value) {

@@ -13,15 +13,15 @@
 namespace faqem::detail {
 
 /// How the numbers of an image are meant.
-enum class Encoding {
-    colour,             ///< sRGB, alpha counts: filtered premultiplied
-    opaque_colour,      ///< sRGB, alpha is ignored and read as 1
-    colour_and_number,  ///< sRGB; alpha is a number of its own
-    data,               ///< linear numbers in RGBA
+enum class TexelEncoding {
+    color,                 ///< sRGB, alpha counts: filtered premultiplied
+    opaque_color,          ///< sRGB, alpha is ignored and read as 1
+    color_and_data_alpha,  ///< sRGB; alpha is a number of its own
+    data,                  ///< linear numbers in RGBA
 };
 
 /// RGBA in linear light, premultiplied where the encoding says so.
-using Linear = std::array<float, 4>;
+using LinearColor = std::array<float, 4>;
 
 /// An image with its mip pyramid: level 0 as decoded, the others 16 bits per channel in linear light,
 /// premultiplied. 4 + 8 / 3 bytes per texel.
@@ -29,32 +29,32 @@ class MipImage {
 public:
     /// \param pixels  at least one texel
     /// \throws what the workers' poll throws
-    MipImage(Pixels pixels, Encoding encoding, const Workers& workers = {});
+    MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers = {});
 
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
 
-    /// \param use  wrap modes and filter; its transform is not applied here
+    /// \param texture_ref  wrap modes and filter; its transform is not applied here
     /// \param u,v  texture coordinates, v down; what is not finite or beyond 1e9 reads as 0
     /// \param lod  log2 of the footprint in texels of level 0; below 0 as 0
-    Linear sample(const TextureRef& use, double u, double v, double lod) const;
+    LinearColor sample(const TextureRef& texture_ref, double u, double v, double lod) const;
 
 private:
     struct Level {
         std::uint32_t width, height;
         std::unique_ptr<std::uint16_t[]> rgba;
     };
-    Linear texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& use) const;
-    Linear read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
-    Linear at_level(std::size_t level, double u, double v, const TextureRef& use) const;
-    Level half(std::size_t from, const Workers& workers) const;
+    LinearColor texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& texture_ref) const;
+    LinearColor read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
+    LinearColor sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const;
+    Level downsample(std::size_t from, const Workers& workers) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
     std::uint32_t height(std::size_t level) const {
         return level ? levels_[level - 1].height : pixels_.height;
     }
 
     Pixels pixels_;
-    Encoding encoding_;
+    TexelEncoding encoding_;
     std::vector<Level> levels_;  ///< from level 1 on
 };
 
@@ -69,7 +69,7 @@ struct UvTransform {
 
 /// KHR_texture_transform: scaled, rotated, moved. A positive rotation turns UVs counter-clockwise as seen on
 /// an image whose v points down.
-UvTransform uv_transform(const TextureRef& use);
+UvTransform uv_transform(const TextureRef& texture_ref);
 
 /// 0..1 linear light to an sRGB byte. NaN gives 0.
 std::uint8_t srgb_byte(double linear);

@@ -11,7 +11,7 @@ namespace faqem::detail {
 
 inline engine::Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
-inline Vec3f to_float(const engine::Vector3& v) {
+inline Vec3f to_vec3f(const engine::Vector3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -72,10 +72,10 @@ double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
 
 // Sums of premultiplied colours, so that clear corners do not tint the others.
 struct ColorSum {
-    Linear premultiplied{};
+    LinearColor premultiplied{};
     float count = 0;
 
-    void add(const Linear& c) {
+    void add(const LinearColor& c) {
         for (std::size_t k = 0; k < 4; ++k) premultiplied[k] += c[k];
         ++count;
     }
@@ -90,18 +90,20 @@ struct ColorSum {
 
 }  // namespace
 
-void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined, engine::Poll poll) {
-    const Part& from = *small.source;
-    Part& to = joined.part;
+void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
+                              engine::CancellationCheck check_cancelled) {
+    const Part& from = *bake_part.source;
+    Part& to = welded.part;
     const bool skin = !from.joints.empty() && !from.weights.empty();
-    if ((!skin && from.morph_targets.empty()) || !small.map) return;
-    const TriangleMesh& mesh = small.small->mesh;
-    const VertexCorners at = vertex_corners(mesh, poll);
+    if ((!skin && from.morph_targets.empty()) || !bake_part.map) return;
+    const TriangleMesh& mesh = bake_part.simplified->mesh;
+    const VertexCorners at = vertex_corners(mesh, check_cancelled);
     to.morph_targets.resize(from.morph_targets.size());
-    for (std::uint64_t corner : joined.corner) {
-        poll(operations_of_map);
+    for (std::uint64_t corner : welded.corner) {
+        check_cancelled(map_query_cost);
         const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
-        const SurfacePoint point = small.map->map(static_cast<Index>(shared / 3), near_corner(shared % 3, 0));
+        const SurfacePoint point =
+            bake_part.map->map(static_cast<Index>(shared / 3), barycentrics_near_corner(shared % 3, 0));
         if (skin) blend_skin(from, point, to);
         for (std::size_t m = 0; m < from.morph_targets.size(); ++m) {
             const MorphTarget& target = from.morph_targets[m];
@@ -110,34 +112,39 @@ void transfer_skin_and_morphs(const SmallPart& small, JoinedPart& joined, engine
                     blend(target.positions, from.triangles[point.face], point.barycentric));
             }
             if (target.normals.empty() || to.normals.empty()) continue;
-            const SurfacePoint own =
-                small.map->map(static_cast<Index>(corner / 3), near_corner(corner % 3, 0.02));
+            const SurfacePoint own = bake_part.map->map(static_cast<Index>(corner / 3),
+                                                        barycentrics_near_corner(corner % 3, 0.02));
             to.morph_targets[m].normals.push_back(
                 blend(target.normals, from.triangles[own.face], own.barycentric));
         }
     }
 }
 
-std::vector<Vec4f> corner_colors(const SmallPart& part, const SourceSurface& surface,
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,
                                  const CornerNormals& normals, Workers workers) {
-    const TriangleMesh& mesh = part.small->mesh;
-    std::vector<Linear> raw(3 * mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end, Poll poll) {
-        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-            poll(operations_of_map);
-            const Index face = static_cast<Index>(c / 3);
-            // A vertex speaks for the surface about it, a quarter of an edge each way.
-            const double spacing = shortest_edge(mesh, face) / 4;
-            raw[c] = surface.sample(part.index, part.map->map(face, near_corner(c % 3, 1e-3)), spacing).base;
-        }
-    });
+    const TriangleMesh& mesh = part.simplified->mesh;
+    std::vector<LinearColor> raw(3 * mesh.triangles.size());
+    parallel_blocks(mesh.triangles.size(), 256, workers,
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+                            check_cancelled(map_query_cost);
+                            const Index face = static_cast<Index>(c / 3);
+                            // A vertex speaks for the surface about it, a quarter of an edge each way.
+                            const double spacing = shortest_edge(mesh, face) / 4;
+                            raw[c] = sampler
+                                         .sample(part.index,
+                                                 part.map->map(face, barycentrics_near_corner(c % 3, 1e-3)),
+                                                 spacing)
+                                         .base;
+                        }
+                    });
     const auto group = [&](std::uint64_t c) {
         return mesh.face_groups.empty() ? 0 : mesh.face_groups[c / 3];
     };
-    const VertexCorners at = vertex_corners(mesh, workers.poll);
+    const VertexCorners at = vertex_corners(mesh, workers.check_cancelled);
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        workers.poll();
+        workers.check_cancelled();
         std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
         const auto key = [&](std::uint64_t c) { return std::pair(normals.clusters[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {

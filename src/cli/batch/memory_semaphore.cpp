@@ -5,15 +5,15 @@
 
 #include "cli/output_file.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 /// The least that a face takes in a file, with its share of the vertices (there are half as many).
-double face_bytes(const std::filesystem::path& model) {
-    const std::string ending = lower_ending(model);
-    if (ending == ".stl") return 50;
-    if (ending == ".obj" || ending == ".off") return 28;
+double min_bytes_per_face(const std::filesystem::path& model) {
+    const std::string extension = lower_case_extension(model);
+    if (extension == ".stl") return 50;
+    if (extension == ".obj" || extension == ".off") return 28;
     return 15;
 }
 
@@ -36,23 +36,23 @@ double peak_bytes_per_face(const Options& options) {
 
 }  // namespace
 
-std::uint64_t predicted_peak(const std::filesystem::path& model, std::uint64_t bytes,
-                             const Options& options) {
+std::uint64_t estimated_peak_memory_of_file(const std::filesystem::path& model, std::uint64_t bytes,
+                                            const Options& options) {
     // The process and its threads, and for each texel of a page what baking several textures takes.
     double peak = 64e6;
     if (makes_atlas(options.bake.kind)) peak += 36.0 * options.bake.texture_size * options.bake.texture_size;
-    const double faces = static_cast<double>(bytes) / face_bytes(model);
+    const double faces = static_cast<double>(bytes) / min_bytes_per_face(model);
     return static_cast<std::uint64_t>(peak + faces * peak_bytes_per_face(options));
 }
 
-void MemoryGate::enter(std::uint64_t bytes) {
-    const std::lock_guard turn(order_);
+void MemorySemaphore::acquire(std::uint64_t bytes) {
+    const std::lock_guard order_lock(order_mutex_);
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return used_ == 0 || (used_ <= limit_ && bytes <= limit_ - used_); });
     used_ += bytes;
 }
 
-void MemoryGate::leave(std::uint64_t bytes) {
+void MemorySemaphore::release(std::uint64_t bytes) {
     {
         const std::lock_guard lock(mutex_);
         used_ -= bytes;
@@ -60,4 +60,4 @@ void MemoryGate::leave(std::uint64_t bytes) {
     changed_.notify_all();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,26 +9,27 @@
 
 #include "faqem/options.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// An upper estimate of what simplify takes at its peak, from the size of the files alone, bytes. It goes by
 /// what a face takes at least in a file of that format, and by what the presets were measured to take.
 /// \param bytes  of the model and the files it refers to
-std::uint64_t predicted_peak(const std::filesystem::path& model, std::uint64_t bytes, const Options& options);
+std::uint64_t estimated_peak_memory_of_file(const std::filesystem::path& model, std::uint64_t bytes,
+                                            const Options& options);
 
 /// Lets work begin while what has begun fits. What does not fit at all is done while nothing else is.
-class MemoryGate {
+class MemorySemaphore {
 public:
-    explicit MemoryGate(std::uint64_t limit) : limit_(limit) {}
+    explicit MemorySemaphore(std::uint64_t limit) : limit_(limit) {}
 
     /// Waits. To be called in the order in which the work is to begin: a later caller does not overtake.
-    void enter(std::uint64_t bytes);
-    void leave(std::uint64_t bytes);
+    void acquire(std::uint64_t bytes);
+    void release(std::uint64_t bytes);
 
 private:
     std::uint64_t limit_, used_ = 0;
-    std::mutex mutex_, order_;
+    std::mutex mutex_, order_mutex_;
     std::condition_variable changed_;
 };
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

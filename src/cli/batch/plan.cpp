@@ -8,20 +8,21 @@
 #include <string_view>
 #include <utility>
 
-#include "faqem/error.hpp"
 #include "cli/output_file.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> model_endings = {".glb", ".gltf", ".obj", ".ply", ".stl", ".off"};
+constexpr std::array<std::string_view, 6> model_extensions = {".glb", ".gltf", ".obj",
+                                                              ".ply", ".stl",  ".off"};
 
 bool is_model_name(const fs::path& file) {
-    const std::string ending = lower_ending(file);
-    return std::find(model_endings.begin(), model_endings.end(), ending) != model_endings.end();
+    const std::string extension = lower_case_extension(file);
+    return std::find(model_extensions.begin(), model_extensions.end(), extension) != model_extensions.end();
 }
 
 using FileId = std::pair<dev_t, ino_t>;
@@ -50,17 +51,18 @@ void find_models(const fs::path& folder, const fs::path& out_folder, std::vector
     }
 }
 
-void name_results(std::vector<BatchFile>& files, const fs::path& out_folder, const std::string& ending) {
-    std::map<std::string, const BatchFile*> taken;
+void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_folder,
+                         const std::string& extension) {
+    std::map<std::string, const BatchFile*> output_names;
     std::map<FileId, const BatchFile*> inputs;
     FileId id;
     for (const BatchFile& file : files) {
         if (file_id(file.in, id)) inputs.emplace(id, &file);
     }
     for (BatchFile& file : files) {
-        file.out_name = fs::path(file.name).replace_extension(ending).generic_string();
+        file.out_name = fs::path(file.name).replace_extension(extension).generic_string();
         file.out = out_folder / file.out_name;
-        const auto [other, is_new] = taken.emplace(file.out_name, &file);
+        const auto [other, is_new] = output_names.emplace(file.out_name, &file);
         if (!is_new) {
             throw OptionError(file.out.string() + ": would be the result of both " +
                               other->second->in.string() + " and " + file.in.string());
@@ -76,7 +78,7 @@ void name_results(std::vector<BatchFile>& files, const fs::path& out_folder, con
 }  // namespace
 
 std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
-                                  const std::string& ending) {
+                                  const std::string& extension) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a folder");
     if (fs::equivalent(folder, out_folder, error))
@@ -92,10 +94,10 @@ std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_fo
     // By name first, so that messages do not depend on the order on the disk.
     std::sort(files.begin(), files.end(),
               [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
-    name_results(files, out_folder, ending);
+    assign_output_paths(files, out_folder, extension);
     std::stable_sort(files.begin(), files.end(),
                      [](const BatchFile& a, const BatchFile& b) { return a.bytes > b.bytes; });
     return files;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -4,18 +4,18 @@
 
 #include <string>
 
-#include "faqem/asset.hpp"
 #include "cli/batch/memory_semaphore.hpp"
 #include "cli/batch/plan.hpp"
 #include "cli/batch/record.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
 #include "cli/simplify_model.hpp"
+#include "faqem/asset.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// What all models of a batch share.
-struct BatchWork {
+struct BatchContext {
     Options options;
     std::string options_key;  ///< what results depend on besides the models
     Strictness strictness = Strictness::lenient;
@@ -23,13 +23,13 @@ struct BatchWork {
     bool resume = false;
     Overwrite overwrite = Overwrite::no;
     BatchRecord& record;
-    MemoryGate& memory;
+    MemorySemaphore& memory;
 };
 
 /// Does what simplify does with one model, unless that is done already and resume is set. Results that the
 /// record knows, and that nobody changed, may be replaced then. Waits for memory. Throws nothing.
 /// \param line  receives what is to be told about it
 /// \return what simplify's exit code would be; exit_ok where it was done already
-ExitCode do_batch_file(const BatchFile& file, const BatchWork& work, Json& line);
+ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, Json& line);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -8,14 +8,14 @@
 #include <fstream>
 #include <system_error>
 
-#include "faqem/error.hpp"
 #include "cli/json.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
-std::string line_of(const std::string& out_name, const BatchEntry& entry) {
+std::string json_line(const std::string& out_name, const BatchEntry& entry) {
     // Names need not be UTF-8; one that is not would be found again under its replacement, which differs: it
     // is done anew.
     return Json{{"result", out_name},      {"inputs", entry.inputs},     {"options", entry.options},
@@ -42,22 +42,23 @@ void read_line(const std::string& line, std::map<std::string, BatchEntry>& entri
 
 BatchRecord::BatchRecord(const std::filesystem::path& out_folder) : file_(out_folder / ".faqem-batch.jsonl") {
     const auto fail = [&](const char* what, int error) {
-        if (lock_ >= 0) ::close(lock_);
+        if (descriptor_ >= 0) ::close(descriptor_);
         throw WriteError(file_.string() + ": " + what + std::generic_category().message(error));
     };
-    lock_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (lock_ < 0) fail("cannot write: ", errno);
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) fail("another batch is at work in this folder: ", errno);
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("cannot write: ", errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+        fail("another batch is at work in this folder: ", errno);
     std::ifstream in(file_, std::ios::binary);
-    bool cut_off = false;
+    bool is_last_line_incomplete = false;
     for (std::string line; std::getline(in, line);) {
         read_line(line, entries_);
-        cut_off = in.eof();
+        is_last_line_incomplete = in.eof();
     }
-    if (cut_off && ::write(lock_, "\n", 1) != 1) fail("cannot write: ", errno);
+    if (is_last_line_incomplete && ::write(descriptor_, "\n", 1) != 1) fail("cannot write: ", errno);
 }
 
-BatchRecord::~BatchRecord() { ::close(lock_); }
+BatchRecord::~BatchRecord() { ::close(descriptor_); }
 
 std::optional<BatchEntry> BatchRecord::find(const std::string& out_name) const {
     const std::lock_guard guard(mutex_);
@@ -68,10 +69,10 @@ std::optional<BatchEntry> BatchRecord::find(const std::string& out_name) const {
 
 void BatchRecord::add(const std::string& out_name, const BatchEntry& entry) {
     const std::lock_guard guard(mutex_);
-    const std::string line = line_of(out_name, entry);
-    if (::write(lock_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    const std::string line = json_line(out_name, entry);
+    if (::write(descriptor_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
         throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
     entries_[out_name] = entry;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,13 +9,13 @@
 #include <optional>
 #include <string>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// One result.
 struct BatchEntry {
-    std::string inputs;   ///< stamp_of() the model and the files it refers to
+    std::string inputs;   ///< modification_stamp() the model and the files it refers to
     std::string options;  ///< what the result depends on besides
-    std::string result;   ///< stamp_of() the result; empty: it was begun and not finished
+    std::string result;   ///< modification_stamp() the result; empty: it was begun and not finished
     std::uint64_t faces_in = 0, faces_out = 0;
 };
 
@@ -39,9 +39,9 @@ public:
 
 private:
     std::filesystem::path file_;
-    int lock_ = -1;
+    int descriptor_ = -1;
     mutable std::mutex mutex_;
     std::map<std::string, BatchEntry> entries_;
 };
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -5,18 +5,18 @@
 #include <mutex>
 #include <string>
 
-#include "faqem/version.hpp"
-#include "faqem/detail/base/parallel.hpp"
 #include "cli/batch/process_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
-#include "cli/output_file.hpp"
 #include "cli/options/positive.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "cli/output_file.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/version.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -29,40 +29,40 @@ struct Arguments : SimplifyArguments {
 
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
-    const std::string ending = ending_of_format(arguments.format);
-    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, ending);
+    const std::string extension = extension_of_format(arguments.format);
+    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
     make_folder(arguments.out);
     BatchRecord record(arguments.out);
-    MemoryGate memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);
-    handle_interrupts();
+    MemorySemaphore memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);
+    install_signal_handlers();
     const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
     // Files side by side make better use of the threads than the threads of one file do.
     if (options.threads == 0)
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
-    options.progress = [](Phase, double) { return interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key = std::string(version()) + " " + ending + " " + options_text(options) +
+    options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
+    const std::string key = std::string(version()) + " " + extension + " " + options_key(options) +
                             (arguments.strict ? " strict" : "") +
                             (arguments.strict_target ? " strict-target" : "");
-    const BatchWork work = {options,
-                            key,
-                            arguments.strictness(),
-                            arguments.strict_target,
-                            arguments.resume,
-                            arguments.force ? Overwrite::yes : Overwrite::no,
-                            record,
-                            memory};
+    const BatchContext work = {options,
+                               key,
+                               arguments.strictness(),
+                               arguments.strict_target,
+                               arguments.resume,
+                               arguments.force ? Overwrite::yes : Overwrite::no,
+                               record,
+                               memory};
     std::mutex mutex;
     ExitCode code = exit_ok;
     detail::parallel_blocks(files.size(), 1, static_cast<std::uint32_t>(jobs),
                             [&](std::size_t i, std::size_t) {
                                 Json line;
-                                const ExitCode one = do_batch_file(files[i], work, line);
+                                const ExitCode one = process_batch_file(files[i], work, line);
                                 const std::lock_guard guard(mutex);
                                 if (one != exit_ok) code = exit_batch_incomplete;
                                 print_json_line(line);
                             });
-    return interrupted() ? exit_cancelled : code;
+    return is_interrupted() ? exit_cancelled : code;
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ void add_batch_command(CLI::App& app, Action& action) {
             "Start no model that may bring the memory above this, as 8GB or 500MB; one too large for "
             "it runs alone (default: three quarters of the machine's)")
         ->transform(CLI::AsSizeValue(false))
-        ->check(positive());
+        ->check(positive_number());
     command->add_flag("--resume", arguments->resume,
                       "Skip what is done and unchanged, redo what is out of date");
     add_simplify_options(*command, *arguments);
@@ -97,4 +97,4 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

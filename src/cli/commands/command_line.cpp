@@ -8,7 +8,7 @@
 
 #include "faqem/version.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -52,7 +52,7 @@ constexpr std::array value_names = {
     Pair{"--tolerance", "T"},
     Pair{"--views", "N"},
     Pair{"--virtual-edges", "TAU"},
-    Pair{"--visibility", "ignored|weighs"},
+    Pair{"--visibility", "ignored|weighted"},
     Pair{"--w-area", "W"},
     Pair{"--w-boundary", "W"},
     Pair{"--w-normal", "W"},
@@ -63,28 +63,28 @@ constexpr std::array value_names = {
 
 constexpr std::array examples = {
     Pair{"simplify",
-         "  faqem simplify model.glb light.glb --ratio 0.05\n"
-         "  faqem simplify scan.ply light.ply --bake vertex --faces 20000 --report light.json\n"
-         "  faqem simplify part.stl light.stl --max-error 0.05\n"
+         "  faqem simplify model.glb simplified.glb --ratio 0.05\n"
+         "  faqem simplify scan.ply simplified.ply --bake vertex --faces 20000 --report simplified.json\n"
+         "  faqem simplify part.stl simplified.stl --max-error 0.05\n"
          "  faqem simplify model.glb web.glb --max-bytes 2MB"},
     Pair{"lod",
          "  faqem lod statue.glb out --levels 0.5,0.25,0.1,0.01\n"
          "  faqem lod scan.ply out --levels error:0.1%,error:2% --bake vertex --format ply"},
-    Pair{"cut", "  faqem cut statue.history statue-5000.glb --faces 5000 --source statue.glb"},
+    Pair{"truncate", "  faqem truncate statue.history statue-5000.glb --faces 5000 --source statue.glb"},
     Pair{"batch",
-         "  faqem batch scans light --ratio 0.02 --resume >> light.jsonl\n"
-         "  faqem batch parts light --format stl --max-error 0.05 --jobs 4"},
+         "  faqem batch scans simplified --ratio 0.02 --resume >> simplified.jsonl\n"
+         "  faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"},
     Pair{"info", "  faqem info model.glb --json"},
-    Pair{"compare", "  faqem compare model.glb light.glb --samples 1000000"},
-    Pair{"render", "  faqem render model.glb light.glb before-after.png --views 3"},
-    Pair{"report", "  faqem report model.glb light.glb -o report.html"},
+    Pair{"compare", "  faqem compare model.glb simplified.glb --samples 1000000"},
+    Pair{"render", "  faqem render model.glb simplified.glb before-after.png --views 3"},
+    Pair{"report", "  faqem report model.glb simplified.glb -o report.html"},
     Pair{"completion",
          "  source <(faqem completion bash)\n"
          "  faqem completion zsh > ~/.zfunc/_faqem"},
     Pair{"man", "  faqem man | man -l -"},
 };
 
-void name_values(CLI::App& command) {
+void set_value_names(CLI::App& command) {
     for (const auto& [option, value] : value_names) {
         if (CLI::Option* found = command.get_option_no_throw(std::string(option)))
             found->type_name(std::string(value));
@@ -103,7 +103,7 @@ void build_command_line(CLI::App& app, Action& action) {
     app.require_subcommand(1);
     add_simplify_command(app, action);
     add_lod_command(app, action);
-    add_cut_command(app, action);
+    add_truncate_command(app, action);
     add_batch_command(app, action);
     add_info_command(app, action);
     add_compare_command(app, action);
@@ -114,11 +114,11 @@ void build_command_line(CLI::App& app, Action& action) {
     for (const auto& [command, lines] : examples) {
         app.get_subcommand(std::string(command))->footer("Examples:\n" + std::string(lines));
     }
-    for (CLI::App* command : app.get_subcommands({})) name_values(*command);
+    for (CLI::App* command : app.get_subcommands({})) set_value_names(*command);
     app.footer(
         "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
         "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
         "9 not all files of a batch are done, 10 --max-bytes missed, 11 not enough memory.");
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

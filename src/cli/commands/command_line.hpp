@@ -4,9 +4,9 @@
 
 #include "cli/commands/commands.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Adds everything to an empty app. When a command is chosen, `action` becomes what it does.
 void build_command_line(CLI::App& app, Action& action);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "cli/commands/commands.hpp"
-#include "cli/report/compare_options.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
+#include "cli/report/compare_options.hpp"
 #include "cli/report/model_comparison.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -19,7 +19,7 @@ struct Arguments {
     CompareOptions options;
 };
 
-Json side_json(const OneSided& side) {
+Json one_sided_json(const OneSided& side) {
     return {{"max", side.max},
             {"max_bound", side.max_bound},
             {"mean", side.mean},
@@ -27,24 +27,27 @@ Json side_json(const OneSided& side) {
             {"mean_normal_degrees", side.mean_normal_degrees}};
 }
 
-Json side_json(const OneSidedColors& side) {
-    return {
-        {"rmse", side.rmse}, {"wrong", side.wrong}, {"one_sided", side.one_sided}, {"hidden", side.hidden}};
+Json one_sided_json(const OneSidedColors& side) {
+    return {{"rmse", side.rmse},
+            {"outliers", side.outliers},
+            {"unmatched", side.unmatched},
+            {"hidden", side.hidden}};
 }
 
 Json colors_json(const std::optional<ColorComparison>& colors) {
     if (!colors) return nullptr;
     return {{"rmse", colors->rmse},
             {"psnr", colors->psnr},
-            {"a_to_b", side_json(colors->a_to_b)},
-            {"b_to_a", side_json(colors->b_to_a)}};
+            {"a_to_b", one_sided_json(colors->a_to_b)},
+            {"b_to_a", one_sided_json(colors->b_to_a)}};
 }
 
 int run(const Arguments& arguments) {
-    const PlacedModel a = load_placed(arguments.a), b = load_placed(arguments.b);
-    const ModelComparison all = compare_models(a, b, arguments.options);
-    if (!all.colors_warning.empty()) std::cerr << "faqem: warning: " << all.colors_warning << "\n";
-    const Comparison& result = all.distances;
+    const FlattenedModel a = load_flattened(arguments.a), b = load_flattened(arguments.b);
+    const ModelComparison comparison = compare_models(a, b, arguments.options);
+    if (!comparison.colors_warning.empty())
+        std::cerr << "faqem: warning: " << comparison.colors_warning << "\n";
+    const Comparison& result = comparison.distances;
     const double d = result.diagonal;
     print_json({{"a", arguments.a},
                 {"b", arguments.b},
@@ -56,11 +59,11 @@ int run(const Arguments& arguments) {
                 {"chamfer", result.chamfer},
                 {"chamfer_rel", result.chamfer / (d * d)},
                 {"mean_normal_degrees", result.mean_normal_degrees},
-                {"a_to_b", side_json(result.a_to_b)},
-                {"b_to_a", side_json(result.b_to_a)},
-                {"colors", colors_json(all.colors)},
-                {"info_a", info_json(all.a)},
-                {"info_b", info_json(all.b)},
+                {"a_to_b", one_sided_json(result.a_to_b)},
+                {"b_to_a", one_sided_json(result.b_to_a)},
+                {"colors", colors_json(comparison.colors)},
+                {"info_a", info_json(comparison.a)},
+                {"info_b", info_json(comparison.b)},
                 {"samples", arguments.options.samples},
                 {"seed", arguments.options.seed},
                 {"tolerance", arguments.options.tolerance}});
@@ -79,4 +82,4 @@ void add_compare_command(CLI::App& app, Action& action) {
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -3,14 +3,14 @@
 #include <memory>
 #include <string>
 
-#include "faqem/version.hpp"
-#include "cli/shell/command_tree.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/shell/completion.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/shell/command_tree.hpp"
+#include "cli/shell/completion.hpp"
 #include "cli/shell/man_page.hpp"
+#include "faqem/version.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 void add_completion_command(CLI::App& app, Action& action) {
     const auto shell = std::make_shared<std::string>();
@@ -35,4 +35,4 @@ void add_man_command(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "asset/flatten.hpp"
-#include "faqem/asset.hpp"
-#include "faqem/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -54,7 +54,7 @@ ImageInfo image_info(const Image& image) {
 
 AssetInfo examine(const Asset& asset) {
     AssetInfo result;
-    const std::vector<Instance> placed = instances(asset);
+    const std::vector<Instance> scene_instances = instances(asset);
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const Part& part = asset.parts[p];
         PartInfo one;
@@ -64,12 +64,12 @@ AssetInfo examine(const Asset& asset) {
         one.uv_sets = part.uvs.size();
         one.colors = !part.colors.empty();
         one.skinned = !part.joints.empty();
-        for (const Instance& instance : placed) one.instances += instance.part == p;
+        for (const Instance& instance : scene_instances) one.instances += instance.part == p;
         result.parts.push_back(std::move(one));
     }
     for (const Image& image : asset.images) result.images.push_back(image_info(image));
     result.materials = asset.materials.size();
-    result.instances = placed.size();
+    result.instances = scene_instances.size();
     result.scene = info_of(detail::flatten(asset));
     result.warnings = asset.warnings;
     return result;
@@ -105,7 +105,7 @@ Json as_json(const std::string& file, const AssetInfo& asset) {
             {"warnings", asset.warnings}};
 }
 
-std::string point(const Vec3& p) {
+std::string point_text(const Vec3& p) {
     std::ostringstream out;
     out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
     return out.str();
@@ -116,7 +116,7 @@ void print_mesh(std::ostream& out, const MeshInfo& mesh) {
         << (mesh.components == 1 ? " component, " : " components, ") << mesh.boundary_edges
         << " boundary edges, " << mesh.nonmanifold_edges << " non-manifold edges";
     if (mesh.degenerate_faces > 0) out << ", " << mesh.degenerate_faces << " degenerate faces";
-    out << "\n    box " << point(mesh.box_min) << " to " << point(mesh.box_max) << ", diagonal "
+    out << "\n    box " << point_text(mesh.box_min) << " to " << point_text(mesh.box_max) << ", diagonal "
         << mesh.diagonal << ", area " << mesh.area << "\n";
 }
 
@@ -166,4 +166,4 @@ void add_info_command(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -8,22 +8,22 @@
 #include "bake/scene/level_coverage.hpp"
 #include "bake/scene/scene_size.hpp"
 #include "bake/scene/step_progress.hpp"
-#include "faqem/bake_levels.hpp"
-#include "faqem/cut.hpp"
-#include "faqem/error.hpp"
-#include "faqem/save_levels.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
-#include "cli/output_file.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options/positive.hpp"
 #include "cli/options/profile.hpp"
-#include "cli/progress_bar.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "faqem/bake_levels.hpp"
+#include "faqem/error.hpp"
+#include "faqem/save_levels.hpp"
+#include "faqem/truncate.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 struct Arguments : SimplifyArguments {
     std::string in, out, history, format = "glb", textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
-    Viewing viewing;
+    ViewSettings view_settings;
     bool without_original = false, one_file = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -45,13 +45,13 @@ struct Arguments : SimplifyArguments {
 /// --one-file all levels have the same.
 struct Outputs {
     explicit Outputs(const Arguments& a) {
-        const std::string ending = ending_of_format(a.format);
+        const std::string extension = extension_of_format(a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
-        if (a.one_file && ending != ".glb" && ending != ".gltf")
+        if (a.one_file && extension != ".glb" && extension != ".gltf")
             throw OptionError("--one-file: --format must be glb or gltf");
         const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
         for (std::size_t i = 0; i < count; ++i)
-            models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + ending);
+            models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + extension);
         manifest = stem + "_LOD.json";
     }
 
@@ -60,7 +60,7 @@ struct Outputs {
 };
 
 /// What the library refuses, too, in the words of the command.
-void check_shared(const Arguments& a, const Options& options) {
+void check_shared_textures(const Arguments& a, const Options& options) {
     if (a.level_textures() != LevelTextures::shared) return;
     if (!a.history.empty())
         throw OptionError("--history: with --textures shared only the finest level comes from the original");
@@ -71,7 +71,7 @@ void check_shared(const Arguments& a, const Options& options) {
         throw OptionError("--keep-groups: with --textures shared the new atlas may join their materials");
 }
 
-void check(const Arguments& a, const Outputs& outputs) {
+void check_outputs(const Arguments& a, const Outputs& outputs) {
     for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
     check_output(outputs.manifest, {a.in}, a.overwrite());
     if (a.history.empty()) return;
@@ -85,12 +85,12 @@ void check(const Arguments& a, const Outputs& outputs) {
 }
 
 /// Parts one after the other, each with all its levels.
-void write_histories(const Arguments& a, const std::vector<SmallPartsLevel>& levels) {
+void write_histories(const Arguments& a, const std::vector<SimplifiedPartsLevel>& levels) {
     std::ostringstream out;
     for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
         std::vector<CollapseHistory> histories;
         histories.reserve(levels.size());
-        for (const SmallPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
+        for (const SimplifiedPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
         write(join(histories), out);
     }
     write_output(a.history, out.view(), a.overwrite());
@@ -101,29 +101,31 @@ void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) 
     out << a.in << " -> " << a.out << "\n";
     for (const WrittenLevel& level : levels) {
         out << "  " << level.file << ": " << level.faces << " faces, error " << level.error
-            << ", from distance " << switch_distance(level.error, a.viewing) << "\n";
+            << ", from distance " << switch_distance(level.error, a.view_settings) << "\n";
     }
     std::cout << out.str();
 }
 
 /// Makes the levels and saves them, one after the other; with --one-file together.
-class Chain {
+class LodWriter {
 public:
-    Chain(const Arguments& arguments, const Outputs& outputs, const Asset& source,
-          const std::vector<Level>& levels, const Options& options)
+    LodWriter(const Arguments& arguments, const Outputs& outputs, const Asset& source,
+              const std::vector<Level>& levels, const Options& options)
         : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
 
     ExitCode operator()() {
         size_ = detail::scene_size(source_);
         warnings_ = source_.warnings;
-        const ExitCode code =
-            arguments_.level_textures() == LevelTextures::shared ? shared_texture() : textures_of_their_own();
+        const ExitCode code = arguments_.level_textures() == LevelTextures::shared
+                                  ? write_with_shared_texture()
+                                  : write_with_separate_textures();
         if (code != exit_ok) return code;
         if (arguments_.one_file) {
-            const Unattended unattended;
-            append(warnings_, save_levels(std::move(saved_), outputs_.models[0], arguments_.overwrite()));
+            const ExitOnInterrupt exit_on_interrupt;
+            append(warnings_,
+                   save_levels(std::move(one_file_levels_), outputs_.models[0], arguments_.overwrite()));
         }
-        Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.viewing, written_);
+        Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.view_settings, written_);
         manifest["warnings"] = warnings_;
         write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                      arguments_.overwrite());
@@ -134,45 +136,50 @@ public:
 
 private:
     /// The images of one level are there at a time.
-    ExitCode textures_of_their_own() {
-        std::vector<SmallPartsLevel> levels =
-            naming(arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
-        const ExitCode refusal = begin(levels);
-        if (refusal != exit_ok) return refusal;
+    ExitCode write_with_separate_textures() {
+        std::vector<SimplifiedPartsLevel> levels = with_file_in_errors(
+            arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
+        const ExitCode rejection = check_reports(levels);
+        if (rejection != exit_ok) return rejection;
         if (!arguments_.history.empty()) write_histories(arguments_, levels);
         write_original();
-        for (SmallPartsLevel& level : levels) {
+        for (SimplifiedPartsLevel& level : levels) {
             const auto before = static_cast<double>(&level - levels.data()),
                        count = static_cast<double>(levels.size());
-            const Options step = detail::step_of(options_, Phase::bake, before / count, (before + 1) / count);
-            LightAsset light = naming(arguments_.in, [&] { return bake(source_, level.result, step); });
+            const Options step =
+                detail::step_options(options_, Phase::bake, before / count, (before + 1) / count);
+            SimplifiedAsset simplified =
+                with_file_in_errors(arguments_.in, [&] { return bake(source_, level.result, step); });
             level.result = {};
-            if (interrupted() || light.report.stop == StopReason::cancelled) return exit_cancelled;
-            write_level(std::move(light), level.distance, level.error);
+            if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return exit_cancelled;
+            write_level(std::move(simplified), level.distance, level.error);
         }
         return exit_ok;
     }
 
-    ExitCode shared_texture() {
-        std::vector<LightLevel> levels = naming(arguments_.in, [&] {
+    ExitCode write_with_shared_texture() {
+        std::vector<SimplifiedAssetLevel> levels = with_file_in_errors(arguments_.in, [&] {
             return simplify_levels(source_, levels_, options_, LevelTextures::shared);
         });
-        const ExitCode refusal = begin(levels);
-        if (refusal != exit_ok) return refusal;
+        const ExitCode rejection = check_reports(levels);
+        if (rejection != exit_ok) return rejection;
         write_original();
-        for (LightLevel& level : levels) write_level(std::move(level.result), level.distance, level.error);
+        for (SimplifiedAssetLevel& level : levels)
+            write_level(std::move(level.result), level.distance, level.error);
         return exit_ok;
     }
 
     /// May the levels be written?
-    template <class AnyLevel>
-    ExitCode begin(const std::vector<AnyLevel>& levels) {
-        if (interrupted() || levels.back().result.report.stop == StopReason::cancelled) return exit_cancelled;
-        for (const AnyLevel& level : levels) {
-            const ExitCode refusal = why_refused(level.result.report, arguments_.strict_target);
-            if (refusal == exit_ok) continue;
-            std::cerr << "faqem: " << refusal_text(refusal, outputs_.manifest, level.result.report) << "\n";
-            return refusal;
+    template <class LevelResult>
+    ExitCode check_reports(const std::vector<LevelResult>& levels) {
+        if (is_interrupted() || levels.back().result.report.stop == StopReason::cancelled)
+            return exit_cancelled;
+        for (const LevelResult& level : levels) {
+            const ExitCode rejection = rejection_code(level.result.report, arguments_.strict_target);
+            if (rejection == exit_ok) continue;
+            std::cerr << "faqem: " << rejection_message(rejection, outputs_.manifest, level.result.report)
+                      << "\n";
+            return rejection;
         }
         reports_.reserve(levels.size());  // they are pointed to
         return exit_ok;
@@ -182,9 +189,9 @@ private:
         if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0, nullptr));
     }
 
-    void write_level(LightAsset light, double distance, double error) {
-        Report& report = reports_.emplace_back(std::move(light.report));
-        append(report.warnings, write(std::move(light.asset), distance, error, &report));
+    void write_level(SimplifiedAsset simplified, double distance, double error) {
+        Report& report = reports_.emplace_back(std::move(simplified.report));
+        append(report.warnings, write(std::move(simplified.asset), distance, error, &report));
     }
 
     static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
@@ -193,7 +200,7 @@ private:
 
     /// \return what the format could not hold
     std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
-        const Unattended unattended;
+        const ExitOnInterrupt exit_on_interrupt;
         const fs::path& file = outputs_.models[written_.size()];
         WrittenLevel& level = written_.emplace_back();
         level = {file.filename().string(), 0, 0, distance, error, report};
@@ -202,14 +209,15 @@ private:
             level.vertices += part.positions.size();
         }
         if (!arguments_.one_file) return save(asset, file, arguments_.overwrite());
-        saved_.push_back({std::move(asset), coverage(error)});
+        one_file_levels_.push_back({std::move(asset), coverage(error)});
         return {};
     }
 
     /// By part, as the scene shows it at its largest.
     std::vector<double> coverage(double error) const {
-        const Viewing& viewing = arguments_.viewing;
-        return detail::level_coverage(source_, size_, error, viewing.pixel_error / viewing.screen_height);
+        const ViewSettings& view_settings = arguments_.view_settings;
+        return detail::level_coverage(source_, size_, error,
+                                      view_settings.pixel_error / view_settings.screen_height);
     }
 
     const Arguments& arguments_;
@@ -220,47 +228,49 @@ private:
     std::vector<Report> reports_;
     std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
-    std::vector<SavedLevel> saved_;  // with --one-file
+    std::vector<SavedLevel> one_file_levels_;  // with --one-file
     detail::SceneSize size_;
 };
 
 int run(const Arguments& arguments) {
     Options options = make_options(arguments);
     std::vector<Level> levels;
-    for (const std::string& text : arguments.levels) levels.push_back(lod_level(text, arguments.viewing));
-    check_shared(arguments, options);
+    for (const std::string& text : arguments.levels)
+        levels.push_back(parse_lod_level(text, arguments.view_settings));
+    check_shared_textures(arguments, options);
     const Outputs outputs(arguments);
     make_folder(arguments.out);
-    check(arguments, outputs);
-    handle_interrupts();
+    check_outputs(arguments, outputs);
+    install_signal_handlers();
     Asset source;
-    Chain chain(arguments, outputs, source, levels, options);
+    LodWriter writer(arguments, outputs, source, levels, options);
     ExitCode code;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = [&bar](Phase phase, double fraction) {
             bar.show(phase, fraction);
-            return interrupted() ? Continue::cancel : Continue::yes;
+            return is_interrupted() ? Continue::cancel : Continue::yes;
         };
         bar.show(Phase::load, 0);
         source = load_model(arguments.in, arguments.strictness());
-        options.bake = bake_for(options.bake, source, outputs.models[0]);
-        code = chain();
+        options.bake = resolve_automatic_bake(options.bake, source, outputs.models[0]);
+        code = writer();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
-    if (code == exit_ok && !arguments.quiet) print_summary(arguments, chain.written());
+    if (code == exit_ok && !arguments.quiet) print_summary(arguments, writer.written());
     return code;
 }
 
-void add_viewing_options(CLI::App& command, Viewing& viewing) {
-    command.add_option("--pixel-error", viewing.pixel_error, "Pixels that a level may be off (default 1)")
-        ->check(positive());
+void add_view_options(CLI::App& command, ViewSettings& view_settings) {
     command
-        .add_option("--fov", viewing.fov,
+        .add_option("--pixel-error", view_settings.pixel_error, "Pixels that a level may be off (default 1)")
+        ->check(positive_number());
+    command
+        .add_option("--fov", view_settings.fov,
                     "Vertical angle of view in degrees for switch distances (default 60)")
         ->check(CLI::Range(1.0, 179.0));
     command
-        .add_option("--screen-height", viewing.screen_height,
+        .add_option("--screen-height", view_settings.screen_height,
                     "Pixels of the screen for switch distances (default 1080)")
         ->check(CLI::Range(1, 1 << 20));
 }
@@ -291,8 +301,8 @@ void add_lod_command(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"each", "shared"}));
     command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
     command->add_option("--history", arguments->history,
-                        "Write the collapse history to this file, for faqem cut");
-    add_viewing_options(*command, arguments->viewing);
+                        "Write the collapse history to this file, for faqem truncate");
+    add_view_options(*command, arguments->view_settings);
     add_level_options(*command, *arguments);
     add_profile_option(*command);
     command->add_option("--threads", arguments->options.threads, "Threads at most")
@@ -302,4 +312,4 @@ void add_lod_command(CLI::App& app, Action& action) {
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

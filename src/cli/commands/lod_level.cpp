@@ -4,15 +4,15 @@
 #include <cmath>
 #include <string_view>
 
-#include "faqem/error.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 /// Positive and finite, or not a number.
-double positive(std::string_view text) {
+double parse_positive(std::string_view text) {
     double value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = error == std::errc{} && stop == text.data() + text.size();
@@ -21,16 +21,16 @@ double positive(std::string_view text) {
 
 }  // namespace
 
-Level lod_level(const std::string& text, const Viewing& viewing) {
+Level parse_lod_level(const std::string& text, const ViewSettings& view_settings) {
     constexpr std::string_view kind = "pixels:";
-    if (!text.starts_with(kind)) return level_of(text);
+    if (!text.starts_with(kind)) return parse_level(text);
     const std::string_view rest = std::string_view(text).substr(kind.size());
     const std::size_t at = rest.find('@');
-    const double pixels = positive(rest.substr(0, at)),
-                 distance = at < rest.size() ? positive(rest.substr(at + 1)) : std::nan("");
+    const double pixels = parse_positive(rest.substr(0, at)),
+                 distance = at < rest.size() ? parse_positive(rest.substr(at + 1)) : std::nan("");
     if (!(pixels * distance > 0))
         throw OptionError("--levels: '" + text + "' is not pixels:N@DISTANCE with two positive numbers");
-    return model_units(error_of_pixels(pixels, distance, viewing));
+    return model_units(error_from_pixels(pixels, distance, view_settings));
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

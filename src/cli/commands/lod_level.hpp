@@ -4,14 +4,14 @@
 
 #include <string>
 
-#include "faqem/levels.hpp"
 #include "cli/commands/lod_manifest.hpp"
+#include "faqem/levels.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// `pixels:2@50`, an error that covers at most 2 pixels where the eye is 50 model units away; else as
-/// level_of().
+/// parse_level().
 /// \throws OptionError
-Level lod_level(const std::string& text, const Viewing& viewing);
+Level parse_lod_level(const std::string& text, const ViewSettings& view_settings);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -11,7 +11,7 @@
 #include "render/contact_sheet.hpp"
 #include "render/views.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -25,22 +25,23 @@ int run(const Arguments& arguments) {
     const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
     const std::string& out = arguments.files.back();
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
-    check_ending(out, {".png"});
+    check_extension(out, {".png"});
     check_output(out, {models.begin(), models.end()}, overwrite);
-    handle_interrupts();
-    const Unattended unattended;
+    install_signal_handlers();
+    const ExitOnInterrupt exit_on_interrupt;
 
-    std::vector<Scene> scenes;
+    std::vector<render::Scene> scenes;
     for (const std::string& model : models) {
-        scenes.push_back(make_scene(load(model)));
+        scenes.push_back(render::make_scene(load(model)));
         for (const std::string& warning : scenes.back().warnings) {
             std::cerr << "faqem: warning: " << model << ": " << warning << "\n";
         }
     }
-    const std::vector<SheetRow> rows = draw_rows(
-        scenes, cameras_around(scenes[0], models[0], arguments.views), arguments.size,
-        arguments.unlit ? Shading::unlit : Shading::lit, arguments.wireframe ? Edges::drawn : Edges::hidden);
-    const Image sheet = encode_png(compose(rows), "sheet");
+    const std::vector<render::ContactSheetRow> rows =
+        render::draw_rows(scenes, render::cameras_around(scenes[0], models[0], arguments.views),
+                          arguments.size, arguments.unlit ? render::Shading::unlit : render::Shading::lit,
+                          arguments.wireframe ? render::Edges::drawn : render::Edges::hidden);
+    const Image sheet = encode_png(render::compose_contact_sheet(rows), "sheet");
     write_output(out, {reinterpret_cast<const char*>(sheet.encoded.data()), sheet.encoded.size()}, overwrite);
     return exit_ok;
 }
@@ -64,4 +65,4 @@ void add_render_command(CLI::App& app, Action& action) {
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -8,24 +8,24 @@
 #include <string>
 #include <string_view>
 
-#include "faqem/bake.hpp"
-#include "faqem/error.hpp"
-#include "faqem/detail/base/stopwatch.hpp"
 #include "cli/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
 #include "cli/memory_estimate.hpp"
-#include "cli/output_file.hpp"
 #include "cli/options/positive.hpp"
 #include "cli/options/profile.hpp"
-#include "cli/progress_bar.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
 #include "cli/simplify_model.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -43,7 +43,7 @@ struct Arguments : SimplifyArguments {
 
 /// Everything that can be wrong about the output, before hours of work go into it.
 void check_outputs(const Arguments& arguments) {
-    check_ending(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
+    check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
     std::vector<std::filesystem::path> taken = {arguments.in};
     for (const std::string& file :
          {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
@@ -107,7 +107,7 @@ void print_summary(const Arguments& arguments, const Report& report) {
 }
 
 Asset load_input(const Arguments& arguments, PhaseSeconds& seconds) {
-    const Unattended unattended;
+    const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
     Asset asset = load_model(arguments.in, arguments.strictness());
     seconds.load = watch.seconds();
@@ -120,20 +120,23 @@ int cancelled() {
 }
 
 /// Writes the model last but for the report, which tells how long that took.
-void save_result(const Arguments& arguments, LightAsset& light) {
-    const Unattended unattended;
+void save_result(const Arguments& arguments, SimplifiedAsset& simplified) {
+    const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
-    if (!arguments.history.empty()) write_histories(arguments, light.histories);
-    if (!arguments.correspondence.empty()) write_correspondence(arguments, light.correspondence);
-    const std::vector<std::string> losses = save(light.asset, arguments.out, arguments.overwrite());
-    light.report.warnings.insert(light.report.warnings.end(), losses.begin(), losses.end());
-    light.report.seconds.save = watch.seconds();
+    if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
+    if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
+    const std::vector<std::string> save_warnings =
+        save(simplified.asset, arguments.out, arguments.overwrite());
+    simplified.report.warnings.insert(simplified.report.warnings.end(), save_warnings.begin(),
+                                      save_warnings.end());
+    simplified.report.seconds.save = watch.seconds();
 }
 
 std::optional<ByteBudget> byte_budget(const Arguments& arguments) {
     if (arguments.max_bytes == 0) return std::nullopt;
     return ByteBudget{arguments.max_bytes, arguments.out,
-                      arguments.image_format.empty() ? Encoding::free : Encoding::as_asked};
+                      arguments.image_format.empty() ? ImageEncodingChoice::automatic
+                                                     : ImageEncodingChoice::user_specified};
 }
 
 int run(const Arguments& arguments) {
@@ -145,39 +148,39 @@ int run(const Arguments& arguments) {
         options.bake.correspondence = Recording::on;
     }
     check_outputs(arguments);
-    handle_interrupts();
+    install_signal_handlers();
     const Stopwatch watch;
-    LightAsset light;
+    SimplifiedAsset simplified;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = [&bar](Phase phase, double fraction) {
             bar.show(phase, fraction);
-            return interrupted() ? Continue::cancel : Continue::yes;
+            return is_interrupted() ? Continue::cancel : Continue::yes;
         };
         PhaseSeconds seconds;
         bar.show(Phase::load, 0);
         const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
-        require_memory(arguments.in, loading_peak(arguments.in), allowed);
+        require_memory(arguments.in, estimated_loading_memory(arguments.in), allowed);
         const Asset source = load_input(arguments, seconds);
-        options.bake = bake_for(options.bake, source, arguments.out);
-        require_memory(arguments.in, predicted_peak(source, options), allowed);
-        light = simplify_model(source, arguments.in, options, byte_budget(arguments));
-        light.report.seconds.load = seconds.load;
-        light.report.warnings.insert(light.report.warnings.begin(), source.warnings.begin(),
-                                     source.warnings.end());
-        if (interrupted() || light.report.stop == StopReason::cancelled) return cancelled();
+        options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
+        require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
+        simplified = simplify_model(source, arguments.in, options, byte_budget(arguments));
+        simplified.report.seconds.load = seconds.load;
+        simplified.report.warnings.insert(simplified.report.warnings.begin(), source.warnings.begin(),
+                                          source.warnings.end());
+        if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
     }
-    const ExitCode refusal = why_refused(light.report, arguments.strict_target);
-    if (refusal == exit_ok) save_result(arguments, light);
-    light.report.seconds.total = watch.seconds();
+    const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
+    if (rejection == exit_ok) save_result(arguments, simplified);
+    simplified.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
-        const Unattended unattended;
-        write_output(arguments.report, to_json(light.report), arguments.overwrite());
+        const ExitOnInterrupt exit_on_interrupt;
+        write_output(arguments.report, to_json(simplified.report), arguments.overwrite());
     }
-    if (!arguments.quiet) print_summary(arguments, light.report);
-    if (refusal != exit_ok)
-        std::cerr << "faqem: " << refusal_text(refusal, arguments.out, light.report) << "\n";
-    return refusal;
+    if (!arguments.quiet) print_summary(arguments, simplified.report);
+    if (rejection != exit_ok)
+        std::cerr << "faqem: " << rejection_message(rejection, arguments.out, simplified.report) << "\n";
+    return rejection;
 }
 
 void add_run_options(CLI::App& command, Arguments& a) {
@@ -187,7 +190,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
             "Largest size of all files of the result together, as 2MB or 500KB: fewer faces and smaller "
             "images until it fits")
         ->transform(CLI::AsSizeValue(true))
-        ->check(positive())
+        ->check(positive_number())
         ->excludes("--max-error");
     command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
         ->check(CLI::Range(0, 1024));
@@ -196,7 +199,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
                     "Refuse a model that may bring the memory above this, as 8GB or 500MB (default: the "
                     "machine's)")
         ->transform(CLI::AsSizeValue(false))
-        ->check(positive());
+        ->check(positive_number());
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
     command.add_option("--correspondence", a.correspondence,
@@ -219,4 +222,4 @@ void add_simplify_command(CLI::App& app, Action& action) {
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

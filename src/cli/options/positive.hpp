@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// A number above 0. CLI::PositiveNumber says so with the largest double, digit by digit.
-inline CLI::Validator positive() {
+inline CLI::Validator positive_number() {
     return CLI::Validator(
         [](std::string& text) {
             double value = 0;
@@ -18,4 +18,4 @@ inline CLI::Validator positive() {
         "POSITIVE");
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,18 +6,18 @@
 #include <set>
 
 #include "asset/file.hpp"
-#include "faqem/error.hpp"
 #include "cli/json.hpp"
 #include "cli/shell/suggestion.hpp"
+#include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 constexpr const char* version_key = "faqem-profile";
 constexpr const char* schema_key = "$schema";  // editors look for it
 constexpr int version = 1;
-constexpr std::uint64_t most_bytes = 1'000'000;
+constexpr std::uint64_t max_file_size = 1'000'000;
 
 /// The option's value on the command line, nothing if it is not there.
 std::optional<std::string> value_of(const std::string& option, const std::vector<std::string>& words) {
@@ -29,16 +29,16 @@ std::optional<std::string> value_of(const std::string& option, const std::vector
 }
 
 /// nlohmann keeps the last of keys that are there twice.
-Json parsed(const std::string& file) {
-    const std::vector<std::uint8_t> bytes = detail::read_file(file, most_bytes);
+Json parse_profile(const std::string& file) {
+    const std::vector<std::uint8_t> bytes = detail::read_file(file, max_file_size);
     std::set<std::string> keys;
-    const auto once = [&](int depth, Json::parse_event_t event, Json& value) {
+    const auto reject_duplicate_keys = [&](int depth, Json::parse_event_t event, Json& value) {
         if (event == Json::parse_event_t::key && depth == 1 && !keys.insert(value.get<std::string>()).second)
             throw InputError(file, value.get<std::string>(), "is there twice");
         return true;
     };
     try {
-        Json profile = Json::parse(bytes, once);
+        Json profile = Json::parse(bytes, reject_duplicate_keys);
         if (!profile.is_object()) throw InputError(file, "", "is no JSON object");
         return profile;
     } catch (const Json::exception& error) {
@@ -53,19 +53,19 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
     return nullptr;
 }
 
-[[noreturn]] void refuse_key(const CommandTree& tree, const CommandInfo& command, const std::string& file,
-                             const std::string& key) {
+[[noreturn]] void throw_unknown_key(const CommandTree& tree, const CommandInfo& command,
+                                    const std::string& file, const std::string& key) {
     std::string text = file + ": '" + key + "' is no option of faqem " + command.name;
     std::vector<std::string> known;
     for (const OptionInfo& option : command.options) {
         const std::string name = option.names.back().substr(2);
         if (find_option(command, name)) known.push_back(name);
     }
-    const std::string meant = closest_word(key, known);
+    const std::string suggested = closest_word(key, known);
     const auto other = std::find_if(tree.commands.begin(), tree.commands.end(),
                                     [&](const CommandInfo& c) { return find_option(c, key) != nullptr; });
-    if (!meant.empty())
-        text += "; did you mean '" + meant + "'?";
+    if (!suggested.empty())
+        text += "; did you mean '" + suggested + "'?";
     else if (other != tree.commands.end())
         text += ", but one of faqem " + other->name;
     throw OptionError(text);
@@ -78,11 +78,11 @@ std::string text_of(const Json& value, const std::string& where) {
 }
 
 /// As words of a command line; false is none.
-std::vector<std::string> words_of(const OptionInfo& option, const Json& value, const std::string& where) {
+std::vector<std::string> to_arguments(const OptionInfo& option, const Json& value, const std::string& where) {
     const std::string& name = option.names.back();
-    if (option.value.empty()) {
+    if (option.value_name.empty()) {
         if (value.is_boolean()) return value.get<bool>() ? std::vector{name} : std::vector<std::string>();
-        if (option.optional_value.empty()) throw OptionError(where + ": must be true or false");
+        if (option.optional_value_name.empty()) throw OptionError(where + ": must be true or false");
     }
     if (!value.is_array()) return {name + "=" + text_of(value, where)};
     std::string list;
@@ -90,7 +90,7 @@ std::vector<std::string> words_of(const OptionInfo& option, const Json& value, c
     return {name + "=" + list};
 }
 
-bool is_beaten(const OptionInfo& option, const std::vector<std::string>& words) {
+bool is_overridden(const OptionInfo& option, const std::vector<std::string>& words) {
     if (value_of(option.names.back(), words)) return true;
     return std::any_of(option.excludes.begin(), option.excludes.end(),
                        [&](const std::string& other) { return value_of(other, words).has_value(); });
@@ -112,29 +112,30 @@ void add_profile_option(CLI::App& command) {
         "Take options from this profile, a JSON file; those given here beat it");
 }
 
-std::vector<std::string> with_profile(const CommandTree& tree, std::vector<std::string> words) {
+std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
     const auto command = std::find_if(tree.commands.begin(), tree.commands.end(), [&](const CommandInfo& c) {
         return !words.empty() && c.name == words[0];
     });
     if (command == tree.commands.end()) return words;
-    const bool takes_one = std::any_of(command->options.begin(), command->options.end(),
-                                       [](const OptionInfo& o) { return o.names.back() == "--config"; });
+    const bool has_config_option =
+        std::any_of(command->options.begin(), command->options.end(),
+                    [](const OptionInfo& o) { return o.names.back() == "--config"; });
     const std::optional<std::string> file = value_of("--config", words);
-    if (!takes_one || !file || file->empty()) return words;
+    if (!has_config_option || !file || file->empty()) return words;
 
-    const Json profile = parsed(*file);
+    const Json profile = parse_profile(*file);
     check_version(profile, *file);
     std::vector<std::string> added;
     for (const auto& [key, value] : profile.items()) {
         if (key == version_key || key == schema_key) continue;
         const OptionInfo* option = find_option(*command, key);
-        if (!option) refuse_key(tree, *command, *file, key);
-        const std::vector<std::string> more = words_of(*option, value, *file + ": " + key);
-        if (!is_beaten(*option, words)) added.insert(added.end(), more.begin(), more.end());
+        if (!option) throw_unknown_key(tree, *command, *file, key);
+        const std::vector<std::string> more = to_arguments(*option, value, *file + ": " + key);
+        if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
     }
     // Before a `--`, behind which nothing is an option.
     words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
     return words;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -11,9 +11,9 @@ namespace CLI {
 class App;
 }
 
-namespace faqem::tool {
+namespace faqem::cli {
 
-/// Adds --config to a command. It is with_profile() that reads it.
+/// Adds --config to a command. It is expand_profile() that reads it.
 void add_profile_option(CLI::App& command);
 
 /// The command line with the options of its profile behind it; where there is no --config, as it is. What is
@@ -22,6 +22,6 @@ void add_profile_option(CLI::App& command);
 /// \throws ReadError    the profile cannot be read
 /// \throws InputError   it is no JSON
 /// \throws OptionError  it is of another version, or has a key that is no option of the command
-std::vector<std::string> with_profile(const CommandTree& tree, std::vector<std::string> words);
+std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

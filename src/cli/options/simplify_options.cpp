@@ -7,12 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "faqem/error.hpp"
-#include "faqem/report.hpp"
 #include "cli/json.hpp"
 #include "cli/options/positive.hpp"
+#include "faqem/error.hpp"
+#include "faqem/report.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -39,11 +39,11 @@ constexpr std::array<std::pair<std::string_view, Budget>, 2> budgets = {
     {{"scene", Budget::scene}, {"mesh", Budget::mesh}}};
 
 constexpr std::array<std::pair<std::string_view, Visibility>, 2> visibilities = {
-    {{"ignored", Visibility::ignored}, {"weighs", Visibility::weighs}}};
+    {{"ignored", Visibility::ignored}, {"weighted", Visibility::weighted}}};
 
 template <class Value, std::size_t n>
-Value named(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
-            const char* option) {
+Value parse_enum(const std::array<std::pair<std::string_view, Value>, n>& names, const std::string& text,
+                 const char* option) {
     std::string known;
     for (const auto& [name, value] : names) {
         if (name == text) return value;
@@ -52,7 +52,7 @@ Value named(const std::array<std::pair<std::string_view, Value>, n>& names, cons
     throw OptionError(std::string(option) + ": unknown value '" + text + "' (known: " + known + ")");
 }
 
-double number(const std::string& text, const char* option) {
+double parse_number(const std::string& text, const char* option) {
     double value = 0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -62,31 +62,31 @@ double number(const std::string& text, const char* option) {
 }
 
 /// `0.01` in model units, or `0.1%` of the diagonal.
-Length length(const std::string& text, const char* option) {
-    if (!text.ends_with('%')) return model_units(number(text, option));
-    return of_diagonal(number(text.substr(0, text.size() - 1), option) / 100);
+Length parse_length(const std::string& text, const char* option) {
+    if (!text.ends_with('%')) return model_units(parse_number(text, option));
+    return of_diagonal(parse_number(text.substr(0, text.size() - 1), option) / 100);
 }
 
 /// `kind` or `kind:NUMBER`. \return the number, nothing if there is none
-std::optional<double> suffix_number(std::string& text, std::string_view kind, const char* option) {
+std::optional<double> take_suffix_number(std::string& text, std::string_view kind, const char* option) {
     if (text.compare(0, kind.size() + 1, std::string(kind) + ":") != 0) return std::nullopt;
-    const double value = number(text.substr(kind.size() + 1), option);
+    const double value = parse_number(text.substr(kind.size() + 1), option);
     text = kind;
     return value;
 }
 
 void read_normals(std::string text, BakeOptions& bake) {
-    if (const auto angle = suffix_number(text, "smooth", "--normals")) bake.crease_angle = *angle;
-    bake.normals = named(normals, text, "--normals");
+    if (const auto angle = take_suffix_number(text, "smooth", "--normals")) bake.crease_angle = *angle;
+    bake.normals = parse_enum(normals, text, "--normals");
 }
 
 void read_image_format(std::string text, BakeOptions& bake) {
-    if (const auto quality = suffix_number(text, "jpeg", "--image-format")) {
+    if (const auto quality = take_suffix_number(text, "jpeg", "--image-format")) {
         if (!(*quality >= 1 && *quality <= 100 && *quality == std::floor(*quality)))
             throw OptionError("--image-format: the quality must be a whole number from 1 to 100");
         bake.jpeg_quality = static_cast<std::uint32_t>(*quality);
     }
-    bake.image_format = named(image_formats, text, "--image-format");
+    bake.image_format = parse_enum(image_formats, text, "--image-format");
 }
 
 std::string preset_names() {
@@ -101,8 +101,7 @@ std::string preset_names() {
 void add_target_options(CLI::App& command, SimplifyArguments& a) {
     auto* ratio =
         command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
-    auto* faces =
-        command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive());
+    auto* faces = command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive_number());
     ratio->excludes(faces);
     command.add_option("--max-error", a.max_error,
                        "Largest distance from the original, in model units or with % of the diagonal: the "
@@ -113,8 +112,9 @@ void add_metric_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--budget", a.budget,
                        "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
                        "proportion to their faces)");
-    command.add_option("--visibility", a.visibility,
-                       "What is hidden from outside: ignored (counts like all else, default), weighs (counts less)");
+    command.add_option(
+        "--visibility", a.visibility,
+        "What is hidden from outside: ignored (counts like all else, default), weighted (counts less)");
     command.add_option(
         "--preset", a.preset,
         "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");
@@ -129,7 +129,7 @@ void add_metric_options(CLI::App& command, SimplifyArguments& a) {
 void add_topology_options(CLI::App& command, SimplifyArguments& a) {
     command.add_flag_callback(
         "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
-    command.add_flag("--lock-border", a.lock_border, "Open borders stay where they are");
+    command.add_flag("--lock-boundary", a.lock_boundary, "Open borders stay where they are");
     command.add_flag("--keep-groups", a.keep_groups,
                      "Borders between materials stay where they are, even if the target is missed");
     command.add_option("--weld", a.options.topology.weld_distance, "Join vertices at most this far apart");
@@ -149,16 +149,17 @@ void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
     add_level_options(command, a);
 }
 
-void add_look_options(CLI::App& command, SimplifyArguments& a) {
+void add_bake_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option(
         "--bake", a.bake,
         "Where colours go: auto (default: atlas or per-triangle; see docs/baking.md), atlas (charts), "
         "per-triangle, vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
                        "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
-    command.add_option("--texel-density", a.options.bake.texel_density,
-                       "Texels per length of a new texture, times those of the source, 0.125 to 8 (default 1; more "
-                       "on small pages)");
+    command.add_option(
+        "--texel-density", a.options.bake.texel_density,
+        "Texels per length of a new texture, times those of the source, 0.125 to 8 (default 1; more "
+        "on small pages)");
     command.add_option("--normal-map", a.normal_map,
                        "Normal map of a new texture: auto (where the source has one or its normals differ; "
                        "default), on, off");
@@ -175,7 +176,7 @@ void add_look_options(CLI::App& command, SimplifyArguments& a) {
 
 void add_level_options(CLI::App& command, SimplifyArguments& a) {
     add_metric_options(command, a);
-    add_look_options(command, a);
+    add_bake_options(command, a);
     add_topology_options(command, a);
     command.add_flag("--strict", a.strict,
                      "Exit with 3 where the input would be repaired: nothing left out, every face with area "
@@ -190,7 +191,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_names = {
     {{"target ratio", "--ratio"},
      {"max_error", "--max-error"},
-     {"visibility: a distance counts", "--visibility weighs: a distance counts"},
+     {"visibility: a distance counts", "--visibility weighted: a distance counts"},
      {"weights.area", "--w-area"},
      {"weights.boundary", "--w-boundary"},
      {"weights.normal", "--w-normal"},
@@ -205,11 +206,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_n
      {"normals can be left out", "--normals none: they can be left out"}}};
 
 /// validate() in the words of the command.
-void validate_as_asked(const Options& options) try { validate(options); } catch (const OptionError& error) {
-    const std::string said = error.what();
+void validate_with_option_names(const Options& options) try {
+    validate(options);
+} catch (const OptionError& error) {
+    const std::string message = error.what();
     for (const auto& [of_library, of_command] : option_names) {
-        if (said.starts_with(of_library))
-            throw OptionError(std::string(of_command) + said.substr(of_library.size()));
+        if (message.starts_with(of_library))
+            throw OptionError(std::string(of_command) + message.substr(of_library.size()));
     }
     throw;
 }
@@ -220,41 +223,42 @@ Options make_options(const SimplifyArguments& arguments) {
     Options options = arguments.options;
     if (arguments.faces > 0) options.target = faces(arguments.faces);
     if (arguments.ratio) options.target = ratio(*arguments.ratio);
-    if (arguments.max_error) options.max_error = length(*arguments.max_error, "--max-error");
+    if (arguments.max_error) options.max_error = parse_length(*arguments.max_error, "--max-error");
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
-    if (!arguments.budget.empty()) options.budget = named(budgets, arguments.budget, "--budget");
+    if (!arguments.budget.empty()) options.budget = parse_enum(budgets, arguments.budget, "--budget");
     if (!arguments.visibility.empty())
-        options.visibility = named(visibilities, arguments.visibility, "--visibility");
-    if (!arguments.bake.empty()) options.bake.kind = named(bakes, arguments.bake, "--bake");
+        options.visibility = parse_enum(visibilities, arguments.visibility, "--visibility");
+    if (!arguments.bake.empty()) options.bake.kind = parse_enum(bakes, arguments.bake, "--bake");
     if (!arguments.normal_map.empty()) {
-        options.bake.normal_map = named(normal_maps, arguments.normal_map, "--normal-map");
+        options.bake.normal_map = parse_enum(normal_maps, arguments.normal_map, "--normal-map");
     }
     if (!arguments.normals.empty()) read_normals(arguments.normals, options.bake);
     if (!arguments.image_format.empty()) read_image_format(arguments.image_format, options.bake);
-    if (!arguments.mapping.empty()) options.bake.mapping = named(mappings, arguments.mapping, "--mapping");
+    if (!arguments.mapping.empty())
+        options.bake.mapping = parse_enum(mappings, arguments.mapping, "--mapping");
     if (arguments.link) options.topology.link = LinkCondition::on;
-    if (arguments.lock_border) options.topology.border = Border::locked;
-    if (arguments.keep_groups) options.topology.group_borders = GroupBorders::kept;
-    if (arguments.prune) options.topology.prune = length(*arguments.prune, "--prune");
+    if (arguments.lock_boundary) options.topology.boundary = Boundary::locked;
+    if (arguments.keep_groups) options.topology.group_boundaries = GroupBoundaries::kept;
+    if (arguments.prune) options.topology.prune = parse_length(*arguments.prune, "--prune");
     if (!arguments.virtual_edges.empty()) {
         options.topology.virtual_edges = VirtualEdges::on;
-        options.topology.virtual_edge_distance = number(arguments.virtual_edges, "--virtual-edges");
+        options.topology.virtual_edge_distance = parse_number(arguments.virtual_edges, "--virtual-edges");
     }
-    validate_as_asked(options);
+    validate_with_option_names(options);
     return options;
 }
 
-Level level_of(const std::string& text) {
+Level parse_level(const std::string& text) {
     constexpr std::string_view distance = "error:";
-    if (text.starts_with(distance)) return length(text.substr(distance.size()), "--levels");
-    const double value = number(text, "--levels");
+    if (text.starts_with(distance)) return parse_length(text.substr(distance.size()), "--levels");
+    const double value = parse_number(text, "--levels");
     if (value > 0 && value <= 1) return ratio(value);
     if (!(value > 1 && value < 1e15 && value == std::floor(value)))
         throw OptionError("--levels: '" + text + "' is neither a share of the faces nor a number of them");
     return faces(static_cast<std::uint64_t>(value));
 }
 
-std::string options_text(const Options& o) {
+std::string options_key(const Options& o) {
     const auto length = [](const std::optional<Length>& l) {
         return l ? Json{l->value, static_cast<int>(l->unit)} : Json();
     };
@@ -262,19 +266,19 @@ std::string options_text(const Options& o) {
     const auto index = [](auto value) { return static_cast<int>(value); };
     const Weights& w = o.weights;
     const Topology& t = o.topology;
-    return Json{
-        index(o.target.kind),
-        o.target.value,
-        index(o.budget),
-        index(o.visibility),
-        length(o.max_error),
-        name(o.preset),
-        {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
-        {index(t.link), index(t.border), index(t.group_borders), index(t.weld), number(t.weld_distance),
-         index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
-        {index(o.bake.kind), o.bake.texture_size, number(o.bake.texel_density), index(o.bake.mapping), o.bake.samples,
-         o.bake.crease_angle, index(o.bake.normal_map), index(o.bake.normals), index(o.bake.image_format), o.bake.jpeg_quality}}
+    return Json{index(o.target.kind),
+                o.target.value,
+                index(o.budget),
+                index(o.visibility),
+                length(o.max_error),
+                name(o.preset),
+                {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
+                {index(t.link), index(t.boundary), index(t.group_boundaries), index(t.weld),
+                 number(t.weld_distance), index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
+                {index(o.bake.kind), o.bake.texture_size, number(o.bake.texel_density), index(o.bake.mapping),
+                 o.bake.samples, o.bake.crease_angle, index(o.bake.normal_map), index(o.bake.normals),
+                 index(o.bake.image_format), o.bake.jpeg_quality}}
         .dump();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,15 +6,15 @@
 #include <optional>
 #include <string>
 
+#include "cli/simplify_model.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/options.hpp"
-#include "cli/simplify_model.hpp"
 
 namespace CLI {
 class App;
 }
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// The command line as it was given.
 struct SimplifyArguments {
@@ -23,7 +23,7 @@ struct SimplifyArguments {
     std::optional<std::string> max_error, prune;
     std::optional<double> ratio;
     std::uint64_t faces = 0;
-    bool link = false, lock_border = false, keep_groups = false;
+    bool link = false, lock_boundary = false, keep_groups = false;
     bool strict = false, strict_target = false;
     Options options;  ///< those that need no translation
 
@@ -37,17 +37,17 @@ void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
 void add_level_options(CLI::App& command, SimplifyArguments& arguments);
 
 /// Those that say what is baked.
-void add_look_options(CLI::App& command, SimplifyArguments& arguments);
+void add_bake_options(CLI::App& command, SimplifyArguments& arguments);
 
 /// `0.5`, a share of the faces; `5000`, a number of them; `error:0.01` in model units or `error:0.1%` of the
 /// diagonal.
 /// \throws OptionError
-Level level_of(const std::string& text);
+Level parse_level(const std::string& text);
 
 /// \throws OptionError  a value is unknown or out of range
 Options make_options(const SimplifyArguments& arguments);
 
 /// Everything in the options that the result depends on, as text: equal where the results are.
-std::string options_text(const Options& options);
+std::string options_key(const Options& options);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 std::string base64(std::span<const std::uint8_t> bytes);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

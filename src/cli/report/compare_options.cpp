@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 void add_compare_options(CLI::App& command, CompareOptions& options) {
     command.add_option("--samples", options.samples, "Samples on each model (default 200000)")
@@ -16,4 +16,4 @@ void add_compare_options(CLI::App& command, CompareOptions& options) {
         ->check(CLI::Range(0, 1024));
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

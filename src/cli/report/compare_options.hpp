@@ -8,9 +8,9 @@ namespace CLI {
 class App;
 }
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Adds them to a command; they are read into `options`, which has to live on.
 void add_compare_options(CLI::App& command, CompareOptions& options);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

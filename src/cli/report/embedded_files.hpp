@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
-extern const std::string_view page_html, page_style, view_html;
+extern const std::string_view page_html, page_style, viewer_html;
 extern const std::string_view viewer_script;  ///< viewer/, bundled; empty: built without npm
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -5,57 +5,57 @@
 #include <limits>
 
 #include "asset/formats/repair.hpp"
-#include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 using engine::Vector3;
 
-constexpr Index most_strips = 1024;            // of a face
-constexpr std::uint64_t max_cuts = 1'000'000;  // faces more, of all together
+constexpr Index max_subdivisions = 1024;              // of a face
+constexpr std::uint64_t max_added_faces = 1'000'000;  // faces more, of all together
 
-/// How many strips to cut a face into, along each of its sides.
-Index strips_of(const Part& mesh, const Triangle& t, double spacing) {
+/// How many subdivisions to cut a face into, along each of its sides.
+Index subdivision_count(const Part& mesh, const Triangle& t, double spacing) {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vector3 a = engine::to_eigen(mesh.positions[t[k]]),
                       b = engine::to_eigen(mesh.positions[t[(k + 1) % 3]]);
         longest = std::max(longest, (b - a).norm());
     }
-    const double strips = std::ceil(longest / spacing);
-    if (!(strips > 1)) return 1;
-    return strips < most_strips ? static_cast<Index>(strips) : most_strips;
+    const double subdivisions = std::ceil(longest / spacing);
+    if (!(subdivisions > 1)) return 1;
+    return subdivisions < max_subdivisions ? static_cast<Index>(subdivisions) : max_subdivisions;
 }
 
-std::uint64_t cuts(const Part& mesh, double spacing) {
+std::uint64_t added_face_count(const Part& mesh, double spacing) {
     std::uint64_t sum = 0;
     for (const Triangle& t : mesh.triangles) {
-        const std::uint64_t strips = strips_of(mesh, t, spacing);
-        sum += strips * strips - 1;
+        const std::uint64_t subdivisions = subdivision_count(mesh, t, spacing);
+        sum += subdivisions * subdivisions - 1;
     }
     return sum;
 }
 
-/// Into `strips` strips along each side: strips^2 faces. The corners are shared with the neighbours.
-void cut_face(ErrorSurface& surface, const Triangle& t, Index strips) {
+/// Into `subdivisions` subdivisions along each side: subdivisions^2 faces. The corners are shared with the neighbours.
+void subdivide_face(ErrorSurface& surface, const Triangle& t, Index subdivisions) {
     const Vec3 a = surface.positions[t[0]], b = surface.positions[t[1]], c = surface.positions[t[2]];
     std::vector<Index> above, row;
-    for (Index i = 0; i <= strips; ++i) {  // rows from a down to the side b c
+    for (Index i = 0; i <= subdivisions; ++i) {  // rows from a down to the side b c
         row.clear();
         for (Index j = 0; j <= i; ++j) {
-            const bool at_side = i == strips;
+            const bool is_last_row = i == subdivisions;
             if (i == 0) {
                 row.push_back(t[0]);
-            } else if (at_side && (j == 0 || j == strips)) {
+            } else if (is_last_row && (j == 0 || j == subdivisions)) {
                 row.push_back(t[j == 0 ? 1 : 2]);
             } else {
-                const double to_c = static_cast<double>(j) / strips,
-                             to_b = static_cast<double>(i - j) / strips;
+                const double to_c = static_cast<double>(j) / subdivisions,
+                             to_b = static_cast<double>(i - j) / subdivisions;
                 Vec3 p;
                 for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + to_b * (b[k] - a[k]) + to_c * (c[k] - a[k]);
                 row.push_back(static_cast<Index>(surface.positions.size()));
@@ -73,18 +73,20 @@ void cut_face(ErrorSurface& surface, const Triangle& t, Index strips) {
 }  // namespace
 
 ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std::uint32_t threads) {
-    while (cuts(mesh, spacing) > max_cuts) spacing *= 1.25;
-    detail::check_index_count(mesh.positions.size() + 3 * max_cuts, "", "vertices of the error surface");
+    while (added_face_count(mesh, spacing) > max_added_faces) spacing *= 1.25;
+    detail::check_index_count(mesh.positions.size() + 3 * max_added_faces, "",
+                              "vertices of the error surface");
     ErrorSurface result;
     result.positions = mesh.positions;
     for (const Triangle& t : mesh.triangles) {
-        const Index strips = strips_of(mesh, t, spacing);
-        if (strips > 1)
-            cut_face(result, t, strips);
+        const Index subdivisions = subdivision_count(mesh, t, spacing);
+        if (subdivisions > 1)
+            subdivide_face(result, t, subdivisions);
         else
             result.triangles.push_back(t);
     }
-    const detail::Surface surface = detail::make_surface({to.positions, to.triangles}, "the other mesh");
+    const detail::Surface surface =
+        detail::extract_nonempty_surface({to.positions, to.triangles}, "the other mesh");
     const detail::Bvh tree(surface.positions, surface.triangles);
     result.distances.resize(result.positions.size());
     detail::parallel_blocks(result.positions.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
@@ -95,7 +97,7 @@ ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std
     return result;
 }
 
-double distance_of_share(const ErrorSurface& a, const ErrorSurface& b, double share) {
+double distance_quantile(const ErrorSurface& a, const ErrorSurface& b, double share) {
     std::vector<double> all = a.distances;
     all.insert(all.end(), b.distances.begin(), b.distances.end());
     if (all.empty()) return 0;
@@ -105,4 +107,4 @@ double distance_of_share(const ErrorSurface& a, const ErrorSurface& b, double sh
     return *nth;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

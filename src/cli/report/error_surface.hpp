@@ -7,7 +7,7 @@
 
 #include "faqem/asset.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Model units.
 struct ErrorSurface {
@@ -26,6 +26,6 @@ ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std
 
 /// The smallest distance that at least a share of the vertices of both are within; 0 where there are none.
 /// \param share  in [0, 1]
-double distance_of_share(const ErrorSurface& a, const ErrorSurface& b, double share);
+double distance_quantile(const ErrorSurface& a, const ErrorSurface& b, double share);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -4,7 +4,7 @@
 
 #include "asset/image/srgb.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 Vec4f heat_colour(double share) {
     const double at = share > 0 ? std::min(share, 1.0) * (heat_ramp.size() - 1) : 0;
@@ -18,4 +18,4 @@ Vec4f heat_colour(double share) {
     return colour;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

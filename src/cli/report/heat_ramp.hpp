@@ -7,7 +7,7 @@
 
 #include "faqem/mesh.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// sRGB. Every eighth of viridis, by van der Walt and Smith, which is in the public domain.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1, 84},
@@ -24,4 +24,4 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1
 /// \return linear RGBA
 Vec4f heat_colour(double share);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
-std::string escaped(std::string_view text) {
+std::string escape_html(std::string_view text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
@@ -31,8 +31,8 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-std::string filled(std::string_view text,
-                   const std::vector<std::pair<std::string_view, std::string>>& values) {
+std::string fill_template(std::string_view text,
+                          const std::vector<std::pair<std::string_view, std::string>>& values) {
     constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
     std::string result;
     while (true) {
@@ -54,21 +54,24 @@ std::string filled(std::string_view text,
     }
 }
 
-std::string table(const std::string& caption, const std::vector<std::string>& titles,
-                  const std::vector<std::vector<std::string>>& rows) {
-    std::string html = "<div><table>\n<caption>" + escaped(caption) + "</caption>\n<thead><tr>";
+std::string html_table(const std::string& caption, const std::vector<std::string>& titles,
+                       const std::vector<std::vector<std::string>>& rows) {
+    std::string html = "<div><table>\n<caption>" + escape_html(caption) + "</caption>\n<thead><tr>";
     for (const std::string& title : titles) {
         const char* tag = title.empty() ? "td" : "th";
-        html.append("<").append(tag).append(title.empty() ? ">" : " scope=\"col\">").append(escaped(title));
+        html.append("<")
+            .append(tag)
+            .append(title.empty() ? ">" : " scope=\"col\">")
+            .append(escape_html(title));
         html.append("</").append(tag).append(">");
     }
     html += "</tr></thead>\n<tbody>\n";
     for (const std::vector<std::string>& row : rows) {
-        html += "<tr><th scope=\"row\">" + escaped(row.at(0)) + "</th>";
-        for (std::size_t i = 1; i < row.size(); ++i) html += "<td>" + escaped(row[i]) + "</td>";
+        html += "<tr><th scope=\"row\">" + escape_html(row.at(0)) + "</th>";
+        for (std::size_t i = 1; i < row.size(); ++i) html += "<td>" + escape_html(row[i]) + "</td>";
         html += "</tr>\n";
     }
     return html + "</tbody>\n</table></div>\n";
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -3,16 +3,17 @@
 #include "asset/flatten.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
-PlacedModel load_placed(const std::string& file) {
-    PlacedModel model{file, load(file), {}};
+FlattenedModel load_flattened(const std::string& file) {
+    FlattenedModel model{file, load(file), {}};
     model.flat = detail::flatten(model.asset);
     if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with area");
     return model;
 }
 
-ModelComparison compare_models(const PlacedModel& a, const PlacedModel& b, const CompareOptions& options) {
+ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
+                               const CompareOptions& options) {
     ModelComparison result;
     result.distances = compare(a.view(), b.view(), options);
     result.a = info(a.view());
@@ -26,4 +27,4 @@ ModelComparison compare_models(const PlacedModel& a, const PlacedModel& b, const
     return result;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,10 +9,10 @@
 #include "faqem/compare.hpp"
 #include "faqem/compare_colors.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// A model, and all its instances in world space as one mesh.
-struct PlacedModel {
+struct FlattenedModel {
     std::string file;
     Asset asset;
     Part flat;
@@ -21,7 +21,7 @@ struct PlacedModel {
 };
 
 /// \throws ReadError, InputError (also where no face has area), UnsupportedError
-PlacedModel load_placed(const std::string& file);
+FlattenedModel load_flattened(const std::string& file);
 
 struct ModelComparison {
     Comparison distances;
@@ -31,6 +31,7 @@ struct ModelComparison {
 };
 
 /// \param a  the original
-ModelComparison compare_models(const PlacedModel& a, const PlacedModel& b, const CompareOptions& options);
+ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
+                               const CompareOptions& options);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

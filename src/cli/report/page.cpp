@@ -5,15 +5,15 @@
 #include <cmath>
 #include <filesystem>
 
-#include "faqem/version.hpp"
 #include "cli/json.hpp"
 #include "cli/report/base64.hpp"
+#include "cli/report/embedded_files.hpp"
 #include "cli/report/heat_ramp.hpp"
 #include "cli/report/html.hpp"
-#include "cli/report/embedded_files.hpp"
+#include "faqem/version.hpp"
 #include "render/views.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
     const auto row = [](const char* what, std::uint64_t of_a, std::uint64_t of_b) {
         const bool has_share = of_a > 0;
         return std::vector<std::string>{
-            what, with_commas(of_a), with_commas(of_b),
+            what, render::with_commas(of_a), render::with_commas(of_b),
             has_share ? percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
     };
     std::vector<std::vector<std::string>> rows = {
@@ -55,7 +55,7 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
         row("Bytes", a.bytes, b.bytes)};
     rows.back()[1] = size_text(a.bytes);
     rows.back()[2] = size_text(b.bytes);
-    return table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "share"}, rows);
+    return html_table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "share"}, rows);
 }
 
 std::string distances_table(const ReportPage& page) {
@@ -66,14 +66,15 @@ std::string distances_table(const ReportPage& page) {
     const auto row = [&](const char* what, auto&& value) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
-    return table("Distances, in model units and as a share of the diagonal of " + name_of(page.a),
-                 {"", "to " + name_of(page.b), "to " + name_of(page.a)},
-                 {row("Largest found", [&](const OneSided& s) { return cell(s.max); }),
-                  row("Largest, at most", [&](const OneSided& s) { return cell(s.max_bound); }),
-                  row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
-                  row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
-                  row("Normals, mean angle",
-                      [](const OneSided& s) { return number(s.mean_normal_degrees, 3) + "°"; })});
+    return html_table(
+        "Distances, in model units and as a share of the diagonal of " + name_of(page.a),
+        {"", "to " + name_of(page.b), "to " + name_of(page.a)},
+        {row("Largest found", [&](const OneSided& s) { return cell(s.max); }),
+         row("Largest, at most", [&](const OneSided& s) { return cell(s.max_bound); }),
+         row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
+         row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
+         row("Normals, mean angle",
+             [](const OneSided& s) { return number(s.mean_normal_degrees, 3) + "°"; })});
 }
 
 std::string colors_table(const ReportPage& page) {
@@ -83,18 +84,19 @@ std::string colors_table(const ReportPage& page) {
     const auto row = [&](const char* what, auto&& value) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
-    return table("Colours, sRGB from 0 to 1 without light; PSNR of both: " + decibels,
-                 {"", "to " + name_of(page.b), "to " + name_of(page.a)},
-                 {row("Root mean square", [](const OneSidedColors& s) { return number(s.rmse, 3); }),
-                  row("More than 0.25 off", [](const OneSidedColors& s) { return percent(s.wrong); }),
-                  row("Nothing looks that way", [](const OneSidedColors& s) { return percent(s.one_sided); }),
-                  row("Masked out", [](const OneSidedColors& s) { return percent(s.hidden); })});
+    return html_table(
+        "Colours, sRGB from 0 to 1 without light; PSNR of both: " + decibels,
+        {"", "to " + name_of(page.b), "to " + name_of(page.a)},
+        {row("Root mean square", [](const OneSidedColors& s) { return number(s.rmse, 3); }),
+         row("More than 0.25 off", [](const OneSidedColors& s) { return percent(s.outliers); }),
+         row("Nothing looks that way", [](const OneSidedColors& s) { return percent(s.unmatched); }),
+         row("Masked out", [](const OneSidedColors& s) { return percent(s.hidden); })});
 }
 
 std::string summary(const ReportPage& page) {
     const MeshInfo &a = page.a.mesh, &b = page.b.mesh;
     const Comparison& c = page.comparison.distances;
-    return with_commas(b.faces) + " faces instead of " + with_commas(a.faces) + ", " +
+    return render::with_commas(b.faces) + " faces instead of " + render::with_commas(a.faces) + ", " +
            size_text(page.b.bytes) + " instead of " + size_text(page.a.bytes) +
            ". No point of either surface is farther than " + number(c.hausdorff_bound) + " (" +
            percent(c.hausdorff_bound / c.diagonal) + " of the diagonal) from the other.";
@@ -103,8 +105,8 @@ std::string summary(const ReportPage& page) {
 std::string pictures(const ReportPage& page) {
     std::string html;
     for (const Picture& picture : page.pictures) {
-        html += "<figure><img alt=\"" + escaped(picture.description) + "\" src=\"data:image/png;base64," +
-                base64(picture.png.encoded) + "\"><figcaption>" + escaped(picture.caption) +
+        html += "<figure><img alt=\"" + escape_html(picture.description) + "\" src=\"data:image/png;base64," +
+                base64(picture.png.encoded) + "\"><figcaption>" + escape_html(picture.caption) +
                 "</figcaption></figure>\n";
     }
     return html;
@@ -112,17 +114,17 @@ std::string pictures(const ReportPage& page) {
 
 std::string notes(const ReportPage& page) {
     std::string html;
-    for (const std::string& note : page.notes) html += "<p class=\"note\">" + escaped(note) + "</p>\n";
+    for (const std::string& note : page.notes) html += "<p class=\"note\">" + escape_html(note) + "</p>\n";
     return html;
 }
 
 std::string caption(const ReportedModel& model) {
-    return escaped(name_of(model)) + ", " + with_commas(model.mesh.faces) + " faces";
+    return escape_html(name_of(model)) + ", " + render::with_commas(model.mesh.faces) + " faces";
 }
 
 std::string view(const ReportPage& page) {
     if (!page.view) return {};
-    return filled(view_html, {{"CAPTION_A", caption(page.a)}, {"CAPTION_B", caption(page.b)}});
+    return fill_template(viewer_html, {{"CAPTION_A", caption(page.a)}, {"CAPTION_B", caption(page.b)}});
 }
 
 std::string scripts(const ReportPage& page) {
@@ -131,8 +133,9 @@ std::string scripts(const ReportPage& page) {
         return std::string("<script id=\"") + id + "\" type=\"" + type + "\">" + std::string(text) +
                "</script>\n";
     };
-    const View& v = *page.view;
-    const Json data = {{"limit", v.limit}, {"most", v.most}, {"unit", v.unit}, {"ramp", heat_ramp}};
+    const ViewerData& v = *page.view;
+    const Json data = {
+        {"limit", v.limit}, {"max_distance", v.max_distance}, {"unit", v.unit}, {"ramp", heat_ramp}};
     return block("view-data", "application/json", data.dump()) +
            block("model-a", "application/octet-stream", base64(v.a)) +
            block("model-b", "application/octet-stream", base64(v.b)) + "<script>" +
@@ -152,18 +155,18 @@ std::string ramp_stops() {
 
 bool has_viewer() { return !viewer_script.empty(); }
 
-std::string page_of(const ReportPage& page) {
-    return filled(page_html,
-                  {{"VERSION", std::string(version())},
-                   {"NAME_A", escaped(name_of(page.a))},
-                   {"NAME_B", escaped(name_of(page.b))},
-                   {"STYLE", filled(page_style, {{"RAMP", ramp_stops()}})},
-                   {"SUMMARY", escaped(summary(page))},
-                   {"VIEW", view(page)},
-                   {"TABLES", counts_table(page.a, page.b) + distances_table(page) + colors_table(page)},
-                   {"NOTES", notes(page)},
-                   {"PICTURES", pictures(page)},
-                   {"SCRIPTS", scripts(page)}});
+std::string report_html(const ReportPage& page) {
+    return fill_template(
+        page_html, {{"VERSION", std::string(version())},
+                    {"NAME_A", escape_html(name_of(page.a))},
+                    {"NAME_B", escape_html(name_of(page.b))},
+                    {"STYLE", fill_template(page_style, {{"RAMP", ramp_stops()}})},
+                    {"SUMMARY", escape_html(summary(page))},
+                    {"VIEW", view(page)},
+                    {"TABLES", counts_table(page.a, page.b) + distances_table(page) + colors_table(page)},
+                    {"NOTES", notes(page)},
+                    {"PICTURES", pictures(page)},
+                    {"SCRIPTS", scripts(page)}});
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,7 +9,7 @@
 
 #include "cli/report/model_comparison.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// A column of the figures.
 struct ReportedModel {
@@ -26,17 +26,18 @@ struct Picture {
 };
 
 /// The models of the 3D view, and how it colours errors.
-struct View {
-    std::vector<std::uint8_t> a, b;  ///< from view_model()
-    double limit = 0, most = 0;  ///< distance with the full colour, and the largest; in units of the frame
-    double unit = 1;             ///< of the frame, model units
+struct ViewerData {
+    std::vector<std::uint8_t> a, b;  ///< from viewer_glb()
+    double limit = 0,
+           max_distance = 0;  ///< distance with the full colour, and the largest; in units of the frame
+    double unit = 1;          ///< of the frame, model units
 };
 
 struct ReportPage {
     ReportedModel a, b;
     ModelComparison comparison;
     std::vector<Picture> pictures;
-    std::optional<View> view;
+    std::optional<ViewerData> view;
     std::vector<std::string> notes;  ///< why there is no view, what was repaired; a sentence each
 };
 
@@ -44,6 +45,6 @@ struct ReportPage {
 bool has_viewer();
 
 /// The page as HTML. Names of files are escaped; nothing is fetched when it is opened.
-std::string page_of(const ReportPage& page);
+std::string report_html(const ReportPage& page);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

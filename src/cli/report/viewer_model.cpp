@@ -3,16 +3,16 @@
 #include "asset/gltf/gltf.hpp"
 #include "cli/report/heat_ramp.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
-void place(std::vector<Vec3>& positions, const ViewFrame& frame) {
+void normalize_positions(std::vector<Vec3>& positions, const ViewerFrame& frame) {
     for (Vec3& p : positions)
         for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.centre[k]) / frame.unit;
 }
 
-Part bare_part(const ErrorSurface& error, const char* name) {
+Part error_part(const ErrorSurface& error, const char* name) {
     Part part;
     part.name = name;
     part.positions = error.positions;
@@ -23,28 +23,28 @@ Part bare_part(const ErrorSurface& error, const char* name) {
 
 }  // namespace
 
-std::vector<std::uint8_t> view_model(const PlacedModel& model, const ErrorSurface& error,
-                                     const ViewFrame& frame) {
+std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
+                                     const ViewerFrame& frame) {
     Asset asset;
     asset.images = model.asset.images;
     asset.materials = model.asset.materials;
     // What the file said of them in other words belongs to its own document.
     for (Material& material : asset.materials) material.source = no_index;
-    asset.parts = {model.flat, bare_part(error, "error")};
+    asset.parts = {model.flat, error_part(error, "error")};
     asset.parts[0].name = "look";
     asset.parts[1].uvs.resize(1);
     for (const double distance : error.distances)
         asset.parts[1].uvs[0].push_back({static_cast<float>(distance / frame.unit), 0});
-    for (Part& part : asset.parts) place(part.positions, frame);
-    return detail::glb_of(asset);
+    for (Part& part : asset.parts) normalize_positions(part.positions, frame);
+    return detail::encode_glb(asset);
 }
 
-Asset coloured(const ErrorSurface& error, double limit) {
+Asset color_by_distance(const ErrorSurface& error, double limit) {
     Asset asset;
-    asset.parts = {bare_part(error, "error")};
+    asset.parts = {error_part(error, "error")};
     for (const double distance : error.distances)
         asset.parts[0].colors.push_back(heat_colour(limit > 0 ? distance / limit : 0));
     return asset;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

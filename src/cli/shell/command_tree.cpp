@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -29,11 +29,11 @@ OptionInfo info_of(const CLI::Option& option) {
     std::string type = option.get_type_name();
     type = type.substr(0, type.find(':'));  // behind it is what the value is checked for
     if (option.get_expected_min() == 0) {
-        info.optional_value = type;
+        info.optional_value_name = type;
         return info;
     }
-    info.value = type;
-    if (info.value.find('|') != std::string::npos) info.choices = split(info.value, '|');
+    info.value_name = type;
+    if (info.value_name.find('|') != std::string::npos) info.choices = split(info.value_name, '|');
     return info;
 }
 
@@ -62,4 +62,4 @@ CommandTree command_tree(const CLI::App& app) {
     return tree;
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,14 +9,14 @@ namespace CLI {
 class App;
 }
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// An option, or an argument without dashes.
 struct OptionInfo {
     std::vector<std::string> names;     ///< `-h` and `--help`; of an argument its one name
-    std::string value;                  ///< what stands for the value; empty: a flag, or an argument
+    std::string value_name;             ///< what stands for the value; empty: a flag, or an argument
     std::vector<std::string> choices;   ///< all that the value can be; empty: anything
-    std::string optional_value;         ///< of a flag that may have a value behind `=`: what stands for it
+    std::string optional_value_name;    ///< of a flag that may have a value behind `=`: what stands for it
     std::vector<std::string> excludes;  ///< options that cannot be given with it, sorted
     std::string description;
 };
@@ -37,4 +37,4 @@ struct CommandTree {
 /// \param app  from build_command_line()
 CommandTree command_tree(const CLI::App& app);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

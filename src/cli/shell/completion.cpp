@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -66,8 +66,9 @@ std::string zsh_option(const OptionInfo& option) {
         text << "            '" << name << "[" << zsh_escaped(option.description) << "]";
         if (!option.choices.empty())
             text << ":value:(" << joined(option.choices) << ")";
-        else if (!option.value.empty())
-            text << ":" << zsh_escaped(option.value) << ":" << (option.value == "FILE" ? "_files" : "");
+        else if (!option.value_name.empty())
+            text << ":" << zsh_escaped(option.value_name) << ":"
+                 << (option.value_name == "FILE" ? "_files" : "");
         text << "' \\\n";
     }
     return text.str();
@@ -138,4 +139,4 @@ std::string zsh_completion(const CommandTree& tree) {
     return text.str();
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

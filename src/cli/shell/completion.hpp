@@ -6,7 +6,7 @@
 
 #include "cli/shell/command_tree.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// For bash 4 or newer, without the package bash-completion.
 std::string bash_completion(const CommandTree& tree);
@@ -14,4 +14,4 @@ std::string bash_completion(const CommandTree& tree);
 /// For zsh, as a function file `_faqem` or to be sourced.
 std::string zsh_completion(const CommandTree& tree);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -1,11 +1,11 @@
 #include "cli/shell/man_page.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
 /// Text that troff shows as it is.
-std::string plain(std::string_view text) {
+std::string escape_troff(std::string_view text) {
     std::string result;
     bool at_line_start = true;
     for (const char c : text) {
@@ -22,7 +22,7 @@ std::string plain(std::string_view text) {
 }
 
 std::string in_font(char font, std::string_view text) {
-    return std::string("\\f") + font + plain(text) + "\\fR";
+    return std::string("\\f") + font + escape_troff(text) + "\\fR";
 }
 std::string bold(std::string_view text) { return in_font('B', text); }
 std::string italic(std::string_view text) { return in_font('I', text); }
@@ -32,9 +32,9 @@ std::string entry(const OptionInfo& option) {
     std::string text = ".TP\n";
     for (std::size_t i = 0; i < option.names.size(); ++i)
         text.append(i > 0 ? ", " : "").append((is_option ? bold : italic)(option.names[i]));
-    if (!option.value.empty())
-        text.append(" ").append((option.choices.empty() ? italic : plain)(option.value));
-    return text.append("\n").append(plain(option.description)).append("\n");
+    if (!option.value_name.empty())
+        text.append(" ").append((option.choices.empty() ? italic : escape_troff)(option.value_name));
+    return text.append("\n").append(escape_troff(option.description)).append("\n");
 }
 
 std::string section(const CommandInfo& command) {
@@ -42,7 +42,7 @@ std::string section(const CommandInfo& command) {
     text += bold(std::string("faqem ") + command.name);
     for (const OptionInfo& argument : command.arguments)
         text.append(" ").append(italic(argument.names.front()));
-    text.append("\n").append(plain(command.description)).append(".\n");
+    text.append("\n").append(escape_troff(command.description)).append(".\n");
     for (const OptionInfo& argument : command.arguments) text += entry(argument);
     for (const OptionInfo& option : command.options) text += entry(option);
     return text;
@@ -56,16 +56,16 @@ std::string man_page(const CommandTree& tree, std::string_view version) {
     text += ".SH NAME\nfaqem \\- mesh simplification that keeps the look\n";
     text.append(".SH SYNOPSIS\n").append(bold("faqem")).append(" ").append(italic("COMMAND"));
     text.append(" [").append(italic("OPTION")).append("]...\n");
-    text.append(".SH DESCRIPTION\n").append(plain(tree.description)).append("\n");
+    text.append(".SH DESCRIPTION\n").append(escape_troff(tree.description)).append("\n");
     for (const OptionInfo& option : tree.options) text += entry(option);
     text += ".SH COMMANDS\n";
     for (const CommandInfo& command : tree.commands) text += section(command);
-    text.append(".SH EXIT STATUS\n").append(plain(tree.exit_codes)).append("\n");
+    text.append(".SH EXIT STATUS\n").append(escape_troff(tree.exit_codes)).append("\n");
     text += ".SH EXAMPLES\n.nf\n";
     for (const CommandInfo& command : tree.commands) {
-        for (const std::string& example : command.examples) text.append(plain(example)).append("\n");
+        for (const std::string& example : command.examples) text.append(escape_troff(example)).append("\n");
     }
     return text + ".fi\n";
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string suggestion(const CommandTree& tree, const std::vector<std::string>& 
     return {};
 }
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -8,7 +8,7 @@
 
 #include "cli/shell/command_tree.hpp"
 
-namespace faqem::tool {
+namespace faqem::cli {
 
 /// Letters to insert, delete, replace, or swap with their neighbour, to make one word the other; each place
 /// is changed once at most (optimal string alignment). O(product of the lengths)
@@ -23,4 +23,4 @@ std::string closest_word(std::string_view wrong, const std::vector<std::string>&
 /// \return empty where nothing is wrong or nothing is close
 std::string suggestion(const CommandTree& tree, const std::vector<std::string>& words);
 
-}  // namespace faqem::tool
+}  // namespace faqem::cli

@@ -9,7 +9,7 @@ docs/python.md has every option.
 
 from ._library import version as _version
 from ._levels import History, simplify_levels
-from ._model import Model, Part, bake, bake_cut, bake_levels, load, save, save_levels
+from ._model import Model, Part, bake, bake_truncated, bake_levels, load, save, save_levels
 from ._simplify import Simplified, simplify
 from .errors import Error, InputError, InternalError, OptionError, UnsupportedError, WriteError
 
@@ -27,7 +27,7 @@ __all__ = [
     "UnsupportedError",
     "WriteError",
     "bake",
-    "bake_cut",
+    "bake_truncated",
     "bake_levels",
     "load",
     "save",

@@ -10,13 +10,13 @@ from .errors import InputError
 _no_index = 2**32 - 1
 
 
-def _shaped(array, width, name):
+def _check_shape(array, width, name):
     if array.ndim != 2 or array.shape[1] != width:
         raise InputError(f"{name}: the shape is {array.shape}, not (n, {width})")
     return array
 
 
-def _readable(array, kind):
+def _strided(array, kind):
     """The array itself where the C door can read it as it lies, else a copy."""
     array = numpy.asarray(array, dtype=kind)
     return array if all(step > 0 for step in array.strides) else numpy.ascontiguousarray(array)
@@ -27,7 +27,7 @@ def _positions(vertices):
     kind = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
     if array.size == 0:
         array = array.reshape(0, 3)
-    return _shaped(_readable(array, kind), 3, "vertices")
+    return _check_shape(_strided(array, kind), 3, "vertices")
 
 
 def _indices(values, name):
@@ -37,7 +37,7 @@ def _indices(values, name):
         raise InputError(f"{name}: {array.dtype} are no whole numbers")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
         raise InputError(f"{name}: below 0, or above what 32-bit indices can count")
-    return _readable(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
+    return _strided(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
 
 
 def _per_element(values, count, kind, name):
@@ -53,36 +53,36 @@ class MeshArrays:
     def __init__(self, vertices, triangles, groups=None, locks=None, weights=None, uvs=None):
         positions = _positions(vertices)
         corners = _indices(triangles, "triangles")
-        corners = _shaped(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
+        corners = _check_shape(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
         self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
-        self._kept = []
+        self._arrays = []
         name = "positions" if positions.dtype == numpy.float32 else "double_positions"
-        self._point(name, positions)
-        self._point("short_triangles" if corners.dtype == numpy.uint16 else "triangles", corners)
+        self._set_array(name, positions)
+        self._set_array("short_triangles" if corners.dtype == numpy.uint16 else "triangles", corners)
         self.mesh.position_stride, self.mesh.position_step = positions.strides
         self.mesh.triangle_stride, self.mesh.triangle_step = corners.strides
         if groups is not None:
             groups = _per_element(_indices(groups, "groups"), len(corners), numpy.uint32, "groups")
-            self._point("face_groups", groups)
+            self._set_array("face_groups", groups)
         if locks is not None:
             locks = _per_element(numpy.asarray(locks, dtype=bool), len(positions), numpy.uint8, "locks")
-            self._point("vertex_locks", locks)
+            self._set_array("vertex_locks", locks)
         if weights is not None:
-            self._point("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
+            self._set_array("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
         if uvs is not None:
             corner_values = numpy.ascontiguousarray(uvs, dtype=numpy.float32)
             if corner_values.ndim != 3 or corner_values.shape[:2] != (len(corners), 3) or corner_values.shape[2] < 1:
                 raise InputError(f"uvs: the shape is {corner_values.shape}, not ({len(corners)}, 3, n)")
-            self._point("corner_values", corner_values)
+            self._set_array("corner_values", corner_values)
             self.mesh.corner_width = corner_values.shape[2]
 
-    def _point(self, field, array):
-        self._kept.append(array)
+    def _set_array(self, field, array):
+        self._arrays.append(array)
         pointer = dict(Mesh._fields_)[field]
         setattr(self.mesh, field, array.ctypes.data_as(pointer))
 
 
-def copied(pointer, *shape):
+def copy_array(pointer, *shape):
     """An array of its own with the numbers that a getter points to. Where it points to none: an empty one."""
     if not pointer:
         kind = numpy.dtype(pointer._type_)
@@ -90,6 +90,6 @@ def copied(pointer, *shape):
     return numpy.ctypeslib.as_array(pointer, shape=shape).copy()
 
 
-def reference(mesh_arrays):
+def mesh_pointer(mesh_arrays):
     """The argument for a `const faqem_mesh*`."""
     return ctypes.byref(mesh_arrays.mesh)

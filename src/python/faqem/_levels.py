@@ -4,9 +4,9 @@ import ctypes
 import os
 import weakref
 
-from ._arrays import MeshArrays, reference
+from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, call, create, library
-from ._options import Options, length, whole
+from ._options import Options, parse_length, checked_integer
 from ._simplify import Simplified
 from .errors import OptionError
 
@@ -17,14 +17,14 @@ def _level(level):
     if isinstance(level, str):
         if not level.startswith("error:"):
             raise OptionError(f"levels: {level!r} is none; a distance is 'error:0.01' or 'error:0.1%'")
-        value, unit = length(level[len("error:"):], "levels")
+        value, unit = parse_length(level[len("error:"):], "levels")
         return Level(_distance + unit, value)
     if 0 < level <= 1:
         return Level(_ratio, float(level))
-    return Level(_faces, whole(level, "levels", 53))
+    return Level(_faces, checked_integer(level, "levels", 53))
 
 
-def wanted_levels(levels):
+def level_array(levels):
     """An array of faqem_level."""
     return (Level * len(levels))(*map(_level, levels))
 
@@ -40,28 +40,28 @@ def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, 
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    wanted = wanted_levels(levels)
+    wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
-    chosen.run(lambda: call(library.faqem_simplify_levels, reference(arrays), chosen.object, wanted, len(levels), made))
+    chosen.run(lambda: call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(levels), made))
     return [Simplified(ctypes.c_void_p(one)) for one in made]
 
 
-def objects_of(levels):
+def handle_array(levels):
     """The objects of the C door that Simplified or Model have."""
-    return (ctypes.c_void_p * len(levels))(*(level._object.value for level in levels))
+    return (ctypes.c_void_p * len(levels))(*(level._handle.value for level in levels))
 
 
 class History:
     """How the original became one level after the other. Comes from History.of() or History.load()."""
 
-    def __init__(self, made):
-        self._object = made
-        weakref.finalize(self, library.faqem_history_destroy, made)
+    def __init__(self, handle):
+        self._handle = handle
+        weakref.finalize(self, library.faqem_history_destroy, handle)
 
     @classmethod
     def of(cls, levels):
         """Of what simplify_levels() or bake_levels(), or a list of one simplify() or bake(), gave with history=True."""
-        objects = objects_of(levels)
+        objects = handle_array(levels)
         of_arrays = all(isinstance(level, Simplified) for level in levels)
         make = library.faqem_history_create if of_arrays else library.faqem_asset_history_create
         return cls(create(make, objects, len(levels)))
@@ -76,30 +76,30 @@ class History:
     def save(self, path, *, overwrite=False):
         """In the format of docs/history-format.md. Raises OSError."""
         size = ctypes.c_size_t()
-        content = ctypes.string_at(library.faqem_history_bytes(self._object, ctypes.byref(size)), size.value)
+        content = ctypes.string_at(library.faqem_history_bytes(self._handle, ctypes.byref(size)), size.value)
         with open(os.fspath(path), "wb" if overwrite else "xb") as file:
             file.write(content)
 
     def __len__(self):
         """Number of levels."""
-        return library.faqem_history_level_count(self._object)
+        return library.faqem_history_level_count(self._handle)
 
     @property
     def part_count(self):
         """Meshes that it is of: 1, or the parts of a model."""
-        return library.faqem_history_part_count(self._object)
+        return library.faqem_history_part_count(self._handle)
 
-    def cut(self, faces):
+    def truncate(self, faces):
         """The mesh when no more than so many triangles were left, as a Simplified; see docs/levels.md.
 
-        Raises OptionError, also where it is of several meshes: cut_parts() is for them, and bake_cut() for models.
+        Raises OptionError, also where it is of several meshes: truncate_parts() is for them, and bake_truncated() for models.
         """
         if self.part_count > 1:
-            raise OptionError(f"the history is of {self.part_count} meshes: cut_parts() cuts them")
-        return Simplified(create(library.faqem_history_cut, self._object, whole(faces, "faces", 53)))
+            raise OptionError(f"the history is of {self.part_count} meshes: truncate_parts() cuts them")
+        return Simplified(create(library.faqem_history_truncate, self._handle, checked_integer(faces, "faces", 53)))
 
-    def cut_parts(self, faces):
+    def truncate_parts(self, faces):
         """The same for all meshes together: a list of Simplified, one for each part of the model."""
         made = (ctypes.c_void_p * self.part_count)()
-        call(library.faqem_history_cut_parts, self._object, whole(faces, "faces", 53), made)
+        call(library.faqem_history_truncate_parts, self._handle, checked_integer(faces, "faces", 53), made)
         return [Simplified(ctypes.c_void_p(one)) for one in made]

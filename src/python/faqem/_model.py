@@ -9,10 +9,10 @@ import weakref
 
 import numpy
 
-from ._arrays import MeshArrays, copied, reference
-from ._levels import objects_of, wanted_levels
+from ._arrays import MeshArrays, copy_array, mesh_pointer
+from ._levels import handle_array, level_array
 from ._library import call, create, library
-from ._options import Options, whole
+from ._options import Options, checked_integer
 from .errors import InputError, OptionError
 
 _level_textures = {"each": 0, "shared": 1}
@@ -30,47 +30,47 @@ class Part:
 class Model:
     """A scene of parts, materials and images. Comes from load(), bake() or Model.from_arrays()."""
 
-    def __init__(self, made):
-        self._object = made
-        weakref.finalize(self, library.faqem_asset_destroy, made)
+    def __init__(self, handle):
+        self._handle = handle
+        weakref.finalize(self, library.faqem_asset_destroy, handle)
 
     @classmethod
     def from_arrays(cls, vertices, triangles):
         """One part without materials; the arrays are copied."""
         arrays = MeshArrays(vertices, triangles)
-        return cls(create(library.faqem_asset_create, reference(arrays)))
+        return cls(create(library.faqem_asset_create, mesh_pointer(arrays)))
 
     @property
     def parts(self):
         """A list of Part, copied anew each time."""
-        count = library.faqem_asset_part_count(self._object)
+        count = library.faqem_asset_part_count(self._handle)
         return [self._part(part) for part in range(count)]
 
     @property
     def warnings(self):
         """What was repaired, left out, or could not be saved."""
-        count = library.faqem_asset_warning_count(self._object)
-        return [library.faqem_asset_warning(self._object, i).decode(errors="replace") for i in range(count)]
+        count = library.faqem_asset_warning_count(self._handle)
+        return [library.faqem_asset_warning(self._handle, i).decode(errors="replace") for i in range(count)]
 
     @property
     def report(self):
         """What bake() did, with the keys of docs/cli.md; None for other models."""
-        text = library.faqem_asset_report_json(self._object)
+        text = library.faqem_asset_report_json(self._handle)
         return None if text is None else json.loads(text)
 
     @property
     def error(self):
         """Of a level: no point is farther from the original, in units of the scene; None of other models."""
-        error = library.faqem_asset_level_error(self._object)
+        error = library.faqem_asset_level_error(self._handle)
         return None if math.isnan(error) else error
 
     def _part(self, part):
-        v = library.faqem_asset_vertex_count(self._object, part)
-        f = library.faqem_asset_face_count(self._object, part)
+        v = library.faqem_asset_vertex_count(self._handle, part)
+        f = library.faqem_asset_face_count(self._handle, part)
         return Part(
-            name=library.faqem_asset_part_name(self._object, part).decode(errors="replace"),
-            vertices=copied(library.faqem_asset_positions(self._object, part), v, 3),
-            triangles=copied(library.faqem_asset_triangles(self._object, part), f, 3),
+            name=library.faqem_asset_part_name(self._handle, part).decode(errors="replace"),
+            vertices=copy_array(library.faqem_asset_positions(self._handle, part), v, 3),
+            triangles=copy_array(library.faqem_asset_triangles(self._handle, part), f, 3),
         )
 
 
@@ -95,7 +95,7 @@ def bake(model, /, **options):
     Raises OptionError, InputError, UnsupportedError, MemoryError, and what `progress` raises.
     """
     chosen = Options(**options)
-    return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._object, chosen.object)))
+    return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._handle, chosen.object)))
 
 
 def bake_levels(model, levels, /, *, textures="each", **options):
@@ -110,14 +110,14 @@ def bake_levels(model, levels, /, *, textures="each", **options):
     if textures not in _level_textures:
         raise OptionError(f"textures: {textures!r} is neither 'each' nor 'shared'")
     chosen = Options(**options)
-    wanted = wanted_levels(levels)
+    wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
-    chosen.run(lambda: call(library.faqem_asset_simplify_levels, model._object, chosen.object, wanted, len(levels),
+    chosen.run(lambda: call(library.faqem_asset_simplify_levels, model._handle, chosen.object, wanted, len(levels),
                             _level_textures[textures], made))
     return [Model(ctypes.c_void_p(one)) for one in made]
 
 
-def bake_cut(model, history, faces, /, **options):
+def bake_truncated(model, history, faces, /, **options):
     """The model when no more than so many triangles were left, with a look baked anew, without another run.
 
     model    the one that was simplified
@@ -128,8 +128,8 @@ def bake_cut(model, history, faces, /, **options):
     Returns a Model. Raises what bake() raises, and InputError where the history is of another model.
     """
     chosen = Options(**options)
-    count = whole(faces, "faces", 53)
-    return Model(chosen.run(lambda: create(library.faqem_asset_cut, model._object, history._object, count,
+    count = checked_integer(faces, "faces", 53)
+    return Model(chosen.run(lambda: create(library.faqem_asset_bake_truncated, model._handle, history._handle, count,
                                            chosen.object)))
 
 
@@ -145,7 +145,7 @@ def save_levels(levels, path, /, *, pixel_error=1, screen_height=1080, overwrite
     if not (pixel_error > 0 and screen_height > 0):
         raise OptionError("pixel_error and screen_height: must be above 0")
     share = float(pixel_error) / float(screen_height)
-    call(library.faqem_asset_save_levels, objects_of(levels), len(levels), share, _path(path), 1 if overwrite else 0)
+    call(library.faqem_asset_save_levels, handle_array(levels), len(levels), share, _path(path), 1 if overwrite else 0)
 
 
 def save(model, path, *, overwrite=False):
@@ -157,4 +157,4 @@ def save(model, path, *, overwrite=False):
     """
     if not isinstance(model, Model):
         model = Model.from_arrays(*model)
-    call(library.faqem_asset_save, model._object, _path(path), 1 if overwrite else 0)
+    call(library.faqem_asset_save, model._handle, _path(path), 1 if overwrite else 0)

@@ -7,8 +7,8 @@ from .errors import OptionError
 
 _presets = ["qem", "paper", "stmw", "fast", "balanced", "best"]
 _links = ["as_preset", "off", "by_size", "on", "strict"]
-_borders = ["free", "kept"]
-_visibilities = ["ignored", "weighs"]
+_boundaries = ["free", "kept"]
+_visibilities = ["ignored", "weighted"]
 _bakes = ["automatic", "atlas", "per_triangle", "vertex", "keep", "none"]
 _normal_maps = ["automatic", "on", "off"]
 _normals = ["transfer", "smooth", "flat", "none"]
@@ -16,14 +16,14 @@ _image_formats = ["png", "jpeg", "source"]
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 
-def numbered(names, name, option):
+def enum_value(names, name, option):
     """The number of an enumerator of the C door."""
     if name not in names:
         raise OptionError(f"{option}: unknown value {name!r} (known: {', '.join(names)})")
     return names.index(name)
 
 
-def length(value, option):
+def parse_length(value, option):
     """0.01 in model units, or "0.1%" of the diagonal. Returns number and unit."""
     try:
         if isinstance(value, str) and value.endswith("%"):
@@ -33,7 +33,7 @@ def length(value, option):
         raise OptionError(f"{option}: {value!r} is no length") from None
 
 
-def whole(value, option, bits):
+def checked_integer(value, option, bits):
     if not (isinstance(value, int) or hasattr(value, "__index__")) or not 0 <= int(value) < 2**bits:
         raise OptionError(f"{option}: {value!r} is no whole number from 0 to 2^{bits} - 1")
     return int(value)
@@ -42,8 +42,8 @@ def whole(value, option, bits):
 class Options:
     """The object of the C door. Unset options are None."""
 
-    def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, border=None,
-                 group_borders=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
+    def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, boundary=None,
+                 group_boundaries=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
                  progress=None, history=None, visibility=None, bake=None, texture_size=None, texel_density=None,
                  normal_map=None, normals=None, image_format=None):
         if ratio is not None and faces is not None:
@@ -52,32 +52,32 @@ class Options:
         if not self.object:
             raise MemoryError
         weakref.finalize(self, library.faqem_options_destroy, self.object)
-        self._raised = None
+        self._callback_exception = None
         if ratio is not None:
             self._set("ratio", float(ratio))
         if faces is not None:
-            self._set("faces", whole(faces, "faces", 53))
+            self._set("faces", checked_integer(faces, "faces", 53))
         if max_error is not None:
-            self._set("max_error", *length(max_error, "max_error"))
+            self._set("max_error", *parse_length(max_error, "max_error"))
         if weld_distance is not None:
             self._set("weld_distance", float(weld_distance))
         if virtual_edges is not None:
             self._set("virtual_edges", float(virtual_edges))
         if prune is not None:
-            self._set("prune", *length(prune, "prune"))
+            self._set("prune", *parse_length(prune, "prune"))
         if threads is not None:
-            self._set("threads", whole(threads, "threads", 32))
+            self._set("threads", checked_integer(threads, "threads", 32))
         if history is not None:
             self._set("history", 1 if history else 0)
         if texture_size is not None:
-            self._set("texture_size", whole(texture_size, "texture_size", 32))
+            self._set("texture_size", checked_integer(texture_size, "texture_size", 32))
         if texel_density is not None:
             self._set("texel_density", float(texel_density))
         for option, setter, name, names in [
             ("preset", "preset", preset, _presets),
             ("link", "link", link, _links),
-            ("border", "border", border, _borders),
-            ("group_borders", "group_border", group_borders, _borders),
+            ("boundary", "boundary", boundary, _boundaries),
+            ("group_boundaries", "group_boundaries", group_boundaries, _boundaries),
             ("visibility", "visibility", visibility, _visibilities),
             ("bake", "bake", bake, _bakes),
             ("normal_map", "normal_map", normal_map, _normal_maps),
@@ -85,14 +85,14 @@ class Options:
             ("image_format", "image_format", image_format, _image_formats),
         ]:
             if name is not None:
-                self._set(setter, numbered(names, name, option))
-        self._follow(progress)
+                self._set(setter, enum_value(names, name, option))
+        self._set_progress(progress)
 
     def _set(self, name, *values):
         if getattr(library, "faqem_options_set_" + name)(self.object, *values) != 0:
             raise OptionError(f"{name}: {values} is refused")
 
-    def _follow(self, progress):
+    def _set_progress(self, progress):
         """An exception cannot pass through C: it cancels, and is raised behind the call."""
 
         def called(_user, phase, fraction):
@@ -100,7 +100,7 @@ class Options:
                 if progress is not None:
                     progress(_phases[phase], fraction)
             except BaseException as raised:  # Ctrl-C too
-                self._raised = raised
+                self._callback_exception = raised
                 return 1
             return 0
 
@@ -112,6 +112,6 @@ class Options:
         try:
             return work()
         finally:
-            if self._raised is not None:
-                raised, self._raised = self._raised, None
+            if self._callback_exception is not None:
+                raised, self._callback_exception = self._callback_exception, None
                 raise raised

@@ -6,9 +6,9 @@ import weakref
 
 import numpy
 
-from ._arrays import MeshArrays, copied, reference
+from ._arrays import MeshArrays, copy_array, mesh_pointer
 from ._library import call, create, library
-from ._options import Options, numbered
+from ._options import Options, enum_value
 from .errors import InputError
 
 _mappings = ["projection", "lineage", "closest"]
@@ -21,26 +21,26 @@ class Simplified:
     triangles: numpy.ndarray  #: (f, 3) uint32
     groups: "numpy.ndarray | None"  #: (f,) uint32, or None where the input had none
     uvs: "numpy.ndarray | None"  #: (f, 3, n) float32, or None where the input had none
-    vertex_origin: numpy.ndarray  #: (v,) uint32: an input vertex that each grew from; empty after History.cut()
+    vertex_origin: numpy.ndarray  #: (v,) uint32: an input vertex that each grew from; empty after History.truncate()
     face_origin: numpy.ndarray  #: (f,) uint32: the input triangle that each was
     report: dict  #: with the keys of docs/cli.md
     error: "float | None"  #: of a level: no point is farther from the original; None of other results
 
-    def __init__(self, made):
-        self._object = made  # its history is asked for later
-        weakref.finalize(self, library.faqem_result_destroy, made)
-        v = library.faqem_result_vertex_count(made)
-        f = library.faqem_result_face_count(made)
-        groups = library.faqem_result_face_groups(made)
-        width = library.faqem_result_corner_width(made)
-        self.vertices = copied(library.faqem_result_positions(made), v, 3)
-        self.triangles = copied(library.faqem_result_triangles(made), f, 3)
-        self.groups = copied(groups, f) if groups else None
-        self.uvs = copied(library.faqem_result_corner_values(made), f, 3, width) if width else None
-        self.vertex_origin = copied(library.faqem_result_vertex_origin(made), v)
-        self.face_origin = copied(library.faqem_result_face_origin(made), f)
-        self.report = json.loads(library.faqem_result_report_json(made))
-        error = library.faqem_result_level_error(made)
+    def __init__(self, handle):
+        self._handle = handle  # its history is asked for later
+        weakref.finalize(self, library.faqem_result_destroy, handle)
+        v = library.faqem_result_vertex_count(handle)
+        f = library.faqem_result_face_count(handle)
+        groups = library.faqem_result_face_groups(handle)
+        width = library.faqem_result_corner_width(handle)
+        self.vertices = copy_array(library.faqem_result_positions(handle), v, 3)
+        self.triangles = copy_array(library.faqem_result_triangles(handle), f, 3)
+        self.groups = copy_array(groups, f) if groups else None
+        self.uvs = copy_array(library.faqem_result_corner_values(handle), f, 3, width) if width else None
+        self.vertex_origin = copy_array(library.faqem_result_vertex_origin(handle), v)
+        self.face_origin = copy_array(library.faqem_result_face_origin(handle), f)
+        self.report = json.loads(library.faqem_result_report_json(handle))
+        error = library.faqem_result_level_error(handle)
         self.error = None if numpy.isnan(error) else error
 
     def map(self, faces, barycentric, mapping="projection"):
@@ -58,12 +58,12 @@ class Simplified:
             raise InputError(f"map: the shapes are {faces.shape} and {weights.shape}, not (n,) and (n, 3)")
         source_faces, source_weights = numpy.empty_like(faces), numpy.empty_like(weights)
 
-        def at(array, kind):
+        def pointer(array, kind):
             return array.ctypes.data_as(ctypes.POINTER(kind))
 
-        call(library.faqem_result_map, self._object, numbered(_mappings, mapping, "mapping"),
-             at(faces, ctypes.c_uint32), at(weights, ctypes.c_double), len(faces),
-             at(source_faces, ctypes.c_uint32), at(source_weights, ctypes.c_double))
+        call(library.faqem_result_map, self._handle, enum_value(_mappings, mapping, "mapping"),
+             pointer(faces, ctypes.c_uint32), pointer(weights, ctypes.c_double), len(faces),
+             pointer(source_faces, ctypes.c_uint32), pointer(source_weights, ctypes.c_double))
         return source_faces, source_weights
 
 
@@ -72,15 +72,15 @@ def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, u
 
     vertices   (v, 3) numbers; float32 and float64 are used without a copy
     triangles  (f, 3) whole numbers below v; uint32 and uint16 without a copy
-    groups     (f,) whole numbers, for group_borders="kept"
+    groups     (f,) whole numbers, for group_boundaries="kept"
     locks      (v,) truth values: these stay where they are
     weights    (v,) numbers in [1e-6, 1e6]: errors there count so many times
     uvs        (f, 3, n) numbers at the corners, which are carried along
-    options    ratio, faces, max_error, preset, link, border, group_borders, weld_distance, virtual_edges,
+    options    ratio, faces, max_error, preset, link, boundary, group_boundaries, weld_distance, virtual_edges,
                prune, history, threads, progress; see docs/python.md
 
     Raises OptionError, InputError, MemoryError, and what `progress` raises.
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    return Simplified(chosen.run(lambda: create(library.faqem_simplify, reference(arrays), chosen.object)))
+    return Simplified(chosen.run(lambda: create(library.faqem_simplify, mesh_pointer(arrays), chosen.object)))

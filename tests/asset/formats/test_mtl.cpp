@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "support/format_support.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/format_support.hpp"
 #include "asset/image/srgb.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

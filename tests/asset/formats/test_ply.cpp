@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "support/format_support.hpp"
 #include "asset/image/srgb.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -199,9 +199,9 @@ TEST_CASE("polygons of a file keep their order, and unusable ones are counted", 
     Polygons polygons;
     polygons.vertices = {0, 1, /**/ 0, 1, 2, 3, /**/ 1, 2, 3, 4, /**/ 3, 2, 1};
     polygons.sizes = {2, 4, 4, 3};
-    const SplitPolygons result = split_polygons(polygons, positions);
+    const TriangulatedPolygons result = triangulate_polygons(polygons, positions);
     CHECK(result.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}});
-    CHECK(result.polygon == std::vector<Index>{1, 1, 3});
-    CHECK(result.too_small == 1);
-    CHECK(result.not_finite == 1);
+    CHECK(result.source_polygon == std::vector<Index>{1, 1, 3});
+    CHECK(result.too_few_corners == 1);
+    CHECK(result.non_finite == 1);
 }

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/gltf_compressed_builder.hpp"
 #include "asset/image/image.hpp"
+#include "support/gltf_compressed_builder.hpp"
 
 #ifdef FAQEM_WITH_MESHOPT
 #include <meshoptimizer.h>
@@ -31,9 +31,9 @@ void check_square(const Asset& asset) {
 }  // namespace
 
 TEST_CASE("without a decoder the error names the extension and the library") {
-    CHECK(detail::missing_decoder("KHR_draco_mesh_compression").find("KHR_draco") == 0);
-    CHECK(contains(detail::missing_decoder("KHR_draco_mesh_compression"), "without Draco"));
-    CHECK(contains(detail::missing_decoder("EXT_meshopt_compression"), "without meshoptimizer"));
+    CHECK(detail::missing_decoder_message("KHR_draco_mesh_compression").find("KHR_draco") == 0);
+    CHECK(contains(detail::missing_decoder_message("KHR_draco_mesh_compression"), "without Draco"));
+    CHECK(contains(detail::missing_decoder_message("EXT_meshopt_compression"), "without meshoptimizer"));
     for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
         GltfBuilder builder = square_gltf();
         name_extension(builder, name);
@@ -211,12 +211,12 @@ TEST_CASE("draco: counts and ids that no file has are refused, by element") {
 
 TEST_CASE("draco: what is unpacked may not grow with how often the same bytes are referred to") {
     const std::string file = "a.glb";
-    detail::Allowance left(10, file);
-    left.take(7, "/meshes/0", "X");
-    left.take(3, "/meshes/1", "X");
-    CHECK_THROWS_WITH(left.take(1, "/meshes/2", "X"),
+    detail::DecompressionBudget budget(10, file);
+    budget.consume(7, "/meshes/0", "X");
+    budget.consume(3, "/meshes/1", "X");
+    CHECK_THROWS_WITH(budget.consume(1, "/meshes/2", "X"),
                       "a.glb: /meshes/2: X: is more than all buffers can hold, with what is before it");
-    CHECK_THROWS_AS(left.take(UINT64_MAX, "", ""), InputError);
+    CHECK_THROWS_AS(budget.consume(UINT64_MAX, "", ""), InputError);
 }
 
 TEST_CASE("draco: corners that the type of the indices cannot name are refused, not cut off") {

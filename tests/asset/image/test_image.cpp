@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "support/format_support.hpp"
 #include "asset/image/image.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -247,23 +247,31 @@ TEST_CASE("coding an image asks for each few rows, and stops at any of these que
         for (const std::uint32_t value : {i % 251, i / 7 % 256, i * i % 256, 255u})
             pixels.rgba.push_back(static_cast<std::uint8_t>(value));
     }
-    const Image png = encode_png(pixels, "x"), jpeg = encode_jpeg(pixels, "x", 90, Content::colour);
-    const std::function<bool(engine::Poll)> works[] = {
-        [&](engine::Poll poll) { return detail::encode_png(pixels, "x", poll).encoded == png.encoded; },
-        [&](engine::Poll poll) {
-            return detail::encode_jpeg(pixels, "x", 90, Content::colour, poll).encoded == jpeg.encoded;
+    const Image png = encode_png(pixels, "x"), jpeg = encode_jpeg(pixels, "x", 90, Content::color);
+    const std::function<bool(engine::CancellationCheck)> works[] = {
+        [&](engine::CancellationCheck check_cancelled) {
+            return detail::encode_png(pixels, "x", check_cancelled).encoded == png.encoded;
         },
-        [&](engine::Poll poll) { return detail::decode(png, poll).rgba == pixels.rgba; },
-        [&](engine::Poll poll) { return detail::decode(jpeg, poll).width == 600; }};
+        [&](engine::CancellationCheck check_cancelled) {
+            return detail::encode_jpeg(pixels, "x", 90, Content::color, check_cancelled).encoded ==
+                   jpeg.encoded;
+        },
+        [&](engine::CancellationCheck check_cancelled) {
+            return detail::decode(png, check_cancelled).rgba == pixels.rgba;
+        },
+        [&](engine::CancellationCheck check_cancelled) {
+            return detail::decode(jpeg, check_cancelled).width == 600;
+        }};
     for (const auto& work : works) {
         int questions = 0;
-        engine::Asker count([&] { return ++questions, Continue::yes; });
-        CHECK(work(engine::Poll(count)));
+        engine::ProgressMonitor count([&] { return ++questions, Continue::yes; });
+        CHECK(work(engine::CancellationCheck(count)));
         CHECK(questions >= 600 * 300 / 16384);
         for (int stop = 1; stop <= questions; ++stop) {
             int calls = 0;
-            engine::Asker asker([&] { return ++calls == stop ? Continue::cancel : Continue::yes; });
-            CHECK_THROWS_AS(work(engine::Poll(asker)), engine::Cancelled);
+            engine::ProgressMonitor monitor(
+                [&] { return ++calls == stop ? Continue::cancel : Continue::yes; });
+            CHECK_THROWS_AS(work(engine::CancellationCheck(monitor)), engine::Cancelled);
             CHECK(calls == stop);
         }
     }

@@ -15,7 +15,7 @@ TEST_CASE("a text buffer holds what was put in, however much it is") {
     std::string expected;
     for (int i = 0; i < 20000; ++i) {
         buffer.put('v');
-        buffer.number(i - 10000);
+        buffer.put_number(i - 10000);
         buffer.put(" word\n");
         expected += 'v';
         expected += std::to_string(i - 10000);
@@ -28,7 +28,7 @@ TEST_CASE("a text buffer holds what was put in, however much it is") {
 TEST_CASE("numbers of a text buffer are the shortest that read back the same") {
     const auto text = [](auto value) {
         TextBuffer buffer;
-        buffer.number(value);
+        buffer.put_number(value);
         return std::string(buffer.view());
     };
     CHECK(text(0.1f) == "0.1");

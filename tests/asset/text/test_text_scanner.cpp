@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/format_support.hpp"
 #include "asset/text/text_scanner.hpp"
+#include "support/format_support.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -6,31 +6,31 @@
 #include "asset/text/value_numbers.hpp"
 
 using namespace faqem;
-using faqem::detail::ValueNumbers;
+using faqem::detail::UniqueValues;
 
 TEST_CASE("different values get numbers in the order in which they come first") {
     for (const std::size_t room : {0, 100, 100000}) {
         CAPTURE(room);
-        ValueNumbers<Vec3> numbers;
-        numbers.reserve(room);
+        UniqueValues<Vec3> values;
+        values.reserve(room);
         std::map<Vec3, Index> expected;
         std::mt19937 random(1);
         bool same = true;
         for (int i = 0; i < 20000; ++i) {
             const Vec3 value = {double(random() % 20), double(random() % 20) * 1e-300, double(random() % 20)};
             const auto [entry, is_new] = expected.emplace(value, static_cast<Index>(expected.size()));
-            same &= numbers.number(value) == entry->second;
+            same &= values.insert(value) == entry->second;
         }
         CHECK(same);
-        CHECK(numbers.values().size() == expected.size());
-        for (const auto& [value, number] : expected) same &= numbers.values()[number] == value;
+        CHECK(values.values().size() == expected.size());
+        for (const auto& [value, number] : expected) same &= values.values()[number] == value;
         CHECK(same);
     }
 }
 
 TEST_CASE("values are equal when their bits are") {
-    ValueNumbers<Vec2f> numbers;
-    CHECK(numbers.number({0, 1}) == 0);
-    CHECK(numbers.number({-0.0f, 1}) == 1);
-    CHECK(numbers.number({0, 1}) == 0);
+    UniqueValues<Vec2f> values;
+    CHECK(values.insert({0, 1}) == 0);
+    CHECK(values.insert({-0.0f, 1}) == 1);
+    CHECK(values.insert({0, 1}) == 0);
 }

@@ -11,7 +11,7 @@
 #include "bake/atlas/box_grid.hpp"
 
 using namespace faqem;
-using detail::Box;
+using detail::Box2;
 using detail::BoxGrid;
 using detail::Chart;
 using detail::ChartFace;
@@ -33,18 +33,18 @@ Fan fan(std::size_t count, double angle, double flat_angle, double legs) {
         ChartFace face;
         const ChartPoint p = at(i, angle), q = at(i + 1, angle);
         face.corners = {Vec3{0, 0, 0}, Vec3{p.real(), p.imag(), 0}, Vec3{q.real(), q.imag(), 0}};
-        if (i + 1 < count) face.across[1] = {static_cast<Index>(i + 1), 2};
-        if (i > 0) face.across[2] = {static_cast<Index>(i - 1), 1};
+        if (i + 1 < count) face.adjacent[1] = {static_cast<Index>(i + 1), 2};
+        if (i > 0) face.adjacent[2] = {static_cast<Index>(i - 1), 1};
         result.faces.push_back(face);
         result.chart.faces.push_back(static_cast<Index>(i));
-        result.chart.places.push_back({ChartPoint{0, 0}, at(i, flat_angle), at(i + 1, flat_angle)});
+        result.chart.points.push_back({ChartPoint{0, 0}, at(i, flat_angle), at(i + 1, flat_angle)});
     }
     return result;
 }
 
 bool clear(const Fan& f) {
     std::uint64_t work = 1000;
-    return detail::outline_is_clear(f.faces, f.chart, work);
+    return detail::has_boundary_clearance(f.faces, f.chart, work);
 }
 
 constexpr double degree = std::numbers::pi / 180;
@@ -72,19 +72,19 @@ TEST_CASE("a long slit is looked at where it is narrow, not at its ends only") {
 TEST_CASE("an outline that takes more work than is allowed is not known to be clear") {
     const Fan f = fan(5, 60 * degree, 60 * degree, 10);
     std::uint64_t work = 3;
-    CHECK_FALSE(detail::outline_is_clear(f.faces, f.chart, work));
+    CHECK_FALSE(detail::has_boundary_clearance(f.faces, f.chart, work));
 }
 
 TEST_CASE("a grid finds all pairs of boxes that meet, each once") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-50, 50), size(0, 9);
-    std::vector<Box> boxes;
+    std::vector<Box2> boxes;
     for (int i = 0; i < 200; ++i) {
         const double x = place(random), y = place(random);
         boxes.push_back({x, y, x + size(random), y + size(random)});
     }
     std::uint64_t work = 1000000;
-    const auto grid = BoxGrid::over(boxes, work);
+    const auto grid = BoxGrid::build(boxes, work);
     REQUIRE(grid);
     std::set<std::pair<Index, Index>> seen;
     CHECK(grid->all_pairs(boxes, work, {}, [&](Index a, Index b) {

@@ -11,7 +11,7 @@
 
 using namespace faqem;
 using namespace faqem::detail;
-using test::Flat;
+using test::FlatTriangle;
 
 namespace {
 
@@ -27,13 +27,13 @@ std::vector<Index> all_of(std::size_t n) {
 void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
     std::vector<int> seen(faces.size(), 0);
     for (const Chart& chart : charts.charts) {
-        REQUIRE(chart.places.size() == chart.faces.size());
+        REQUIRE(chart.points.size() == chart.faces.size());
         CHECK(std::is_sorted(chart.faces.begin(), chart.faces.end()));
         CHECK(chart.stretch >= 1 - 1e-9);
         CHECK(chart.stretch <= 1.06);
         for (Index f : chart.faces) ++seen[f];
-        for (const Flat& t : chart.places) REQUIRE(turn(t[0], t[1], t[2]) > 0);
-        CHECK(test::worst_overlap(chart.places) < 1e-6);
+        for (const FlatTriangle& t : chart.points) REQUIRE(twice_signed_area(t[0], t[1], t[2]) > 0);
+        CHECK(test::worst_overlap(chart.points) < 1e-6);
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
 }
@@ -47,7 +47,7 @@ double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
             for (std::size_t c = 0; c < 3; ++c) {
                 const Vec3 d = test::minus(face.corners[c], face.corners[(c + 1) % 3]);
                 const double length = face.density * std::hypot(d[0], d[1], d[2]);
-                const double flat = std::abs(chart.places[i][c] - chart.places[i][(c + 1) % 3]);
+                const double flat = std::abs(chart.points[i][c] - chart.points[i][(c + 1) % 3]);
                 worst = std::max(worst, std::abs(flat / length - 1));
             }
         }
@@ -71,7 +71,7 @@ TEST_CASE("a cube's sides are six charts without stretch") {
                 return engine::area_vector(engine::to_eigen(f.corners[0]), engine::to_eigen(f.corners[1]),
                                            engine::to_eigen(f.corners[2]));
             };
-            face.crease[c] = n(face).dot(n(faces[face.across[c].triangle])) == 0;
+            face.crease[c] = n(face).dot(n(faces[face.adjacent[c].triangle])) == 0;
         }
     }
     const Charts sides = make_charts(creased, 1);
@@ -134,12 +134,12 @@ TEST_CASE("soup, doubles and faces without area pass") {
 
 TEST_CASE("a plane of more faces than are laid flat at once is cut in pieces of that size") {
     const auto faces = test::chart_faces(test::grid(70), 1);
-    REQUIRE(faces.size() > most_faces_per_chart);
+    REQUIRE(faces.size() > max_faces_per_chart);
     const Charts charts = make_charts(faces, 1);
     check_charts(faces, charts);
-    CHECK(charts.given_up == 0);
+    CHECK(charts.faces_over_work_limit == 0);
     CHECK(charts.charts.size() < 8);
-    for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= most_faces_per_chart);
+    for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= max_faces_per_chart);
 }
 
 TEST_CASE("densities that differ by more than a factor of two keep charts apart") {
@@ -148,7 +148,7 @@ TEST_CASE("densities that differ by more than a factor of two keep charts apart"
         if (faces[f].corners[0][0] + faces[f].corners[1][0] + faces[f].corners[2][0] > 12)
             faces[f].density = 25;
     }
-    for (const std::vector<Index>& region : grow_regions(faces)) {
+    for (const std::vector<Index>& region : cluster_faces(faces)) {
         for (Index f : region) CHECK(faces[f].density == faces[region[0]].density);
     }
 }
@@ -163,7 +163,7 @@ TEST_CASE("charts do not depend on the number of threads") {
         REQUIRE(one.charts.size() == three.charts.size());
         for (std::size_t i = 0; i < one.charts.size(); ++i) {
             CHECK(one.charts[i].faces == three.charts[i].faces);
-            CHECK(one.charts[i].places == three.charts[i].places);
+            CHECK(one.charts[i].points == three.charts[i].points);
         }
     }
 }
@@ -172,7 +172,7 @@ TEST_CASE("a chart has the area that is wanted") {
     const auto faces = test::chart_faces(test::globe(6, 1), 10);
     for (const Chart& chart : make_charts(faces, 1).charts) {
         double flat = 0, wanted = 0;
-        for (const Flat& t : chart.places) flat += turn(t[0], t[1], t[2]) / 2;
+        for (const FlatTriangle& t : chart.points) flat += twice_signed_area(t[0], t[1], t[2]) / 2;
         for (Index f : chart.faces) wanted += wanted_texels(faces[f]);
         CHECK(chart.texels == Approx(wanted));
         if (chart.faces.size() > 1) CHECK(flat == Approx(wanted));
@@ -180,13 +180,16 @@ TEST_CASE("a chart has the area that is wanted") {
 }
 
 TEST_CASE("overlaps are found, and touching is none") {
-    const Flat a = {ChartPoint(0, 0), {4, 0}, {0, 4}};
+    const FlatTriangle a = {ChartPoint(0, 0), {4, 0}, {0, 4}};
     std::uint64_t work = plenty;
-    CHECK(apart(std::vector<Flat>{a, {ChartPoint(4, 0), {4, 4}, {0, 4}}}, work));
-    CHECK_FALSE(apart(std::vector<Flat>{a, a}, work));
-    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(1, 1), {1.1, 1}, {1, 1.1}}}, work));
-    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(-1, 1), {9, 1}, {9, 1.1}}}, work));
-    CHECK_FALSE(apart(std::vector<Flat>{a, {ChartPoint(NAN, 1), {9, 1}, {9, 1.1}}}, work));
+    CHECK(have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(4, 0), {4, 4}, {0, 4}}}, work));
+    CHECK_FALSE(have_disjoint_interiors(std::vector<FlatTriangle>{a, a}, work));
+    CHECK_FALSE(
+        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(1, 1), {1.1, 1}, {1, 1.1}}}, work));
+    CHECK_FALSE(
+        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(-1, 1), {9, 1}, {9, 1.1}}}, work));
+    CHECK_FALSE(
+        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(NAN, 1), {9, 1}, {9, 1.1}}}, work));
 }
 
 TEST_CASE("what apart says agrees with the areas that random triangles share") {
@@ -194,15 +197,16 @@ TEST_CASE("what apart says agrees with the areas that random triangles share") {
     const auto number = [&] { return (random() % 1000) / 100.0; };
     int overlapping = 0;
     for (int round = 0; round < 300; ++round) {
-        std::vector<Flat> triangles;
+        std::vector<FlatTriangle> triangles;
         while (triangles.size() < 3) {
             const ChartPoint at = {3 * number(), 3 * number()};
-            const Flat t = {at, at + ChartPoint(number(), number()), at + ChartPoint(-number(), number())};
-            if (turn(t[0], t[1], t[2]) > 1e-3) triangles.push_back(t);
+            const FlatTriangle t = {at, at + ChartPoint(number(), number()),
+                                    at + ChartPoint(-number(), number())};
+            if (twice_signed_area(t[0], t[1], t[2]) > 1e-3) triangles.push_back(t);
         }
         std::uint64_t work = plenty;
         const bool expected = test::worst_overlap(triangles) < 1e-9;
-        CHECK(apart(triangles, work) == expected);
+        CHECK(have_disjoint_interiors(triangles, work) == expected);
         overlapping += !expected;
     }
     CHECK((overlapping > 50 && overlapping < 250));
@@ -210,20 +214,20 @@ TEST_CASE("what apart says agrees with the areas that random triangles share") {
 
 TEST_CASE("work that is used up is no claim") {
     const auto faces = test::chart_faces(test::grid(6), 10);
-    std::uint64_t work = flatten_work * faces.size() + 10;
-    CHECK(flatten(faces, all_of(faces.size()), work).outcome == Flattening::Outcome::overlaps);
+    std::uint64_t work = parametrization_work_per_face * faces.size() + 10;
+    CHECK(parametrize(faces, all_of(faces.size()), work).outcome == Parametrization::Outcome::overlapping);
     CHECK(work == 0);
     work = plenty;
-    CHECK(flatten(faces, all_of(faces.size()), work).outcome == Flattening::Outcome::flat);
+    CHECK(parametrize(faces, all_of(faces.size()), work).outcome == Parametrization::Outcome::valid);
 }
 
 TEST_CASE("a cut gives two connected halves") {
     const auto faces = test::chart_faces(test::grid(9), 1);
-    const auto halves = split_in_two(faces, all_of(faces.size()));
+    const auto halves = bisect(faces, all_of(faces.size()));
     std::set<Index> seen;
     for (const auto& half : halves) {
         CHECK(half.size() == faces.size() / 2);
-        CHECK(connected_groups(faces, half).size() == 1);
+        CHECK(connected_subsets(faces, half).size() == 1);
         seen.insert(half.begin(), half.end());
     }
     CHECK(seen.size() == faces.size());

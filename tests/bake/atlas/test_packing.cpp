@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "bake/atlas/charts.hpp"
 #include "bake/atlas/occupancy_grid.hpp"
 #include "bake/atlas/tiles.hpp"
-#include "bake/atlas/charts.hpp"
 #include "support/chart_meshes.hpp"
 #include "support/scenes.hpp"
 
@@ -20,7 +20,7 @@ struct Made {
     std::vector<ChartFace> faces;
     Charts charts;
     ChartPage page;
-    std::vector<std::array<Across, 3>> across;
+    std::vector<std::array<AdjacentTriangle, 3>> adjacent;
 };
 
 Made made(const TriangleMesh& mesh, double density, std::uint32_t side = 1024) {
@@ -30,7 +30,7 @@ Made made(const TriangleMesh& mesh, double density, std::uint32_t side = 1024) {
     auto page = pack_charts(result.charts.charts, result.faces.size(), side);
     REQUIRE(page);
     result.page = *std::move(page);
-    for (const ChartFace& face : result.faces) result.across.push_back(face.across);
+    for (const ChartFace& face : result.faces) result.adjacent.push_back(face.adjacent);
     return result;
 }
 
@@ -39,12 +39,12 @@ std::vector<int> owners(const ChartPage& page) {
     std::vector<int> result(std::size_t{page.atlas.width} * page.atlas.height, -1);
     for (std::size_t i = 0; i < page.charts.size(); ++i) {
         const AtlasChart& chart = page.charts[i];
-        CHECK(std::has_single_bit(chart.grain));
-        CHECK((chart.x % chart.grain == 0 && chart.y % chart.grain == 0));
-        REQUIRE(chart.x + chart.columns * chart.grain <= page.atlas.width);
-        REQUIRE(chart.y + chart.rows * chart.grain <= page.atlas.height);
-        for (std::uint32_t y = chart.y; y < chart.y + chart.rows * chart.grain; ++y) {
-            for (std::uint32_t x = chart.x; x < chart.x + chart.columns * chart.grain; ++x) {
+        CHECK(std::has_single_bit(chart.block_size));
+        CHECK((chart.x % chart.block_size == 0 && chart.y % chart.block_size == 0));
+        REQUIRE(chart.x + chart.columns * chart.block_size <= page.atlas.width);
+        REQUIRE(chart.y + chart.rows * chart.block_size <= page.atlas.height);
+        for (std::uint32_t y = chart.y; y < chart.y + chart.rows * chart.block_size; ++y) {
+            for (std::uint32_t x = chart.x; x < chart.x + chart.columns * chart.block_size; ++x) {
                 if (!chart.owns(x, y)) continue;
                 int& owner = result[std::size_t{y} * page.atlas.width + x];
                 REQUIRE(owner == -1);
@@ -60,13 +60,13 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
     const auto width = static_cast<int>(page.atlas.width), height = static_cast<int>(page.atlas.height);
     for (std::size_t i = 0; i < page.charts.size(); ++i) {
         const AtlasChart& chart = page.charts[i];
-        for (int size = 1; size <= int(chart.grain); size *= 2) {
+        for (int size = 1; size <= int(chart.block_size); size *= 2) {
             for (Index t : chart.triangles) {
                 for (const Vec3& w : test::spread(5)) {
                     double x = -0.5, y = -0.5;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        x += w[c] * page.atlas.places[t].uv[c][0] / size;
-                        y += w[c] * page.atlas.places[t].uv[c][1] / size;
+                        x += w[c] * page.atlas.placements[t].uv[c][0] / size;
+                        y += w[c] * page.atlas.placements[t].uv[c][1] / size;
                     }
                     for (int column = int(std::floor(x)); column < std::floor(x) + 2; ++column) {
                         for (int row = int(std::floor(y)); row < std::floor(y) + 2; ++row) {
@@ -85,8 +85,8 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
     }
 }
 
-double page_turn(const AtlasPlace& place) {
-    const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+double page_turn(const TrianglePlacement& placement) {
+    const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
@@ -104,11 +104,11 @@ TEST_CASE("charts do not share texels, nor do their reads on the levels that the
 
 TEST_CASE("on the page no triangle is mirrored or lies on another one") {
     const Made m = made(test::both(test::icosphere(2), test::moved(test::cylinder(16, 3, 2), {5, 0, 0})), 30);
-    std::vector<test::Flat> flat;
-    for (const AtlasPlace& place : m.page.atlas.places) {
-        REQUIRE(page_turn(place) < 0);  // v points down
-        test::Flat t;
-        for (std::size_t c = 0; c < 3; ++c) t[c] = {place.uv[c][0], -place.uv[c][1]};
+    std::vector<test::FlatTriangle> flat;
+    for (const TrianglePlacement& placement : m.page.atlas.placements) {
+        REQUIRE(page_turn(placement) < 0);  // v points down
+        test::FlatTriangle t;
+        for (std::size_t c = 0; c < 3; ++c) t[c] = {placement.uv[c][0], -placement.uv[c][1]};
         flat.push_back(t);
     }
     CHECK(test::worst_overlap(flat) < 1e-6);
@@ -120,11 +120,11 @@ TEST_CASE("charts keep their shape and the scale of the page") {
     CHECK(m.page.atlas.scale <= std::sqrt(2.0));
     for (std::size_t i = 0; i < m.page.charts.size(); ++i) {
         for (std::size_t k = 0; k < m.page.charts[i].triangles.size(); ++k) {
-            const auto& uv = m.page.atlas.places[m.page.charts[i].triangles[k]].uv;
+            const auto& uv = m.page.atlas.placements[m.page.charts[i].triangles[k]].uv;
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto &a = uv[c], &b = uv[(c + 1) % 3];
                 const double wanted =
-                    std::abs(m.charts.charts[i].places[k][c] - m.charts.charts[i].places[k][(c + 1) % 3]);
+                    std::abs(m.charts.charts[i].points[k][c] - m.charts.charts[i].points[k][(c + 1) % 3]);
                 CHECK(std::hypot(a[0] - b[0], a[1] - b[1]) == Approx(m.page.atlas.scale * wanted));
             }
         }
@@ -148,8 +148,8 @@ TEST_CASE("a chart longer than the page is squeezed") {
     const Made m = made(test::both(needle, test::square(2, 8, 1)), 8, 64);
     owners(m.page);
     CHECK(m.page.atlas.scale > 0.5);
-    for (const AtlasPlace& place : m.page.atlas.places) {
-        for (const auto& uv : place.uv) CHECK((uv[0] >= 0 && uv[0] <= 64 && uv[1] >= 0 && uv[1] <= 64));
+    for (const TrianglePlacement& placement : m.page.atlas.placements) {
+        for (const auto& uv : placement.uv) CHECK((uv[0] >= 0 && uv[0] <= 64 && uv[1] >= 0 && uv[1] <= 64));
     }
 }
 
@@ -157,9 +157,9 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
     const Made m = made(test::cylinder(12, 2, 1), 20);
     constexpr std::uint32_t samples = 2;
     std::size_t inside = 0, outside = 0;
-    for (const ChartTile& tile : cut_tiles(m.page.charts)) {
+    for (const ChartTile& tile : split_into_tiles(m.page.charts)) {
         const AtlasChart& chart = m.page.charts[tile.chart];
-        const TileOwners o = tile_owners(m.page.atlas, chart, m.across, tile, samples);
+        const TileOwners o = tile_owners(m.page.atlas, chart, m.adjacent, tile, samples);
         for (std::uint32_t j = 0; j < tile.height * samples; ++j) {
             for (std::uint32_t i = 0; i < tile.width * samples; ++i) {
                 const std::uint32_t owner = o.owners[std::size_t{j} * tile.width * samples + i];
@@ -168,12 +168,12 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
                 if (!own) continue;
                 const double x = tile.x + (i + 0.5) / samples, y = tile.y + (j + 0.5) / samples;
                 const auto gap = [&](Index t) {  // to the closest point
-                    const AtlasFrame frame(m.page.atlas.places[t]);
+                    const BarycentricFrame frame(m.page.atlas.placements[t]);
                     const Vec3 w = frame.closest(x, y);
                     double dx = -x, dy = -y;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        dx += w[c] * m.page.atlas.places[t].uv[c][0];
-                        dy += w[c] * m.page.atlas.places[t].uv[c][1];
+                        dx += w[c] * m.page.atlas.placements[t].uv[c][0];
+                        dy += w[c] * m.page.atlas.placements[t].uv[c][1];
                     }
                     return std::hypot(dx, dy);
                 };
@@ -189,25 +189,25 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
 
 TEST_CASE("a mask turned four times is itself, and finds the first room") {
     const BlockMask mask{3, 2, {1, 1, 1, 1, 0, 0}};
-    const BlockMask once = mask.turned();
+    const BlockMask once = mask.rotated();
     CHECK((once.columns == 2 && once.rows == 3));
     CHECK(once.blocks == std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1});
-    CHECK(once.turned().turned().turned().blocks == mask.blocks);
-    BlockSheet sheet(100, 8);
+    CHECK(once.rotated().rotated().rotated().blocks == mask.blocks);
+    OccupancyGrid grid(100, 8);
     for (std::uint32_t k = 0; k < 33; ++k) {  // the first row of masks, side by side
-        const auto spot = sheet.find(mask, 0, 8, 1);
+        const auto spot = grid.find_free(mask, 0, 8, 1);
         REQUIRE(spot);
         CHECK((spot->y == 0 && spot->x == 3 * k));
-        sheet.take(mask, *spot);
+        grid.occupy(mask, *spot);
     }
-    const auto hole = sheet.find({2, 1, {1, 1}}, 0, 8, 1);
+    const auto hole = grid.find_free({2, 1, {1, 1}}, 0, 8, 1);
     REQUIRE(hole);
     CHECK((hole->x == 1 && hole->y == 1));
-    sheet.refine();
-    const auto fine = sheet.find({4, 2, {1, 1, 1, 1, 1, 1, 1, 1}}, 0, 16, 1);
+    grid.refine();
+    const auto fine = grid.find_free({4, 2, {1, 1, 1, 1, 1, 1, 1, 1}}, 0, 16, 1);
     REQUIRE(fine);
     CHECK((fine->x == 2 && fine->y == 2));
-    CHECK_FALSE(sheet.find({201, 1, std::vector<std::uint8_t>(201, 1)}, 0, 16, 1));
+    CHECK_FALSE(grid.find_free({201, 1, std::vector<std::uint8_t>(201, 1)}, 0, 16, 1));
 }
 
 TEST_CASE("charts of numbers beyond all range become one texel, and harm no other") {
@@ -220,12 +220,12 @@ TEST_CASE("charts of numbers beyond all range become one texel, and harm no othe
         REQUIRE(page);
         CHECK(page->charts.size() == charts.size());
         owners(*page);
-        for (const AtlasPlace& place : page->atlas.places) {
-            for (const auto& uv : place.uv) {
+        for (const TrianglePlacement& placement : page->atlas.placements) {
+            for (const auto& uv : placement.uv) {
                 CHECK((uv[0] >= 0 && uv[0] <= page->atlas.width));
                 CHECK((uv[1] >= 0 && uv[1] <= page->atlas.height));
             }
         }
-        CHECK(page->charts.back().single);
+        CHECK(page->charts.back().is_single_texel);
     }
 }

@@ -18,7 +18,7 @@ std::vector<AtlasTriangle> random_triangles(std::size_t count, double largest) {
     std::vector<AtlasTriangle> result(count);
     for (AtlasTriangle& t : result) {
         const double a = largest * std::exp2(-6.0 * (random() % 1000) / 1000.0);
-        t.right = static_cast<std::uint8_t>(random() % 3);
+        t.right_angle_corner = static_cast<std::uint8_t>(random() % 3);
         t.legs = {a, a * std::exp2(-3.0 * (random() % 1000) / 1000.0)};
         if (random() % 2) std::swap(t.legs[0], t.legs[1]);
         t.order = random();
@@ -38,14 +38,14 @@ std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
 }
 
 // Texels that bilinear filtering reads in a triangle. Weights of rounding errors do not count.
-std::set<std::pair<int, int>> texels_read(const AtlasPlace& place) {
+std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
     std::set<std::pair<int, int>> result;
-    const int n = 4 * static_cast<int>(place.legs[0] + place.legs[1]) + 1;
+    const int n = 4 * static_cast<int>(placement.legs[0] + placement.legs[1]) + 1;
     for (const Vec3& w : test::spread(n)) {
         double x = -0.5, y = -0.5;
         for (std::size_t i = 0; i < 3; ++i) {
-            x += w[i] * place.uv[i][0];
-            y += w[i] * place.uv[i][1];
+            x += w[i] * placement.uv[i][0];
+            y += w[i] * placement.uv[i][1];
         }
         for (double i : {std::floor(x), std::floor(x) + 1}) {
             for (double j : {std::floor(y), std::floor(y) + 1}) {
@@ -68,7 +68,7 @@ TEST_CASE("no texel is read by two triangles but partners, and all are on the pa
     CHECK(atlas->scale >= 1);
     std::map<std::pair<int, int>, std::size_t> owner;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        for (const auto& [x, y] : texels_read(atlas->places[t])) {
+        for (const auto& [x, y] : texels_read(atlas->placements[t])) {
             REQUIRE((x >= 0 && y >= 0 && x < int(atlas->width) && y < int(atlas->height)));
             const auto [found, fresh] = owner.insert({{x, y}, t});
             REQUIRE((fresh || found->second == t || triangles[t].partner == found->second));
@@ -83,12 +83,13 @@ TEST_CASE("partners meet on their common edge") {
     REQUIRE(atlas);
     std::size_t joined = 0;
     for (const AtlasCell& cell : atlas->cells) {
-        if (!cell.joined) continue;
+        if (!cell.has_shared_hypotenuse) continue;
         ++joined;
         REQUIRE(triangles[cell.first].partner == cell.second);
-        const AtlasPlace &a = atlas->places[cell.first], &b = atlas->places[cell.second];
+        const TrianglePlacement &a = atlas->placements[cell.first], &b = atlas->placements[cell.second];
         CHECK(a.legs == b.legs);
-        const std::size_t ra = triangles[cell.first].right, rb = triangles[cell.second].right;
+        const std::size_t ra = triangles[cell.first].right_angle_corner,
+                          rb = triangles[cell.second].right_angle_corner;
         CHECK(a.uv[(ra + 1) % 3] == b.uv[(rb + 2) % 3]);
         CHECK(a.uv[(ra + 2) % 3] == b.uv[(rb + 1) % 3]);
         CHECK(a.uv[ra] != b.uv[rb]);
@@ -103,10 +104,10 @@ TEST_CASE("mip levels read texels of their own cell only, down to a level that g
     REQUIRE(atlas);
     std::map<std::uint32_t, int> seen;
     for (const AtlasCell& cell : atlas->cells) {
-        if (!cell.joined) continue;
+        if (!cell.has_shared_hypotenuse) continue;
         double low_x = 1e9, low_y = 1e9, high_x = 0, high_y = 0;
         for (Index t : {cell.first, cell.second}) {
-            for (const auto& uv : atlas->places[t].uv) {
+            for (const auto& uv : atlas->placements[t].uv) {
                 low_x = std::min(low_x, uv[0]);
                 low_y = std::min(low_y, uv[1]);
                 high_x = std::max(high_x, uv[0]);
@@ -152,17 +153,17 @@ TEST_CASE("triangles keep about the wanted size and are never mirrored") {
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const AtlasPlace& place = atlas->places[t];
-        const auto &a = place.uv[0], &b = place.uv[1], &c = place.uv[2];
+        const TrianglePlacement& placement = atlas->placements[t];
+        const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
         const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        CHECK(twice == -double(place.legs[0]) * place.legs[1]);
+        CHECK(twice == -double(placement.legs[0]) * placement.legs[1]);
         for (std::size_t i = 0; i < 2; ++i) {
             const double wanted = triangles[t].legs[i] * atlas->scale;
-            CHECK(place.legs[i] > 0.75 * wanted - 2.5);
-            CHECK(place.legs[i] < 1.35 * wanted + 2.5);
-            const auto& r = place.uv[triangles[t].right];
-            const auto& end = place.uv[(triangles[t].right + 1 + i) % 3];
-            CHECK(std::abs(end[0] - r[0]) + std::abs(end[1] - r[1]) == place.legs[i]);
+            CHECK(placement.legs[i] > 0.75 * wanted - 2.5);
+            CHECK(placement.legs[i] < 1.35 * wanted + 2.5);
+            const auto& r = placement.uv[triangles[t].right_angle_corner];
+            const auto& end = placement.uv[(triangles[t].right_angle_corner + 1 + i) % 3];
+            CHECK(std::abs(end[0] - r[0]) + std::abs(end[1] - r[1]) == placement.legs[i]);
         }
     }
 }
@@ -177,16 +178,17 @@ TEST_CASE("a full page shrinks everything, down to one texel per triangle, and t
     const auto crammed = pack_triangles(std::span(triangles).first(64 * 64 - 96), 64);
     REQUIRE(crammed);
     std::set<std::pair<double, double>> places;
-    for (const AtlasPlace& place : crammed->places) places.insert({place.uv[0][0], place.uv[0][1]});
-    CHECK(places.size() == crammed->places.size());
+    for (const TrianglePlacement& placement : crammed->placements)
+        places.insert({placement.uv[0][0], placement.uv[0][1]});
+    CHECK(places.size() == crammed->placements.size());
     CHECK_FALSE(pack_triangles(random_triangles(64 * 64 + 1, 100), 64));
 }
 
 TEST_CASE("weights at corners are one and closest points stay inside") {
-    AtlasPlace place{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
-    const AtlasFrame frame(place);
+    TrianglePlacement placement{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
+    const BarycentricFrame frame(placement);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 w = frame.at(place.uv[i][0], place.uv[i][1]);
+        const Vec3 w = frame.at(placement.uv[i][0], placement.uv[i][1]);
         for (std::size_t k = 0; k < 3; ++k) CHECK(w[k] == Approx(k == i ? 1 : 0).margin(1e-12));
     }
     CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right corner

@@ -14,7 +14,7 @@ using Corners = std::vector<std::array<Index, 3>>;
 
 std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangles) {
     std::vector<PairTriangle> result(triangles.size());
-    std::map<std::pair<Index, Index>, Across> sides;
+    std::map<std::pair<Index, Index>, AdjacentTriangle> sides;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         for (std::uint8_t c = 0; c < 3; ++c) {
             const Index a = triangles[t][(c + 1) % 3], b = triangles[t][(c + 2) % 3];
@@ -24,7 +24,7 @@ std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangl
     }
     for (const auto& [edge, side] : sides) {
         const auto other = sides.find({edge.second, edge.first});
-        if (other != sides.end()) result[side.triangle].across[side.corner] = other->second;
+        if (other != sides.end()) result[side.triangle].adjacent[side.corner] = other->second;
     }
     return result;
 }
@@ -49,10 +49,10 @@ std::vector<PairTriangle> grid(Index n) {
 void check_mutual(const std::vector<PairTriangle>& triangles, const std::vector<std::uint8_t>& corner) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (corner[t] == 3) continue;
-        const Across& other = triangles[t].across[corner[t]];
+        const AdjacentTriangle& other = triangles[t].adjacent[corner[t]];
         REQUIRE(other.triangle < triangles.size());
         REQUIRE(corner[other.triangle] == other.corner);
-        REQUIRE(triangles[other.triangle].across[other.corner].triangle == t);
+        REQUIRE(triangles[other.triangle].adjacent[other.corner].triangle == t);
     }
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("squares cut in two are put together again") {
     const auto corner = pair_triangles(triangles);
     check_mutual(triangles, corner);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        CHECK(triangles[t].across[corner[t]].triangle == (t ^ 1));
+        CHECK(triangles[t].adjacent[corner[t]].triangle == (t ^ 1));
     }
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("needles are paired only where they fill a rectangle") {
     const auto side_by_side = flat_mesh({{0, 0}, {100, 0}, {100, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
     for (std::uint8_t c : pair_triangles(side_by_side)) CHECK(c < 3);
     const auto end_to_end = flat_mesh({{0, 0}, {100, -1}, {100, 1}, {200, 0}}, {{0, 1, 2}, {1, 3, 2}});
-    REQUIRE(end_to_end[0].across[0].triangle == 1);
+    REQUIRE(end_to_end[0].adjacent[0].triangle == 1);
     for (std::uint8_t c : pair_triangles(end_to_end)) CHECK(c == 3);
     const auto kite = flat_mesh({{0, 0}, {100, -1}, {100, 0}, {100, 1}}, {{0, 1, 2}, {0, 2, 3}});
     for (std::uint8_t c : pair_triangles(kite)) CHECK(c == 3);

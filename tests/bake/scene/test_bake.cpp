@@ -25,7 +25,7 @@ double worst(const Part& source, const Pixels& painted, const Part& baked, const
     return result;
 }
 
-Pixels base_image(const LightAsset& light, std::size_t material = 0) {
+Pixels base_image(const SimplifiedAsset& light, std::size_t material = 0) {
     return decode(light.asset.images[light.asset.materials[material].base_color_texture.image]);
 }
 
@@ -38,7 +38,7 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
 
 TEST_CASE("a baked square shows what the source shows, right up to the borders of its triangles") {
     const Asset asset = textured_square(ramp(128));
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light);
     CHECK(std::has_single_bit(atlas.width));
     CHECK(worst(asset.parts[0], ramp(128), light.asset.parts[0], atlas) < 2.5);
@@ -64,7 +64,7 @@ TEST_CASE("triangles next to each other in the atlas do not bleed into each othe
     part.uvs = {{{0, 0}, {0.4f, 0}, {0, 0.4f}, {1, 1}, {0.6f, 1}, {1, 0.6f}}};
     Options options;
     options.bake.texture_size = GENERATE(64u, 256u);
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     CHECK(worst(part, split, light.asset.parts[0], base_image(light)) < 0.01);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("factor and vertex colour are baked in linear light") {
     }));
     asset.materials[0].base_color = {0.5f, 0.25f, 1, 1};
     asset.parts[0].colors.assign(4, {1, 1, 0.5f, 1});
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light);
     const auto c = look(light.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
     CHECK(c[0] == Approx(137).margin(1));  // 188 is 0.503 in linear light, half of it is 137
@@ -87,7 +87,7 @@ TEST_CASE("no texel of the page stays black") {
     const Asset asset = textured_square(paint(32, 32, [](std::uint32_t, std::uint32_t) {
         return Rgba{9, 99, 199, 255};
     }));
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light);
     for (std::size_t t = 0; t < atlas.rgba.size(); t += 4) {
         REQUIRE(atlas.rgba[t] == 9);
@@ -102,7 +102,7 @@ TEST_CASE("repeated textures are unrolled") {
     TextureRef& use = asset.materials[0].base_color_texture;
     use.wrap_u = use.wrap_v = Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {3 * uv[0] - 1, 2 * uv[1]};
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light), painted = ramp(32);
     std::size_t compared = 0;
     for (std::size_t f = 0; f < 2; ++f) {
@@ -133,7 +133,7 @@ TEST_CASE("two materials of one kind merge into one page, another kind gets its 
     part.uvs[0].insert(part.uvs[0].end(), 3, {0, 0});
     part.triangles.push_back({4, 5, 6});
     part.face_material = {0, 1, 2};
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     REQUIRE(light.asset.materials.size() == 2);
     CHECK(light.asset.parts[0].face_material == std::vector<Index>{0, 0, 1});
     const Pixels atlas = base_image(light);
@@ -154,7 +154,7 @@ TEST_CASE("materials with extensions stay alone") {
     asset.materials[1].extensions = {"KHR_materials_clearcoat"};
     asset.materials[1].source = 5;
     asset.parts[0].face_material = {0, 1};
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     REQUIRE(light.asset.materials.size() == 2);
     CHECK(light.asset.materials[1].source == 5);
     CHECK(light.asset.materials[1].extensions == asset.materials[1].extensions);
@@ -167,7 +167,7 @@ TEST_CASE("a cut-out keeps its alpha, and its clear texels do not darken its rim
     Asset asset = textured_square(leaf);
     asset.materials[0].alpha_mode = AlphaMode::mask;
     asset.materials[0].alpha_cutoff = 0.3f;
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light);
     CHECK(atlas.has_alpha);
     CHECK(light.asset.materials[0].alpha_mode == AlphaMode::mask);
@@ -188,7 +188,7 @@ TEST_CASE("alpha of an opaque material hides nothing") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{10, 20, 30, 0};
     }));
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_image(light);
     for (std::size_t i = 3; i < atlas.rgba.size(); i += 4) REQUIRE(atlas.rgba[i] == 255);
     const auto c = look(light.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
@@ -210,7 +210,7 @@ TEST_CASE("metal, roughness, occlusion and glow follow the base colour") {
     m.emissive = {1, 0.5f, 0};
     m.emissive_texture.image = add_texture(asset, flat({255, 188, 255, 255}));
     m.normal_texture.image = add_texture(asset, flat({128, 128, 255, 255}));
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     const Material& out = light.asset.materials[0];
     REQUIRE(out.metallic_roughness_texture);
     CHECK(out.metallic_roughness_texture.image == out.occlusion_texture.image);
@@ -238,7 +238,7 @@ TEST_CASE("several parts share a page, and equal inputs give equal bytes on any 
     for (std::uint32_t threads : {1u, 2u, 5u}) {
         Options options;
         options.threads = threads;
-        const LightAsset light = bake(asset, unchanged(asset), options);
+        const SimplifiedAsset light = bake(asset, unchanged(asset), options);
         REQUIRE(light.asset.images.size() == 1);
         REQUIRE(light.asset.parts.size() == 2);
         const Pixels atlas = base_image(light);
@@ -252,7 +252,7 @@ TEST_CASE("the texture is never larger than allowed") {
     const Asset asset = textured_square(ramp(256));
     Options options;
     options.bake.texture_size = 64;
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_image(light);
     CHECK(atlas.width <= 64);
     CHECK(atlas.height <= 64);
@@ -267,7 +267,7 @@ TEST_CASE("minified textures are averaged, not picked") {
     const Asset asset = textured_square(noise);
     Options options;
     options.bake.texture_size = 64;
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_image(light);
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(12))
@@ -282,7 +282,7 @@ TEST_CASE("more triangles than texels: the colours go to the vertices, and it is
     part.face_material.assign(part.triangles.size(), 0);
     Options options;
     options.bake.texture_size = 64;
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     CHECK(light.asset.images.empty());
     CHECK(light.asset.parts[0].colors.size() == light.asset.parts[0].positions.size());
     CHECK(mentions(light.report.warnings, "more triangles than texels"));
@@ -298,7 +298,7 @@ TEST_CASE("the progress callback cancels the bake") {
         ++calls;
         return phase == Phase::bake ? Continue::cancel : Continue::yes;
     };
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     CHECK(light.report.stop == StopReason::cancelled);
     CHECK(light.asset.parts.empty());
     CHECK(calls > 1);
@@ -306,7 +306,7 @@ TEST_CASE("the progress callback cancels the bake") {
 
 TEST_CASE("a damaged image and foreign small parts are errors") {
     Asset asset = textured_square(ramp(8));
-    const SmallParts small = unchanged(asset);
+    const SimplifiedParts small = unchanged(asset);
     asset.parts.push_back(square());
     CHECK_THROWS_AS(bake(asset, small, {}), InputError);
     asset.parts.pop_back();
@@ -322,7 +322,7 @@ TEST_CASE("an asset without faces passes") {
          {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
         Options options;
         options.bake.kind = kind;
-        const LightAsset light = simplify(asset, options);
+        const SimplifiedAsset light = simplify(asset, options);
         REQUIRE(light.asset.parts.size() == 2);
         CHECK(light.asset.parts[1].source == 3);
         CHECK(light.asset.images.empty());

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "support/scenes.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using namespace faqem::test;
@@ -39,7 +39,7 @@ Asset painted_ball() {
 }
 
 /// How far red and green of a level are from those of the original at the same x and y, on average.
-double colour_error(const LightAsset& light, const Asset& original) {
+double colour_error(const SimplifiedAsset& light, const Asset& original) {
     const Asset& asset = light.asset;
     const Pixels before = decode(original.images[0]);
     const Part& part = asset.parts[0];
@@ -72,7 +72,7 @@ TEST_CASE("the levels of an asset share one run, and the first is what simplify 
         std::uint64_t last[] = {800, 512, 0};
         double error = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const SmallParts& small = levels[i].result;
+            const SimplifiedParts& small = levels[i].result;
             CHECK(small.report.faces_out <= most[i]);
             CHECK(small.report.faces_out + 4 > most[i]);
             CHECK(levels[i].error >= error);
@@ -87,7 +87,7 @@ TEST_CASE("the levels of an asset share one run, and the first is what simplify 
             }
         }
         options.target = ratio(0.5);
-        const SmallParts alone = simplify_parts(asset, options);
+        const SimplifiedParts alone = simplify_parts(asset, options);
         for (std::size_t p = 0; p < 3; ++p)
             CHECK(alone.parts[p].mesh.positions == levels[0].result.parts[p].mesh.positions);
     }
@@ -115,7 +115,7 @@ TEST_CASE("every level of a textured asset has a texture of its own") {
     options.bake.texture_size = 64;
     const auto levels = simplify_levels(asset, {ratio(0.5), ratio(0.1)}, options);
     REQUIRE(levels.size() == 2);
-    for (const LightLevel& level : levels) {
+    for (const SimplifiedAssetLevel& level : levels) {
         CHECK_FALSE(level.result.asset.images.empty());
         CHECK(level.result.report.pages.size() == 1);
     }
@@ -135,7 +135,7 @@ TEST_CASE("levels share a texture that is baked once and looks right on each") {
     const MeshView original{ball.parts[0].positions, ball.parts[0].triangles};
     for (std::size_t i = 0; i < 4; ++i) {
         CAPTURE(i);
-        const LightAsset& light = levels[i].result;
+        const SimplifiedAsset& light = levels[i].result;
         const Part& part = light.asset.parts.at(0);
         CHECK(part.triangles.size() <= most[i]);
         CHECK(part.triangles.size() == light.report.faces_out);
@@ -175,7 +175,7 @@ TEST_CASE("what cannot go with a shared texture is refused") {
     };
     for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none})
         refused({.bake = {.kind = kind}});
-    refused({.topology = {.group_borders = GroupBorders::kept}});
+    refused({.topology = {.group_boundaries = GroupBoundaries::kept}});
     refused({.topology = {.weld = Weld::none}});
     refused({.history = Recording::on});
     CHECK(simplify_levels(ball, {}, {}, LevelTextures::shared).empty());

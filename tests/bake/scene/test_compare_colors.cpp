@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/scenes.hpp"
 #include "faqem/error.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 
@@ -44,8 +44,8 @@ TEST_CASE("a model's colours do not differ from its own") {
     const ColorComparison c = compare_colors(asset, asset, few);
     CHECK(c.rmse < 1e-7);
     CHECK(c.psnr > 140);
-    CHECK(c.a_to_b.wrong == 0);
-    CHECK(c.b_to_a.one_sided == 0);
+    CHECK(c.a_to_b.outliers == 0);
+    CHECK(c.b_to_a.unmatched == 0);
     CHECK(c.a_to_b.hidden == 0);
 
     const ColorComparison same = compare_colors(painted(red), painted(red), few);
@@ -59,7 +59,7 @@ TEST_CASE("red and blue differ in two channels of three") {
     CHECK(c.b_to_a.rmse == Approx(std::sqrt(2.0 / 3)));
     CHECK(c.rmse == Approx(std::sqrt(2.0 / 3)));
     CHECK(c.psnr == Approx(10 * std::log10(1.5)));
-    CHECK(c.a_to_b.wrong == 1);
+    CHECK(c.a_to_b.outliers == 1);
 }
 
 TEST_CASE("what differs counts by its area") {
@@ -70,7 +70,7 @@ TEST_CASE("what differs counts by its area") {
     const ColorComparison c = compare_colors(half, painted(white), {.samples = 100000});
     CHECK(c.a_to_b.mean_squared == Approx(0.5));  // the slices of the area are whole on each half
     CHECK(c.b_to_a.mean_squared == Approx(0.5).epsilon(0.02));
-    CHECK(c.a_to_b.wrong == Approx(0.5));
+    CHECK(c.a_to_b.outliers == Approx(0.5));
 }
 
 TEST_CASE("textures and vertex colours meet as sRGB") {
@@ -91,7 +91,7 @@ TEST_CASE("the two sides of a thin board are not mistaken for each other") {
     for (Vec3& p : lower.parts[0].positions) p[2] -= 0.008;
     const ColorComparison c = compare_colors(board(red, blue), lower, few);
     CHECK(c.rmse == 0);
-    CHECK(c.a_to_b.one_sided == 0);
+    CHECK(c.a_to_b.unmatched == 0);
 }
 
 TEST_CASE("normals say which side is outside, and the winding does where there are none") {
@@ -107,7 +107,7 @@ TEST_CASE("where no face looks the same way the closest one counts, and is count
     Asset turned = painted(red);
     for (Triangle& t : turned.parts[0].triangles) std::swap(t[1], t[2]);
     const ColorComparison c = compare_colors(painted(red), turned, few);
-    CHECK(c.a_to_b.one_sided == 1);
+    CHECK(c.a_to_b.unmatched == 1);
     CHECK(c.rmse == 0);
 }
 

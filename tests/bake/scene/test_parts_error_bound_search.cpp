@@ -34,7 +34,7 @@ TEST_CASE("every part of an asset is within the error, and its distance is in th
     Asset asset;
     asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
     const double allowed = 0.01;
-    const SmallParts small = simplify_parts(asset, within(model_units(allowed)));
+    const SimplifiedParts small = simplify_parts(asset, within(model_units(allowed)));
     REQUIRE(small.parts.size() == 3);
     CHECK(small.report.stop == StopReason::reached_max_error);
     REQUIRE(small.report.max_error);
@@ -67,8 +67,8 @@ TEST_CASE("for an asset a share of the diagonal is that of the whole scene") {
     all.positions.insert(all.positions.end(), asset.parts[1].positions.begin(),
                          asset.parts[1].positions.end());
     const double diagonal = info(view(all)).diagonal;
-    const SmallParts share = simplify_parts(asset, within(of_diagonal(0.005)));
-    const SmallParts units = simplify_parts(asset, within(model_units(0.005 * diagonal)));
+    const SimplifiedParts share = simplify_parts(asset, within(of_diagonal(0.005)));
+    const SimplifiedParts units = simplify_parts(asset, within(model_units(0.005 * diagonal)));
     CHECK(share.report.max_error->allowed == Approx(0.005 * diagonal));
     for (std::size_t p = 0; p < 2; ++p) {
         CHECK(share.parts[p].mesh.positions == units.parts[p].mesh.positions);
@@ -81,7 +81,7 @@ TEST_CASE("the target of an asset is checked against the error") {
     for (const double allowed : {1e-4, 1.0}) {
         Options options = within(model_units(allowed));
         options.target = faces(50);
-        const LightAsset light = simplify(asset, options);
+        const SimplifiedAsset light = simplify(asset, options);
         CHECK(light.report.faces_out <= 50);
         CHECK(light.report.stop == StopReason::reached_target);
         REQUIRE(light.report.max_error);
@@ -94,7 +94,7 @@ TEST_CASE("an asset that may lose nothing comes out whole") {
     Asset asset;
     asset.parts = {waves(8, 0.2, 0), square()};
     asset.parts[1].face_material.clear();
-    const SmallParts small = simplify_parts(asset, within(model_units(1e-12)));
+    const SimplifiedParts small = simplify_parts(asset, within(model_units(1e-12)));
     CHECK(small.parts[0].mesh.positions == asset.parts[0].positions);
     CHECK(small.parts[1].mesh.triangles.size() == 2);
     CHECK(small.report.max_error->within());
@@ -119,7 +119,7 @@ TEST_CASE("cancelling the search for an asset leaves no parts, and progress rise
     const std::size_t stop = calls / 2;
     calls = 0;
     options.progress = [&](Phase, double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     CHECK(light.report.stop == StopReason::cancelled);
     CHECK(light.asset.parts.empty());
     CHECK(calls == stop);

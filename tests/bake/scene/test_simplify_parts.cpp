@@ -30,7 +30,7 @@ TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
     Options options;
     options.target = GENERATE(ratio(0.25), faces(400));
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.report.target_faces == 400);
     CHECK(small.report.faces_out <= 400);
     CHECK(small.report.stop == StopReason::reached_target);
@@ -48,9 +48,9 @@ TEST_CASE("one sheet cut in two gets about what it got whole") {
     cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
     Options options;
     options.target = ratio(0.3);
-    options.topology.border = Border::locked;
+    options.topology.boundary = Boundary::locked;
     const SimplifyResult one = simplify_parts(whole, options).parts[0];
-    const SmallParts two = simplify_parts(cut, options);
+    const SimplifiedParts two = simplify_parts(cut, options);
     const auto low =
         std::count_if(one.face_origin.begin(), one.face_origin.end(), [](Index f) { return f < 1200; });
     CHECK(two.report.faces_out <= 540);
@@ -64,7 +64,7 @@ TEST_CASE("a face count is shared out by size, and tiny parts keep their faces")
     Options options;
     options.target = faces(500);
     options.budget = Budget::mesh;
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     REQUIRE(small.parts.size() == 4);
     // The square keeps its 2 faces; 498 for 800 and 200 faces are 398.4 and 99.6.
     CHECK(small.parts[0].report.target_faces == 398);
@@ -87,7 +87,7 @@ TEST_CASE("a ratio holds for every part where the budget is per mesh") {
     Options options;
     options.target = ratio(0.25);
     options.budget = Budget::mesh;
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.parts[0].mesh.triangles.size() <= 200);
     CHECK(small.parts[1].mesh.triangles.size() <= 50);
     CHECK(small.report.target_faces == 250);
@@ -106,7 +106,7 @@ TEST_CASE("a part of many small components keeps them all") {
     Options options;
     options.budget = Budget::mesh;
     options.target = GENERATE(ratio(0.1), faces(82));
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.parts[1].mesh.triangles.size() == 24);
     CHECK(small.report.components_deleted == 0);
     CHECK(small.report.target_faces == 82);
@@ -114,7 +114,7 @@ TEST_CASE("a part of many small components keeps them all") {
 
     // No room for them: every part goes down in proportion, but keeps 4 faces.
     options.target = faces(20);
-    const SmallParts smaller = simplify_parts(asset, options);
+    const SimplifiedParts smaller = simplify_parts(asset, options);
     CHECK(smaller.parts[0].report.target_faces == 16);
     CHECK(smaller.parts[1].report.target_faces == 4);
 }
@@ -141,14 +141,14 @@ TEST_CASE("the counts of the report are sums over the parts") {
     asset.parts = {bumpy(20), bumpy(10)};
     Options options;
     options.preset = Preset::best;
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     const Report &sum = small.report, &a = small.parts[0].report, &b = small.parts[1].report;
     CHECK(sum.faces_in == a.faces_in + b.faces_in);
     CHECK(sum.vertices_out == a.vertices_out + b.vertices_out);
     CHECK(sum.collapses == a.collapses + b.collapses);
-    CHECK(sum.vertices_relaxed == a.vertices_relaxed + b.vertices_relaxed);
-    CHECK(sum.vertices_relaxed > 0);
-    CHECK(sum.edges_swapped == a.edges_swapped + b.edges_swapped);
+    CHECK(sum.vertices_fitted == a.vertices_fitted + b.vertices_fitted);
+    CHECK(sum.vertices_fitted > 0);
+    CHECK(sum.edges_flipped == a.edges_flipped + b.edges_flipped);
 }
 
 TEST_CASE("components are pruned from every part, which keeps its largest") {
@@ -164,7 +164,7 @@ TEST_CASE("components are pruned from every part, which keeps its largest") {
     options.bake.kind = Bake::none;
     options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
     options.budget = GENERATE(Budget::scene, Budget::mesh);
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.report.components_pruned == 1);
     CHECK(small.report.faces_pruned == 1);
     CHECK(small.parts[0].report.components_pruned == 1);
@@ -181,7 +181,7 @@ TEST_CASE("an error does not count what is pruned from a scene") {
     options.bake.kind = Bake::none;
     options.max_error = model_units(0.2);
     options.topology.prune = model_units(2);
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.report.components_pruned == 1);
     REQUIRE(small.report.max_error);
     CHECK(small.report.max_error->within());
@@ -198,8 +198,8 @@ TEST_CASE("kept borders between materials stay, also where they are baked into o
     Options options;
     options.target = ratio(0.05);
     options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
-    options.topology.group_borders = GroupBorders::kept;
-    const SmallParts small = simplify_parts(asset, options);
+    options.topology.group_boundaries = GroupBoundaries::kept;
+    const SimplifiedParts small = simplify_parts(asset, options);
     const SimplifyResult& part = small.parts[0];
     CHECK(part.report.faces_out <= 40);
     double area[2] = {0, 0};
@@ -229,7 +229,7 @@ TEST_CASE("cancelling the first stage leaves the second nothing to do") {
     Options options;
     options.budget = GENERATE(Budget::scene, Budget::mesh);
     options.progress = [](Phase, double) { return Continue::cancel; };
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     CHECK(light.report.stop == StopReason::cancelled);
     CHECK(light.asset.parts.empty());
 }
@@ -266,7 +266,7 @@ TEST_CASE("the result of the whole way shows the source's colours") {
     options.bake.texture_size = 512;
     options.bake.mapping = GENERATE(Mapping::projection, Mapping::lineage);
     options.history = Recording::on;
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     REQUIRE(light.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
     CHECK(light.histories.size() == 1);
     const Pixels atlas = decode(light.asset.images[0]), painted = ramp(128);
@@ -334,7 +334,7 @@ TEST_CASE("faces at one place with different materials both stay, though they sh
     asset.parts = {part};
     Options options;
     options.target = ratio(1);
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
     CHECK(small.report.faces_dropped == 1);
     // The second stage may go from one to the other.
@@ -369,7 +369,7 @@ TEST_CASE("of two layers at one place that look opposite ways both stay, however
     asset.parts = {part};
     Options options;
     options.target = ratio(0.25);
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     CHECK(light.report.faces_dropped == 0);
     const Part& out = light.asset.parts[0];
     CHECK(out.triangles.size() <= part.triangles.size() / 4);

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/meshes.hpp"
 #include "faqem/bake.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::least_visibility;
-using detail::seen_shares;
-using detail::SeenShares;
+using detail::min_visibility;
+using detail::vertex_visibility;
+using detail::VertexVisibility;
 using test::icosphere;
 using test::inside_out;
 using test::moved;
@@ -44,8 +44,8 @@ TEST_CASE("all of a convex solid is seen, turned out or in, coarse or fine") {
     const int level = GENERATE(0, 2, 6);
     Asset asset;
     asset.parts = {part_of(GENERATE_COPY(icosphere(level), inside_out(icosphere(level))))};
-    const SeenShares seen = seen_shares(asset);
-    CHECK(seen.hidden == 0);
+    const VertexVisibility seen = vertex_visibility(asset);
+    CHECK(seen.hidden_vertices == 0);
     REQUIRE(seen.weights.size() == 1);
     CHECK(seen.weights[0].size() == asset.parts[0].positions.size());
     CHECK(least(seen.weights[0]) == 1);
@@ -54,14 +54,14 @@ TEST_CASE("all of a convex solid is seen, turned out or in, coarse or fine") {
 TEST_CASE("a sheet is seen, from both sides no more than from one") {
     Asset asset;
     asset.parts = {part_of(test::grid(4))};
-    CHECK(seen_shares(asset).weights[0] == std::vector<float>(25, 1));
+    CHECK(vertex_visibility(asset).weights[0] == std::vector<float>(25, 1));
 }
 
 TEST_CASE("what is in a closed shell is hidden, and the shell is not") {
     const Asset asset = shell_around(icosphere(GENERATE(1, 5)), GENERATE(2, 5));
-    const SeenShares seen = seen_shares(asset);
-    CHECK(seen.hidden == asset.parts[0].positions.size());
-    CHECK(most(seen.weights[0]) == least_visibility);
+    const VertexVisibility seen = vertex_visibility(asset);
+    CHECK(seen.hidden_vertices == asset.parts[0].positions.size());
+    CHECK(most(seen.weights[0]) == min_visibility);
     CHECK(least(seen.weights[1]) == 1);
 }
 
@@ -71,16 +71,16 @@ TEST_CASE("a shell that can be looked through hides nothing") {
     SECTION("blended") { material.alpha_mode = AlphaMode::blend; }
     SECTION("with holes in its texture") { material.alpha_mode = AlphaMode::mask; }
     SECTION("of glass") { material.extensions = {"KHR_materials_ior", "KHR_materials_transmission"}; }
-    CHECK(seen_shares(asset).hidden == 0);
-    CHECK(least(seen_shares(asset).weights[0]) == 1);
+    CHECK(vertex_visibility(asset).hidden_vertices == 0);
+    CHECK(least(vertex_visibility(asset).weights[0]) == 1);
 }
 
 TEST_CASE("a shell that shows its back only hides nothing, unless it has two sides") {
     Asset asset = shell_around(icosphere(2));
     asset.parts[1] = part_of(scaled(inside_out(icosphere(2)), 2), 0);
-    CHECK(seen_shares(asset).hidden == 0);
+    CHECK(vertex_visibility(asset).hidden_vertices == 0);
     asset.materials[0].double_sided = true;
-    CHECK(seen_shares(asset).hidden == asset.parts[0].positions.size());
+    CHECK(vertex_visibility(asset).hidden_vertices == asset.parts[0].positions.size());
 }
 
 TEST_CASE("of the floor of a well, as much is seen as its rim leaves open") {
@@ -93,7 +93,7 @@ TEST_CASE("of the floor of a well, as much is seen as its rim leaves open") {
     asset.parts = {part_of(moved(scaled(test::square(1, 0.02, 0), 1), {-0.01, -0.01, 0.01})),
                    part_of(test::cylinder(64, 1, height), 0),
                    part_of(moved(test::square(1, 4, 0), {-2, -2, 0}), 0)};
-    const SeenShares seen = seen_shares(asset);
+    const VertexVisibility seen = vertex_visibility(asset);
     for (const float share : seen.weights[0]) CHECK(share == Approx(1 / (1 + height * height)).margin(0.12));
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("both faces of a thin plate on a block are told apart") {
     Asset asset;
     asset.parts = {part_of(stretched(plate, {-0.5, -0.5, 0}, {1, 1, 0.005})),
                    part_of(stretched(block, {-2, -2, -2}, {4, 4, 2}))};
-    const SeenShares seen = seen_shares(asset);
+    const VertexVisibility seen = vertex_visibility(asset);
     for (std::size_t v = 0; v < asset.parts[0].positions.size(); ++v) {
         if (asset.parts[0].positions[v][2] > 0) CHECK(seen.weights[0][v] == 1);
     }
@@ -125,19 +125,19 @@ TEST_CASE("both faces of a thin plate on a block are told apart") {
 TEST_CASE("vertices without faces, faces without area and empty parts are left alone") {
     Asset asset;
     asset.parts = {part_of(test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {{0, 1, 2}})), Part{}};
-    const SeenShares seen = seen_shares(asset);
+    const VertexVisibility seen = vertex_visibility(asset);
     CHECK(seen.weights[0] == std::vector<float>(4, 1));
     CHECK(seen.weights[1].empty());
-    CHECK(seen.hidden == 0);
-    CHECK(seen_shares(Asset{}).weights.empty());
+    CHECK(seen.hidden_vertices == 0);
+    CHECK(vertex_visibility(Asset{}).weights.empty());
 }
 
 TEST_CASE("what is seen does not depend on the number of threads") {
     const Asset asset = shell_around(test::shaken(scaled(icosphere(3), 1.95), 0.2, 5), 4);
-    const SeenShares one = seen_shares(asset, {1}), four = seen_shares(asset, {4});
+    const VertexVisibility one = vertex_visibility(asset, {1}), four = vertex_visibility(asset, {4});
     CHECK(one.weights == four.weights);
     CHECK(one.hidden == four.hidden);
-    const auto is_hidden = [](float weight) { return weight == least_visibility; };
+    const auto is_hidden = [](float weight) { return weight == min_visibility; };
     const std::vector<float>& inner = one.weights[0];
     CHECK(std::any_of(inner.begin(), inner.end(), is_hidden));
     CHECK_FALSE(std::all_of(inner.begin(), inner.end(), is_hidden));
@@ -147,14 +147,14 @@ TEST_CASE("where hidden surfaces weigh less, faces go to what is seen") {
     const Asset asset = shell_around(test::shaken(icosphere(4), 0.02, 3), 4);
     Options options;
     options.target = ratio(0.1);
-    const SmallParts all = simplify_parts(asset, options);
+    const SimplifiedParts all = simplify_parts(asset, options);
     CHECK(all.report.vertices_hidden == 0);
-    options.visibility = Visibility::weighs;
-    const SmallParts seen = simplify_parts(asset, options);
+    options.visibility = Visibility::weighted;
+    const SimplifiedParts seen = simplify_parts(asset, options);
     CHECK(seen.report.vertices_hidden == asset.parts[0].positions.size());
     CHECK(seen.report.faces_out <= seen.report.target_faces);
     CHECK(seen.report.target_faces == all.report.target_faces);
-    const auto faces = [](const SmallParts& small, std::size_t p) {
+    const auto faces = [](const SimplifiedParts& small, std::size_t p) {
         return small.parts[p].mesh.triangles.size();
     };
     CHECK(2 * faces(seen, 0) < faces(all, 0));
@@ -168,8 +168,8 @@ TEST_CASE("a scene that moves is looked at as it stands, with a warning") {
     asset.parts[0].morph_targets.resize(1);
     asset.parts[0].morph_targets[0].positions.resize(asset.parts[0].positions.size());
     Options options;
-    options.visibility = Visibility::weighs;
-    const SmallParts small = simplify_parts(asset, options);
+    options.visibility = Visibility::weighted;
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(std::count(small.report.warnings.begin(), small.report.warnings.end(),
                      detail::visibility_warning(asset)) == 1);
 }
@@ -177,10 +177,10 @@ TEST_CASE("a scene that moves is looked at as it stands, with a warning") {
 TEST_CASE("looking can be cancelled") {
     const Asset asset = shell_around(icosphere(5), 5);
     Options options;
-    options.visibility = Visibility::weighs;
+    options.visibility = Visibility::weighted;
     int asked = 0;
     options.progress = [&](Phase, double) { return ++asked == 3 ? Continue::cancel : Continue::yes; };
-    const SmallParts small = simplify_parts(asset, options);
+    const SimplifiedParts small = simplify_parts(asset, options);
     CHECK(small.report.stop == StopReason::cancelled);
     CHECK(asked == 3);
 }

@@ -40,7 +40,7 @@ Options encoded_as(ImageFormat format) {
     return options;
 }
 
-const Image& base_image(const LightAsset& light) {
+const Image& base_image(const SimplifiedAsset& light) {
     return light.asset.images[light.asset.materials[0].base_color_texture.image];
 }
 
@@ -77,14 +77,14 @@ TEST_CASE("normals can be left out where nothing is baked, and no vertex is spli
 TEST_CASE("baked images are PNG, JPEG, or as what they are baked from") {
     Asset asset = textured_square(ramp(64));
     CHECK(base_image(bake(asset, unchanged(asset), {})).mime_type == "image/png");
-    const LightAsset jpeg = bake(asset, unchanged(asset), encoded_as(ImageFormat::jpeg));
+    const SimplifiedAsset jpeg = bake(asset, unchanged(asset), encoded_as(ImageFormat::jpeg));
     CHECK(base_image(jpeg).mime_type == "image/jpeg");
     const auto c = look(jpeg.asset.parts[0], decode(base_image(jpeg)), 0, {0.3, 0.3, 0.4});
     const auto painted = look(asset.parts[0], ramp(64), 0, {0.3, 0.3, 0.4});
     for (std::size_t k = 0; k < 3; ++k) CHECK(c[k] == Approx(painted[k]).margin(6));
     CHECK(base_image(bake(asset, unchanged(asset), encoded_as(ImageFormat::source))).mime_type ==
           "image/png");
-    asset.images[0] = encode_jpeg(ramp(64), "photo", 95, Content::colour);
+    asset.images[0] = encode_jpeg(ramp(64), "photo", 95, Content::color);
     CHECK(base_image(bake(asset, unchanged(asset), encoded_as(ImageFormat::source))).mime_type ==
           "image/jpeg");
 }
@@ -125,7 +125,7 @@ TEST_CASE("a page much coarser than the source is told of, unless that was asked
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {10 * uv[0], 10 * uv[1]};
     Options options;
     options.bake.texture_size = 128;
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     REQUIRE(light.report.warnings.size() == 1);
     CHECK(light.report.warnings[0] ==
           "atlas of material 'paint': one texel for 11 x 11 of the source's; texture_size is 128");
@@ -149,7 +149,7 @@ TEST_CASE("where nothing is asked for, small pages are finer than the source, an
 
 TEST_CASE("the report tells how full and how fine a page is, and how its samples were found") {
     const Asset asset = textured_square(ramp(128));
-    const LightAsset light = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
     REQUIRE(light.report.pages.size() == 1);
     const BakedPage& page = light.report.pages[0];
     CHECK(page.material == "paint");
@@ -172,7 +172,7 @@ TEST_CASE("the correspondence names the place of each texel on the original") {
     const Asset asset = textured_square(ramp(64));
     Options options;
     options.bake.correspondence = Recording::on;
-    const LightAsset light = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
     REQUIRE(light.correspondence.size() == 1);
     const PageOrigins& page = light.correspondence[0];
     const Pixels atlas = decode(base_image(light));

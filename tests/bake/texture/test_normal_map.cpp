@@ -17,7 +17,7 @@ Options with(NormalMap choice, double share = 1) {
     return options;
 }
 
-const Pixels normal_image(const LightAsset& light) {
+const Pixels normal_image(const SimplifiedAsset& light) {
     return decode(light.asset.images[light.asset.materials[0].normal_texture.image]);
 }
 
@@ -32,7 +32,7 @@ Asset leaning_square() {
     return asset;
 }
 
-void check_lit(const LightAsset& light, const Direction& expected) {
+void check_lit(const SimplifiedAsset& light, const Direction& expected) {
     REQUIRE(light.asset.materials[0].normal_texture);
     CHECK(light.asset.materials[0].normal_scale == 1);
     const Pixels map = normal_image(light);
@@ -91,7 +91,7 @@ TEST_CASE("tangents of the file come before those of the UVs") {
 TEST_CASE("a normal map from geometry shows what the faces lost") {
     Asset asset;
     asset.parts = {waves(true)};
-    const LightAsset light = simplify(asset, with(NormalMap::on, 0.02));
+    const SimplifiedAsset light = simplify(asset, with(NormalMap::on, 0.02));
     const Pixels map = normal_image(light);
     const Part& part = light.asset.parts[0];
     double plain = 0, mapped = 0;
@@ -115,14 +115,14 @@ TEST_CASE("auto makes a normal map where normals differ and none where they agre
     asset.parts = {waves(false)};
     CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
     for (Vec3& p : asset.parts[0].positions) p[2] = 0;
-    const LightAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));
+    const SimplifiedAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));
     CHECK_FALSE(flat.asset.materials[0].normal_texture);
     CHECK(flat.asset.parts[0].tangents.empty());
 }
 
 TEST_CASE("off leaves normal maps out and says so, unlit materials have none") {
     Asset asset = leaning_square();
-    const LightAsset off = bake(asset, unchanged(asset), with(NormalMap::off));
+    const SimplifiedAsset off = bake(asset, unchanged(asset), with(NormalMap::off));
     CHECK_FALSE(off.asset.materials[0].normal_texture);
     CHECK(off.asset.parts[0].tangents.empty());
     REQUIRE(off.report.warnings.size() == 1);
@@ -134,10 +134,10 @@ TEST_CASE("off leaves normal maps out and says so, unlit materials have none") {
 TEST_CASE("faces wound the wrong way are lit from the side that is seen") {
     Asset asset = leaning_square();
     asset.parts[0].normals.clear();
-    SmallParts small = unchanged(asset);
+    SimplifiedParts small = unchanged(asset);
     for (Triangle& t : asset.parts[0].triangles) std::swap(t[0], t[1]);
     // The history is that of the square, whose normals look up; the source's faces look down now.
-    const LightAsset light = bake(asset, small, with(NormalMap::on));
+    const SimplifiedAsset light = bake(asset, small, with(NormalMap::on));
     const Pixels map = normal_image(light);
     for (std::size_t f = 0; f < 2; ++f) {
         CHECK(lit_normal(light.asset.parts[0], map, f, {0.3, 0.3, 0.4})[2] > 0.5);
@@ -148,7 +148,7 @@ TEST_CASE("kept UVs get tangents where there is a normal map") {
     Asset asset = leaning_square();
     Options options = with(NormalMap::automatic);
     options.bake.kind = Bake::keep;
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     const Part& part = light.asset.parts[0];
     REQUIRE(part.tangents.size() == part.positions.size());
     for (const Vec4f& t : part.tangents) CHECK(t == Vec4f{1, 0, 0, 1});

@@ -61,7 +61,7 @@ double worst_colour(const Asset& source, const Pixels& before, const Asset& ligh
 
 TEST_CASE("charts show the source's colours, at their seams and on coarser mip levels too") {
     const Asset source = painted_ball();
-    const LightAsset light = bake(source, unchanged(source), of_kind(Bake::atlas, 256));
+    const SimplifiedAsset light = bake(source, unchanged(source), of_kind(Bake::atlas, 256));
     REQUIRE(light.asset.images.size() == 1);
     Pixels after = decode(light.asset.images[0]);
     const Pixels before = decode(source.images[0]);
@@ -78,7 +78,7 @@ TEST_CASE("however the charts are cut, no texel of another place is read at thei
     const double density = GENERATE(0.82, 1.0, 1.11, 1.416, 1.46, 2.01, 2.13, 3.96);
     Options options = of_kind(Bake::atlas, 512);
     options.bake.texel_density = density;
-    const LightAsset light = bake(source, unchanged(source), options);
+    const SimplifiedAsset light = bake(source, unchanged(source), options);
     // The ramp rises by 180 over 64 source texels: 2.9 per texel.
     const double texels = worst_colour(source, before, light.asset, decode(light.asset.images[0])) /
                           (180.0 / 63) * light.report.pages[0].density;
@@ -87,9 +87,9 @@ TEST_CASE("however the charts are cut, no texel of another place is read at thei
 
 TEST_CASE("charts split few vertices, and the report says what the page is like") {
     const Asset source = painted_ball();
-    const SmallParts small = unchanged(source);
-    const LightAsset charts = bake(source, small, of_kind(Bake::atlas, 256));
-    const LightAsset triangles = bake(source, small, of_kind(Bake::per_triangle, 256));
+    const SimplifiedParts small = unchanged(source);
+    const SimplifiedAsset charts = bake(source, small, of_kind(Bake::atlas, 256));
+    const SimplifiedAsset triangles = bake(source, small, of_kind(Bake::per_triangle, 256));
     CHECK(charts.asset.parts[0].positions.size() < 1.5 * double(source.parts[0].positions.size()));
     CHECK(triangles.asset.parts[0].positions.size() > 2 * source.parts[0].positions.size());
     REQUIRE(charts.report.pages.size() == 1);
@@ -98,7 +98,7 @@ TEST_CASE("charts split few vertices, and the report says what the page is like"
     CHECK(page.kind == Bake::atlas);
     CHECK(page.faces == source.parts[0].triangles.size());
     CHECK((page.charts > 1 && page.charts < 20));
-    CHECK(page.faces_alone == 0);
+    CHECK(page.faces_outside_charts == 0);
     CHECK((page.fill > 0.3 && page.fill < 1));
     CHECK((page.stretch >= 1 && page.stretch < 1.06));
     CHECK(triangles.report.pages.at(0).kind == Bake::per_triangle);
@@ -136,7 +136,7 @@ TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
     }
     part.face_material.assign(12, 0);
     const auto kind = GENERATE(Bake::atlas, Bake::per_triangle);
-    const LightAsset light = bake(source, unchanged_welded(source), of_kind(kind, 128));
+    const SimplifiedAsset light = bake(source, unchanged_welded(source), of_kind(kind, 128));
     CHECK(worst_colour(source, decode(source.images[0]), light.asset, decode(light.asset.images.at(0))) < 4);
 }
 
@@ -165,9 +165,9 @@ TEST_CASE("a page of charts has the same bytes with any number of threads") {
     Options options = of_kind(Bake::atlas, 128);
     options.target = ratio(0.5);
     options.threads = 1;
-    const LightAsset one = simplify(source, options);
+    const SimplifiedAsset one = simplify(source, options);
     options.threads = 3;
-    const LightAsset three = simplify(source, options);
+    const SimplifiedAsset three = simplify(source, options);
     CHECK(one.asset.images.at(0).encoded == three.asset.images.at(0).encoded);
     CHECK(one.asset.parts[0].uvs == three.asset.parts[0].uvs);
 }
@@ -177,7 +177,7 @@ TEST_CASE("no texel that a triangle covers is left unmapped, and each comes from
     Options options = of_kind(GENERATE(Bake::atlas, Bake::per_triangle), GENERATE(64u, 256u));
     options.target = ratio(GENERATE(1.0, 0.1, 0.02));
     options.bake.correspondence = Recording::on;
-    const LightAsset light = simplify(source, options);
+    const SimplifiedAsset light = simplify(source, options);
     REQUIRE(light.correspondence.size() == 1);
     const PageOrigins& page = light.correspondence[0];
     const Part &from = source.parts[0], &part = light.asset.parts[0];

@@ -48,19 +48,19 @@ Options look_of(Bake kind = Bake::atlas) {
     return options;
 }
 
-const ExtensionTexture& texture_of(const LightAsset& light, const std::string& name) {
+const ExtensionTexture& texture_of(const SimplifiedAsset& light, const std::string& name) {
     for (const ExtensionTexture& texture : light.asset.materials.at(0).extension_textures)
         if (texture.name == name) return texture;
     FAIL(name);
     throw 0;
 }
 
-Pixels pixels_of(const LightAsset& light, const std::string& name) {
+Pixels pixels_of(const SimplifiedAsset& light, const std::string& name) {
     return decode(light.asset.images[texture_of(light, name).texture.image]);
 }
 
 // The largest difference over the square, of those channels.
-double worst(const Asset& source, const Pixels& painted, const LightAsset& light, const Pixels& baked,
+double worst(const Asset& source, const Pixels& painted, const SimplifiedAsset& light, const Pixels& baked,
              std::vector<std::size_t> channels) {
     double result = 0;
     for (std::size_t f = 0; f < 2; ++f) {
@@ -92,7 +92,7 @@ TEST_CASE("colour and alpha of one image share a layer, numbers and normals have
     CHECK(layers[0].normal_scale == 0.5f);
     CHECK(layers[1].content == TextureContent::data);
     CHECK(layers[1].textures == std::vector<Index>{1, 2});
-    CHECK(layers[2].content == TextureContent::colour_and_alpha);
+    CHECK(layers[2].content == TextureContent::color_and_alpha);
     CHECK(layers[2].textures == std::vector<Index>{3, 4});
     CHECK(layers[3].content == TextureContent::alpha);
 
@@ -116,7 +116,7 @@ TEST_CASE("a sheen's colour and roughness are baked into one image with alpha") 
                                       {"KHR_materials_sheen", "sheenRoughnessTexture", use_of(0)}},
                                      ramps);
     const Bake kind = GENERATE(Bake::atlas, Bake::per_triangle);
-    const LightAsset light = bake(source, unchanged(source), look_of(kind));
+    const SimplifiedAsset light = bake(source, unchanged(source), look_of(kind));
     CHECK(texture_of(light, "sheenColorTexture").texture ==
           texture_of(light, "sheenRoughnessTexture").texture);
     CHECK(light.asset.images.size() == 1);
@@ -129,7 +129,7 @@ TEST_CASE("numbers are read as they are, and an image for alpha alone has no col
     const Asset source = square_with({{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", use_of(0)},
                                       {"KHR_materials_specular", "specularTexture", use_of(0)}},
                                      ramps);
-    const LightAsset light = bake(source, unchanged(source), look_of());
+    const SimplifiedAsset light = bake(source, unchanged(source), look_of());
     const Pixels roughness = pixels_of(light, "clearcoatRoughnessTexture");
     CHECK(worst(source, ramps, light, roughness, {0, 1, 2}) < 4);
     CHECK_FALSE(roughness.has_alpha);
@@ -150,7 +150,7 @@ TEST_CASE("colours are averaged in linear light, alpha as it is") {
     Options options = look_of();
     options.bake.texel_density = 0.125;
     options.bake.texture_size = 64;
-    const LightAsset light = bake(source, unchanged(source), options);
+    const SimplifiedAsset light = bake(source, unchanged(source), options);
     const auto middle = look(light.asset.parts[0], pixels_of(light, "specularTexture"), 0, {0.4, 0.3, 0.3});
     CHECK(std::abs(middle[0] - 188) < 3);  // of light
     CHECK(std::abs(middle[3] - 128) < 3);
@@ -162,7 +162,7 @@ TEST_CASE("a coat's normals light the result as they lit the source, its scale i
     Asset source =
         square_with({{"KHR_materials_clearcoat", "clearcoatNormalTexture", use_of(0), 0.5f}}, leaning);
     for (Vec2f& uv : source.parts[0].uvs[0]) uv[0] = 1 - uv[0];
-    const LightAsset light = bake(source, unchanged(source), look_of());
+    const SimplifiedAsset light = bake(source, unchanged(source), look_of());
     CHECK(texture_of(light, "clearcoatNormalTexture").normal_scale == 1);
     CHECK_FALSE(light.asset.materials[0].normal_texture);
     const Part& part = light.asset.parts[0];
@@ -175,7 +175,7 @@ TEST_CASE("a coat's normals light the result as they lit the source, its scale i
 
     Options plain = look_of();
     plain.bake.normal_map = NormalMap::off;
-    const LightAsset without = bake(source, unchanged(source), plain);
+    const SimplifiedAsset without = bake(source, unchanged(source), plain);
     CHECK(without.asset.materials[0].extension_textures.empty());
     CHECK(without.asset.parts[0].tangents.empty());
 }
@@ -186,7 +186,7 @@ TEST_CASE("what lies beside a coat, of another material, does not run into it") 
     Asset source = square_with({{"KHR_materials_clearcoat", "clearcoatTexture", use_of(0)}}, white);
     source.materials.emplace_back();
     source.parts[0].face_material = {0, 1};
-    const LightAsset light = bake(source, unchanged(source), look_of());
+    const SimplifiedAsset light = bake(source, unchanged(source), look_of());
     const Pixels coat = pixels_of(light, "clearcoatTexture");
     const auto [least, most] = std::minmax_element(coat.rgba.begin(), coat.rgba.end());
     CHECK(*least >= 249);
@@ -197,7 +197,7 @@ TEST_CASE("vertices and bare geometry have no textures of extensions") {
     const Asset source =
         square_with({{"KHR_materials_clearcoat", "clearcoatTexture", use_of(0)}}, four_ramps());
     for (const Bake kind : {Bake::vertex, Bake::none}) {
-        const LightAsset light = bake(source, unchanged(source), look_of(kind));
+        const SimplifiedAsset light = bake(source, unchanged(source), look_of(kind));
         CHECK(light.asset.materials[0].extension_textures.empty());
         CHECK(light.asset.images.empty());
     }

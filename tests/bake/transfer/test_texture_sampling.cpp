@@ -19,7 +19,7 @@ MipImage four() {
                               const std::uint8_t c = std::array<std::uint8_t, 4>{0, 51, 102, 255}[x];
                               return Rgba{c, c, c, 255};
                           }),
-                    Encoding::data);
+                    TexelEncoding::data);
 }
 
 TextureRef wrapped(Wrap wrap, Filter filter = Filter::linear) {
@@ -64,7 +64,7 @@ TEST_CASE("coarse levels are means in linear light") {
                                [](std::uint32_t x, std::uint32_t) {
                                    return x ? Rgba{255, 255, 255, 255} : Rgba{0, 0, 0, 255};
                                }),
-                         Encoding::opaque_colour);
+                         TexelEncoding::opaque_color);
     const float mean = image.sample(wrapped(Wrap::repeat), 0.3, 0.3, 9)[0];
     CHECK(mean == Approx(0.5).margin(1e-4));
     CHECK(srgb_byte(mean) == 188);
@@ -77,7 +77,7 @@ TEST_CASE("odd sizes are halved without losing a column") {
                                        const std::uint8_t c = x == width - 1 ? 255 : 0;
                                        return Rgba{c, c, c, 255};
                                    }),
-                             Encoding::data);
+                             TexelEncoding::data);
         CHECK(image.sample(wrapped(Wrap::clamp), 0.5, 0.5, 20)[0] == Approx(1.0 / width).margin(1e-3));
     }
 }
@@ -86,7 +86,7 @@ TEST_CASE("coarse levels do not depend on the number of threads") {
     const Pixels pixels = paint(75, 130, [](std::uint32_t x, std::uint32_t y) {
         return Rgba{static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 3), 9, 255};
     });
-    const MipImage one(pixels, Encoding::colour, 1), four(pixels, Encoding::colour, 4);
+    const MipImage one(pixels, TexelEncoding::color, 1), four(pixels, TexelEncoding::color, 4);
     const TextureRef use = wrapped(Wrap::clamp, Filter::nearest);
     for (const double lod : {1.0, 2.0, 3.0}) {
         for (double v = 0.01; v < 1; v += 0.02)
@@ -99,8 +99,8 @@ TEST_CASE("clear texels do not tint others") {
                                [](std::uint32_t x, std::uint32_t) {
                                    return x ? Rgba{255, 0, 0, 255} : Rgba{0, 255, 0, 0};
                                }),
-                         Encoding::colour);
-    const Linear c = image.sample(wrapped(Wrap::clamp), 0.5, 0.5, 1);
+                         TexelEncoding::color);
+    const LinearColor c = image.sample(wrapped(Wrap::clamp), 0.5, 0.5, 1);
     CHECK(c[3] == Approx(0.5).margin(1e-4));
     CHECK(c[0] / c[3] == Approx(1).margin(1e-3));
     CHECK(c[1] == Approx(0).margin(1e-4));

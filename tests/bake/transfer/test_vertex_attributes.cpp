@@ -56,7 +56,7 @@ Asset pipe(int n) {
 
 TEST_CASE("a cube's normals are split at its edges and nowhere else") {
     const Asset asset = cube_asset();
-    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
     const Part& part = light.asset.parts[0];
     CHECK(part.positions.size() == 24);
     REQUIRE(part.normals.size() == 24);
@@ -81,7 +81,7 @@ TEST_CASE("a cube's normals are split at its edges and nowhere else") {
 
 TEST_CASE("the original's smooth normals are found again") {
     const Asset asset = pipe(40);
-    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
     const Part& part = light.asset.parts[0];
     CHECK(part.positions.size() == asset.parts[0].positions.size());
     for (std::size_t v = 0; v < part.positions.size(); ++v) {
@@ -126,7 +126,7 @@ TEST_CASE("vertex colours come back as they were") {
     Part& part = asset.parts[0];
     for (std::size_t v = 0; v < part.positions.size(); ++v)
         part.colors.push_back({v / 22.0f, 0.5f, 1 - v / 22.0f, 1});
-    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::vertex));
+    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::vertex));
     const Part& out = light.asset.parts[0];
     REQUIRE(out.colors.size() == out.positions.size());
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -148,7 +148,7 @@ TEST_CASE("vertex colours take texture and factor, split where materials meet, a
     asset.materials[1].base_color = {0, 0, 1, 1};
     asset.materials[1].double_sided = true;
     asset.parts[0].face_material = {0, 1};
-    const LightAsset light = simplify(asset, [] {
+    const SimplifiedAsset light = simplify(asset, [] {
         Options options = of_kind(Bake::vertex);
         options.target = ratio(1);
         return options;
@@ -171,7 +171,7 @@ TEST_CASE("keep carries UVs, colours, images and materials") {
     asset.parts[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 0.5f}};
     Options options = of_kind(Bake::keep);
     options.target = ratio(1);
-    const LightAsset light = simplify(asset, options);
+    const SimplifiedAsset light = simplify(asset, options);
     const Part &in = asset.parts[0], &out = light.asset.parts[0];
     REQUIRE(out.triangles.size() == 2);
     REQUIRE(out.uvs.size() == 2);
@@ -191,7 +191,7 @@ TEST_CASE("keep carries UVs, colours, images and materials") {
 TEST_CASE("none takes textures away and says so") {
     Asset asset = textured_square(ramp(8));
     asset.materials[0].base_color = {0.1f, 0.2f, 0.3f, 1};
-    const LightAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
     CHECK(light.asset.parts[0].uvs.empty());
     CHECK(light.asset.images.empty());
     CHECK(light.asset.materials[0].base_color == asset.materials[0].base_color);
@@ -236,7 +236,7 @@ TEST_CASE("blended skin weights keep the four largest and sum to one") {
     part.weights.assign(4, {0.4f, 0.3f, 0.2f, 0.1f});
     HandHistory hand(part.positions, part.triangles);
     hand.collapse(1, 3, {0.8, 0.7, 0});
-    SmallParts small;
+    SimplifiedParts small;
     small.parts.resize(1);
     small.parts[0].history = hand.finish();
     small.parts[0].mesh = small_mesh(small.parts[0].history);

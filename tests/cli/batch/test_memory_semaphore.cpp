@@ -6,24 +6,24 @@
 
 #include "cli/batch/memory_semaphore.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 
 TEST_CASE("what is at work at once fits into the memory, and what does not fit works alone") {
     constexpr std::uint64_t limit = 10;
-    MemoryGate gate(limit);
+    MemorySemaphore semaphore(limit);
     std::atomic<std::uint64_t> used{0};
     std::atomic<int> at_work{0};
     std::atomic<bool> too_much{false};
     const auto work = [&](std::uint64_t bytes) {
         for (int i = 0; i < 200; ++i) {
-            gate.enter(bytes);
+            semaphore.acquire(bytes);
             const std::uint64_t now = used += bytes;
             const int count = ++at_work;
             if (now > limit && count > 1) too_much = true;
             std::this_thread::yield();
             used -= bytes;
             --at_work;
-            gate.leave(bytes);
+            semaphore.release(bytes);
         }
     };
     std::vector<std::thread> threads;
@@ -35,7 +35,7 @@ TEST_CASE("what is at work at once fits into the memory, and what does not fit w
 TEST_CASE("the peak that is predicted grows with the file, the page and the preset") {
     faqem::Options options;
     const auto peak = [&](const char* file, std::uint64_t bytes) {
-        return predicted_peak(file, bytes, options);
+        return estimated_peak_memory_of_file(file, bytes, options);
     };
     CHECK(peak("a.glb", 2'000'000) > peak("a.glb", 1'000'000));
     // A binary file of the same size has more faces.

@@ -55,7 +55,7 @@ TEST_CASE("a wrong command line ends with 2 and says so on stderr") {
                                   "simplify in.glb out.glb --virtual-edges=wide",
                                   "simplify in.glb out.glb --virtual-edges=2",
                                   "simplify in.glb out.glb --visibility some",
-                                  "simplify in.glb out.glb --visibility weighs --max-error 1%",
+                                  "simplify in.glb out.glb --visibility weighted --max-error 1%",
                                   "simplify in.glb out.glb --threads -1",
                                   "simplify in.glb out.glb extra",
                                   "info",

@@ -81,9 +81,9 @@ TEST_CASE("compare measures colours where both models have some") {
     const Json& colors = result["colors"];
     CHECK(colors["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
     CHECK(colors["psnr"].get<double>() == Approx(10 * std::log10(3)).epsilon(0.02));
-    CHECK(colors["a_to_b"]["wrong"].get<double>() == Approx(0.5).epsilon(0.04));
+    CHECK(colors["a_to_b"]["outliers"].get<double>() == Approx(0.5).epsilon(0.04));
     CHECK(colors["b_to_a"]["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
-    CHECK(colors["b_to_a"]["one_sided"] == 0);
+    CHECK(colors["b_to_a"]["unmatched"] == 0);
     CHECK(colors["b_to_a"]["hidden"] == 0);
 
     const Json same = Json::parse(run(folder, "compare blue.glb blue.glb --samples 1000").out);

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/gltf_builder.hpp"
 #include "support/cli_support.hpp"
+#include "support/gltf_builder.hpp"
 
 using namespace tool_test;
 using faqem::testing::contains;

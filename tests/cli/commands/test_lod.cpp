@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "faqem/compare.hpp"
-#include "faqem/error.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
+#include "faqem/compare.hpp"
+#include "faqem/error.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
@@ -71,12 +71,12 @@ TEST_CASE("lod without the original begins with the first level") {
 }
 
 TEST_CASE("the switch distance shows an error under as many pixels as allowed") {
-    using namespace faqem::tool;
+    using namespace faqem::cli;
     // At 90 degrees a screen of 1000 pixels shows 2 units at distance 1: an error of 0.01 is 5 pixels there.
     CHECK(switch_distance(0.01, {1, 90, 1000}) == Approx(5));
     CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
     CHECK(switch_distance(0, {1, 60, 1080}) == 0);
-    const faqem::tool::Json json =
+    const faqem::cli::Json json =
         lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 0.009, 0.01, nullptr}});
     // 3 units are 1.5 times the height at distance 1, and 0.3 of it at distance 5.
     CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
@@ -138,7 +138,7 @@ TEST_CASE("lod writes nothing where a level misses a target that is strict") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
     const Outcome outcome =
-        run(folder, "lod a.glb out --levels 0.5,4 --lock-border --strict-target --bake none");
+        run(folder, "lod a.glb out --levels 0.5,4 --lock-boundary --strict-target --bake none");
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("target missed") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
@@ -183,22 +183,22 @@ TEST_CASE("lod puts all levels into one file, which shows the finest") {
 }
 
 TEST_CASE("a level may be so many pixels off at a distance") {
-    using namespace faqem::tool;
-    const Viewing viewing{1, 90, 1000};  // 2 units are 1000 pixels at distance 1
+    using namespace faqem::cli;
+    const ViewSettings view_settings{1, 90, 1000};  // 2 units are 1000 pixels at distance 1
     const auto error = [&](const char* text) {
-        const faqem::Level level = lod_level(text, viewing);
+        const faqem::Level level = parse_lod_level(text, view_settings);
         REQUIRE(std::holds_alternative<faqem::MaxError>(level));
         CHECK(std::get<faqem::MaxError>(level).unit == faqem::Length::Unit::model);
         return std::get<faqem::MaxError>(level).value;
     };
     CHECK(error("pixels:1@1") == Approx(0.002));
     CHECK(error("pixels:2@50") == Approx(0.2));
-    CHECK(switch_distance(error("pixels:1@50"), viewing) == Approx(50));
-    CHECK(std::holds_alternative<faqem::Target>(lod_level("0.5", viewing)));
+    CHECK(switch_distance(error("pixels:1@50"), view_settings) == Approx(50));
+    CHECK(std::holds_alternative<faqem::Target>(parse_lod_level("0.5", view_settings)));
     for (const char* wrong : {"pixels:", "pixels:1", "pixels:1@", "pixels:@5", "pixels:0@5", "pixels:1@-5",
                               "pixels:nan@5", "pixels:1@inf", "pixels:1@5x"}) {
         CAPTURE(wrong);
-        CHECK_THROWS_AS(lod_level(wrong, viewing), faqem::OptionError);
+        CHECK_THROWS_AS(parse_lod_level(wrong, view_settings), faqem::OptionError);
     }
 }
 

@@ -94,9 +94,9 @@ TEST_CASE("an error is a positive number, and a missed target comes first") {
         CHECK(run(folder, std::string("simplify in.glb out.glb --max-error=") + bad).code == 2);
         CHECK(!fs::exists(folder / "out.glb"));
     }
-    CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-border --strict-target --max-error 1e-9")
+    CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-boundary --strict-target --max-error 1e-9")
               .code == 5);
     // Without a target none is missed.
-    CHECK(run(folder, "simplify in.glb out.glb --lock-border --strict-target --max-error 10 --bake none")
+    CHECK(run(folder, "simplify in.glb out.glb --lock-boundary --strict-target --max-error 10 --bake none")
               .code == 0);
 }

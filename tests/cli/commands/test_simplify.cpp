@@ -111,7 +111,7 @@ TEST_CASE("every choice on the command line is taken") {
                                   "--bake per-triangle --mapping lineage",
                                   "--mapping projection",
                                   "--link",
-                                  "--lock-border",
+                                  "--lock-boundary",
                                   "--weld 0.001",
                                   "--threads 1",
                                   "--mapping closest",
@@ -205,7 +205,7 @@ TEST_CASE("a missed target is an error only where that was asked for, and then n
     strip.materials[0].base_color_texture = {};
     faqem::save(strip, folder / "in.glb");
     const std::string common =
-        "simplify in.glb out.glb --faces 10 --lock-border --bake none --report r.json ";
+        "simplify in.glb out.glb --faces 10 --lock-boundary --bake none --report r.json ";
     CHECK(run(folder, common).code == 0);
     CHECK(Json::parse(read(folder / "r.json"))["stop_reason"] == "no_legal_collapse");
     CHECK(face_count(faqem::load(folder / "out.glb")) > 10);
@@ -216,7 +216,7 @@ TEST_CASE("a missed target is an error only where that was asked for, and then n
     CHECK(!strict.err.empty());
     CHECK(!fs::exists(folder / "out.glb"));
     CHECK(Json::parse(read(folder / "r.json"))["faces_out"] > 10);
-    CHECK(run(folder, "simplify in.glb ok.glb --ratio 1 --lock-border --bake none --strict-target").code ==
+    CHECK(run(folder, "simplify in.glb ok.glb --ratio 1 --lock-boundary --bake none --strict-target").code ==
           0);
 }
 

@@ -16,7 +16,7 @@ std::string faces_of_level(const Folder& folder, const std::string& manifest, st
 
 }  // namespace
 
-TEST_CASE("cut gives the same bytes as the level of the run that wrote the history") {
+TEST_CASE("truncate gives the same bytes as the level of the run that wrote the history") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     const std::string look = " --texture-size 128";
@@ -25,7 +25,7 @@ TEST_CASE("cut gives the same bytes as the level of the run that wrote the histo
     for (std::size_t i = 1; i <= 3; ++i) {
         const std::string faces = faces_of_level(folder, "out/hill_LOD.json", i);
         const Outcome outcome =
-            run(folder, "cut h.bin cut.glb --force --source hill.glb --faces " + faces + look);
+            run(folder, "truncate h.bin cut.glb --force --source hill.glb --faces " + faces + look);
         CHECK(outcome.code == 0);
         CHECK(outcome.out.find(" " + faces + " faces") != std::string::npos);
         CHECK(read(folder / "cut.glb") == read(folder / ("out/hill_LOD" + std::to_string(i) + ".glb")));
@@ -38,7 +38,7 @@ TEST_CASE("without the model a cut is the geometry") {
     REQUIRE(run(folder,
                 "lod hill.glb out --levels 0.5,100 --bake none --normals none --format ply --history h.bin")
                 .code == 0);
-    REQUIRE(run(folder, "cut h.bin cut.ply --faces 100 --quiet").code == 0);
+    REQUIRE(run(folder, "truncate h.bin cut.ply --faces 100 --quiet").code == 0);
     const bool is_same = read(folder / "cut.ply") == read(folder / "out/hill_LOD2.ply");
     CHECK(is_same);
 }
@@ -51,22 +51,23 @@ TEST_CASE("with qem and paper a cut has the same bytes as a run of its own") {
         REQUIRE(run(folder, "lod hill.glb out --levels 0.5,40 --history h.bin" + options).code == 0);
         for (const std::string faces : {"777", "300", "40"}) {
             REQUIRE(run(folder, "simplify hill.glb own.glb --faces " + faces + options).code == 0);
-            REQUIRE(run(folder, "cut h.bin cut.glb --source hill.glb --bake none --force --faces " + faces)
-                        .code == 0);
+            REQUIRE(
+                run(folder, "truncate h.bin cut.glb --source hill.glb --bake none --force --faces " + faces)
+                    .code == 0);
             CHECK(read(folder / "cut.glb") == read(folder / "own.glb"));
         }
     }
 }
 
-TEST_CASE("cut takes the history of one run, and refuses what does not fit") {
+TEST_CASE("truncate takes the history of one run, and refuses what does not fit") {
     const Folder folder;
     faqem::save(sheet(16, 0.2), folder / "a.glb");
     faqem::save(sheet(12, 0.2), folder / "b.glb");
     REQUIRE(run(folder, "simplify a.glb light.glb --faces 80 --bake none --history h.bin").code == 0);
-    REQUIRE(run(folder, "cut h.bin cut.glb --faces 80 --source a.glb --bake none").code == 0);
+    REQUIRE(run(folder, "truncate h.bin cut.glb --faces 80 --source a.glb --bake none").code == 0);
     CHECK(read(folder / "cut.glb") == read(folder / "light.glb"));
     const auto refused = [&](const std::string& arguments) {
-        const Outcome outcome = run(folder, "cut " + arguments);
+        const Outcome outcome = run(folder, "truncate " + arguments);
         CHECK_FALSE(outcome.err.empty());
         return outcome.code;
     };

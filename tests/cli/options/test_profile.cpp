@@ -8,7 +8,7 @@
 #include "cli/commands/command_line.hpp"
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using namespace tool_test;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
@@ -27,7 +27,7 @@ Words added(const std::string& profile, Words words = {"simplify", "a", "b"}) {
     const Folder folder;
     write(folder / "p.json", profile);
     words.push_back("--config=" + (folder / "p.json").string());
-    const Words all = with_profile(tree(), words);
+    const Words all = expand_profile(tree(), words);
     CHECK(Words(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(words.size())) == words);
     return {all.begin() + static_cast<std::ptrdiff_t>(words.size()), all.end()};
 }
@@ -68,7 +68,7 @@ TEST_CASE("the command line beats the profile, also where options exclude each o
 TEST_CASE("without a profile the command line stays as it is") {
     for (const Words& words : {Words{}, Words{"simplify", "a", "b"}, Words{"info", "--config=p"},
                                Words{"simplify", "a", "--", "--config=p"}, Words{"simplify", "--config"}}) {
-        CHECK(with_profile(tree(), words) == words);
+        CHECK(expand_profile(tree(), words) == words);
     }
 }
 

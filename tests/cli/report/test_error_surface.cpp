@@ -7,7 +7,7 @@
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using faqem::Part;
 
 namespace {
@@ -53,11 +53,11 @@ TEST_CASE("each vertex has its distance to the other mesh") {
 
 TEST_CASE("a cut face shows the error between its corners") {
     const ErrorSurface corners = error_surface(square(0), roof(0.5), uncut);
-    CHECK(distance_of_share(corners, corners, 1) == Approx(0).margin(1e-12));
+    CHECK(distance_quantile(corners, corners, 1) == Approx(0).margin(1e-12));
     const ErrorSurface surface = error_surface(square(0), roof(0.5), 0.095);
     CHECK(longest_edge(surface) <= 0.095);
     // The middle of the square is nearest to the slopes, which rise by 0.5 over 1.
-    CHECK(distance_of_share(surface, surface, 1) == Approx(0.5 / std::sqrt(1.25)));
+    CHECK(distance_quantile(surface, surface, 1) == Approx(0.5 / std::sqrt(1.25)));
 }
 
 TEST_CASE("cut faces cover the same area, look the same way, and share their corners") {
@@ -88,13 +88,13 @@ TEST_CASE("the result does not depend on the number of threads") {
 
 TEST_CASE("a share of the vertices is within the distance of that share") {
     ErrorSurface a, b;
-    CHECK(distance_of_share(a, b, 0.5) == 0);
+    CHECK(distance_quantile(a, b, 0.5) == 0);
     a.distances = {4, 1};
     b.distances = {3, 2};
-    CHECK(distance_of_share(a, b, 0) == 1);
-    CHECK(distance_of_share(a, b, 0.5) == 2);
-    CHECK(distance_of_share(a, b, 0.51) == 3);
-    CHECK(distance_of_share(a, b, 1) == 4);
+    CHECK(distance_quantile(a, b, 0) == 1);
+    CHECK(distance_quantile(a, b, 0.5) == 2);
+    CHECK(distance_quantile(a, b, 0.51) == 3);
+    CHECK(distance_quantile(a, b, 1) == 4);
 }
 
 TEST_CASE("there is no distance to a mesh without area") {

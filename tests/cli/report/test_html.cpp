@@ -4,21 +4,21 @@
 
 #include "cli/report/base64.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 
 TEST_CASE("what means something in HTML is escaped") {
-    CHECK(escaped("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
-    CHECK(escaped("plain größe") == "plain größe");
+    CHECK(escape_html("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+    CHECK(escape_html("plain größe") == "plain größe");
 }
 
 TEST_CASE("names between signs are replaced, and values are not looked into") {
-    CHECK(filled("x @A@ y @B_2@", {{"A", "@B_2@"}, {"B_2", "2"}}) == "x @B_2@ y 2");
-    CHECK(filled("@media a@b @A@ @", {{"A", ""}}) == "@media a@b  @");
-    CHECK(filled("", {}).empty());
+    CHECK(fill_template("x @A@ y @B_2@", {{"A", "@B_2@"}, {"B_2", "2"}}) == "x @B_2@ y 2");
+    CHECK(fill_template("@media a@b @A@ @", {{"A", ""}}) == "@media a@b  @");
+    CHECK(fill_template("", {}).empty());
 }
 
 TEST_CASE("a table has headers on two sides, and its cells are escaped") {
-    CHECK(table("c<", {"", "t<"}, {{"r", "<1"}}) ==
+    CHECK(html_table("c<", {"", "t<"}, {{"r", "<1"}}) ==
           "<div><table>\n<caption>c&lt;</caption>\n<thead><tr><td></td><th "
           "scope=\"col\">t&lt;</th></tr></thead>\n"
           "<tbody>\n<tr><th scope=\"row\">r</th><td>&lt;1</td></tr>\n</tbody>\n</table></div>\n");

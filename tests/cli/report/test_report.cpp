@@ -8,7 +8,7 @@
 #include "cli/report/viewer_model.hpp"
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using namespace tool_test;
 
 namespace {
@@ -85,11 +85,11 @@ TEST_CASE("a report is not written over a file, nor under another ending") {
 }
 
 TEST_CASE("the model of the view is near the origin, of about unit size, with its errors") {
-    PlacedModel model{"a.glb", sheet(1, 0), {}};
+    FlattenedModel model{"a.glb", sheet(1, 0), {}};
     for (faqem::Vec3& p : model.asset.parts[0].positions) p[0] += 1e6;
     model.flat = model.asset.parts[0];
     ErrorSurface error{model.flat.positions, model.flat.triangles, {0, 1, 2, 4}};
-    const std::vector<std::uint8_t> bytes = view_model(model, error, {{1e6, 0, 0}, 2});
+    const std::vector<std::uint8_t> bytes = viewer_glb(model, error, {{1e6, 0, 0}, 2});
     const faqem::Asset read = faqem::detail::read_gltf(bytes, "view.glb");
     REQUIRE(read.parts.size() == 2);
     CHECK(read.parts[0].name == "look");

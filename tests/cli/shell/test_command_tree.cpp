@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
-#include "faqem/error.hpp"
 #include "cli/commands/command_line.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "faqem/error.hpp"
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 
 namespace {
 
@@ -44,7 +44,7 @@ TEST_CASE("every command and option is described, and every value has a name") {
         for (const OptionInfo& option : command.options) {
             CAPTURE(option.names);
             CHECK(!option.description.empty());
-            for (const char* type : {"TEXT", "FLOAT", "UINT", "INT"}) CHECK(option.value != type);
+            for (const char* type : {"TEXT", "FLOAT", "UINT", "INT"}) CHECK(option.value_name != type);
         }
     }
 }

@@ -39,8 +39,8 @@ using Words = std::set<std::string>;
 }  // namespace
 
 TEST_CASE("bash completes commands, options and values") {
-    CHECK(in_bash("''", 1) == Words{"simplify", "lod", "cut", "batch", "info", "compare", "render", "report",
-                                    "completion", "man"});
+    CHECK(in_bash("''", 1) == Words{"simplify", "lod", "truncate", "batch", "info", "compare", "render",
+                                    "report", "completion", "man"});
     CHECK(in_bash("co", 1) == Words{"compare", "completion"});
     CHECK(in_bash("--v", 1) == Words{"--version"});
     CHECK(in_bash("simplify a.glb --textu", 3) == Words{"--texture-size"});

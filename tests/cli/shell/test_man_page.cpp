@@ -6,9 +6,9 @@
 #include "support/cli_support.hpp"
 
 TEST_CASE("what troff would take for its own is escaped") {
-    faqem::tool::CommandTree tree;
+    faqem::cli::CommandTree tree;
     tree.description = ".first\n'second\na\\b-c";
-    const std::string page = faqem::tool::man_page(tree, "1.2.3");
+    const std::string page = faqem::cli::man_page(tree, "1.2.3");
     CHECK(page.find("\n\\&.first\n\\&'second\na\\eb\\-c\n") != std::string::npos);
     CHECK(page.find(".TH FAQEM 1 \"\" \"faqem 1.2.3\"") == 0);
 }
@@ -20,7 +20,7 @@ TEST_CASE("the manual has every command with its options, the exit codes and exa
     for (const char* text :
          {".SS \\fBfaqem simplify\\fR \\fIIN\\fR \\fIOUT\\fR\n", "\\fB\\-\\-max\\-error\\fR \\fILENGTH\\fR\n",
           "\\fB\\-\\-normal\\-map\\fR auto|on|off\n", "\\fB\\-h\\fR, \\fB\\-\\-help\\fR\n",
-          ".SH EXIT STATUS\n", "8 cancelled", "faqem cut statue.history"}) {
+          ".SH EXIT STATUS\n", "8 cancelled", "faqem truncate statue.history"}) {
         CAPTURE(text);
         CHECK(outcome.out.find(text) != std::string::npos);
     }

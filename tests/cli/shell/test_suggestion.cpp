@@ -4,7 +4,7 @@
 
 #include "support/cli_support.hpp"
 
-using namespace faqem::tool;
+using namespace faqem::cli;
 using tool_test::Folder;
 
 TEST_CASE("edit distances are those of the textbook") {

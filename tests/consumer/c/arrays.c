@@ -18,8 +18,10 @@ int main(void) {
             *t++ = a, *t++ = b, *t++ = b + 1, *t++ = a, *t++ = b + 1, *t++ = a + 1;
         }
     }
-    const faqem_mesh mesh = {.positions = positions, .vertex_count = (side + 1) * (side + 1),
-                             .triangles = triangles, .face_count = 2 * side * side};
+    const faqem_mesh mesh = {.positions = positions,
+                             .vertex_count = (side + 1) * (side + 1),
+                             .triangles = triangles,
+                             .face_count = 2 * side * side};
     faqem_result* result = NULL;
     faqem_error error;
     if (faqem_simplify(&mesh, NULL, &result, &error) != FAQEM_OK) {

@@ -12,7 +12,9 @@ namespace {
 
 struct Bench {
     explicit Bench(const TriangleMesh& mesh)
-        : complex(test::complex_of(mesh)), pairs(complex, {}), borders(complex, pairs) {}
+        : collapse_mesh(test::collapse_mesh_of(mesh)),
+          pairs(collapse_mesh, {}),
+          borders(collapse_mesh, pairs) {}
 
     Index pair(Index u, Index v) const {
         Index found = no_index;
@@ -22,20 +24,20 @@ struct Bench {
         return found;
     }
     double squared_distance(Index u, Index v) {
-        return borders.squared_distance(complex, pairs, u, v, pair(u, v));
+        return borders.squared_distance(collapse_mesh, pairs, u, v, pair(u, v));
     }
     void collapse(Index u, Index v) {
-        borders.collapsing(pairs, u, v, pair(u, v));
-        complex.collapse(u, v, complex.position(u));
+        borders.before_collapse(pairs, u, v, pair(u, v));
+        collapse_mesh.collapse(u, v, collapse_mesh.position(u));
         std::vector<Index> killed;
         std::vector<PairTable::Change> changes;
-        pairs.merge(complex, u, v, killed, changes);
-        borders.collapsed(complex, pairs, u);
+        pairs.merge(collapse_mesh, u, v, killed, changes);
+        borders.after_collapse(collapse_mesh, pairs, u);
     }
 
-    Complex complex;
+    CollapseMesh collapse_mesh;
     PairTable pairs;
-    BorderLoops borders;
+    BoundaryLoops borders;
 };
 
 // A triangle in the plane x, its first vertex on the x axis and nearest to those of others.

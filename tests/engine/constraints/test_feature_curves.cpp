@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "support/meshes.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -18,18 +18,20 @@ struct Map {
     Map(TriangleMesh m, std::vector<Index> g, const std::vector<std::pair<Index, Index>>& extra = {})
         : mesh(std::move(m)),
           groups(std::move(g)),
-          complex(test::complex_of(mesh)),
-          pairs(complex, extra),
-          curves(complex, groups) {}
+          collapse_mesh(test::collapse_mesh_of(mesh)),
+          pairs(collapse_mesh, extra),
+          curves(collapse_mesh, groups) {}
     Map(const Map&) = delete;
 
-    Freedom freedom(Index u, Index v) { return curves.freedom(complex, pairs, u, v); }
+    AllowedPosition allowed_position(Index u, Index v) {
+        return curves.allowed_position(collapse_mesh, pairs, u, v);
+    }
 
     TriangleMesh mesh;
     std::vector<Index> groups;
-    Complex complex;
+    CollapseMesh collapse_mesh;
     PairTable pairs;
-    GroupCurves curves;
+    FeatureCurves curves;
 };
 
 // grid(n) with the group of each square; vertex x + (n + 1) y, square x + n y is faces 2 (x + n y) and the
@@ -92,7 +94,7 @@ Options keeping(double keep, Preset preset = Preset::balanced) {
     Options options;
     options.target = ratio(keep);
     options.preset = preset;
-    options.topology.group_borders = GroupBorders::kept;
+    options.topology.group_boundaries = GroupBoundaries::kept;
     return options;
 }
 
@@ -112,13 +114,13 @@ TriangleMesh octants(int level) {
 }  // namespace
 
 TEST_CASE("without groups, or with one, there are no curves and no rule") {
-    GroupCurves none;
+    FeatureCurves none;
     CHECK(none.empty());
-    CHECK(!none.has(0));
-    CHECK(!none.differ(0, 1));
+    CHECK(!none.has_vertex(0));
+    CHECK(!none.are_different_groups(0, 1));
     Map one(test::grid(2), std::vector<Index>(8, 7));
     CHECK(one.curves.empty());
-    CHECK(one.freedom(0, 1) == Freedom::anywhere);
+    CHECK(one.allowed_position(0, 1) == AllowedPosition::anywhere);
     // Groups on parts that do not touch have no curve either.
     Map apart(test::both(test::quad(), test::moved(test::quad(), {2, 0, 0})), {0, 0, 1, 1});
     CHECK(apart.curves.empty());
@@ -127,18 +129,18 @@ TEST_CASE("without groups, or with one, there are no curves and no rule") {
 TEST_CASE("next to a curve, the curve stays and the inside comes to it") {
     // Columns of a 4 x 4 grid, the two on the left against the two on the right: the curve is x = 2.
     Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
-    for (Index v = 0; v < 25; ++v) CHECK(map.curves.has(v) == (v % 5 == 2));
-    CHECK(map.freedom(11, 12) == Freedom::at_second);
-    CHECK(map.freedom(12, 13) == Freedom::at_first);
-    CHECK(map.freedom(10, 11) == Freedom::anywhere);
-    CHECK(map.freedom(7, 12) == Freedom::anywhere);
+    for (Index v = 0; v < 25; ++v) CHECK(map.curves.has_vertex(v) == (v % 5 == 2));
+    CHECK(map.allowed_position(11, 12) == AllowedPosition::at_second);
+    CHECK(map.allowed_position(12, 13) == AllowedPosition::at_first);
+    CHECK(map.allowed_position(10, 11) == AllowedPosition::anywhere);
+    CHECK(map.allowed_position(7, 12) == AllowedPosition::anywhere);
 }
 
 TEST_CASE("where a curve ends at an open border, it stays") {
     Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
-    CHECK(map.freedom(2, 7) == Freedom::at_first);
-    CHECK(map.freedom(7, 2) == Freedom::at_second);
-    CHECK(map.freedom(1, 2) == Freedom::at_second);
+    CHECK(map.allowed_position(2, 7) == AllowedPosition::at_first);
+    CHECK(map.allowed_position(7, 2) == AllowedPosition::at_second);
+    CHECK(map.allowed_position(1, 2) == AllowedPosition::at_second);
 }
 
 TEST_CASE("where three groups or four curves meet, the place stays") {
@@ -149,37 +151,37 @@ TEST_CASE("where three groups or four curves meet, the place stays") {
                     const Index right = x / 2, upper = y / 2;
                     return cross ? (right + upper) % 2 : right + right * upper;
                 }));
-        CHECK(map.freedom(12, 17) == Freedom::at_first);
-        CHECK(map.freedom(7, 12) == Freedom::at_second);
-        CHECK(map.freedom(12, 13) == Freedom::at_first);
+        CHECK(map.allowed_position(12, 17) == AllowedPosition::at_first);
+        CHECK(map.allowed_position(7, 12) == AllowedPosition::at_second);
+        CHECK(map.allowed_position(12, 13) == AllowedPosition::at_first);
     }
 }
 
 TEST_CASE("two curves are not joined, nor is one shortcut") {
     // Three stripes, the middle one a square wide.
     Map stripes(test::grid(3), squares(3, [](Index x, Index) { return x; }));
-    CHECK(stripes.freedom(5, 6) == Freedom::nowhere);
-    CHECK(stripes.freedom(6, 5) == Freedom::nowhere);
-    CHECK(stripes.freedom(5, 9) == Freedom::anywhere);
+    CHECK(stripes.allowed_position(5, 6) == AllowedPosition::nowhere);
+    CHECK(stripes.allowed_position(6, 5) == AllowedPosition::nowhere);
+    CHECK(stripes.allowed_position(5, 9) == AllowedPosition::anywhere);
 }
 
 TEST_CASE("the last triangle of a group stays") {
     // The lower right triangle of the middle square of 3 x 3.
     Map map(test::grid(3), one_of(18, 8));
     for (const auto& [u, v] : {std::pair<Index, Index>{5, 6}, {6, 10}, {5, 10}}) {
-        CHECK(map.freedom(u, v) == Freedom::nowhere);
-        CHECK(map.freedom(v, u) == Freedom::nowhere);
+        CHECK(map.allowed_position(u, v) == AllowedPosition::nowhere);
+        CHECK(map.allowed_position(v, u) == AllowedPosition::nowhere);
     }
-    CHECK(map.freedom(1, 5) == Freedom::at_second);
+    CHECK(map.allowed_position(1, 5) == AllowedPosition::at_second);
 }
 
 TEST_CASE("a triangle in the angle between a curve and an open border stays") {
     // The triangle 0 1 5 of grid(3) against all others: collapsing its inner edge would end the curve
     // elsewhere.
     Map map(test::grid(3), one_of(18, 0));
-    CHECK(map.freedom(0, 1) == Freedom::nowhere);
-    CHECK(map.freedom(1, 5) == Freedom::nowhere);
-    CHECK(map.freedom(0, 5) == Freedom::nowhere);
+    CHECK(map.allowed_position(0, 1) == AllowedPosition::nowhere);
+    CHECK(map.allowed_position(1, 5) == AllowedPosition::nowhere);
+    CHECK(map.allowed_position(0, 5) == AllowedPosition::nowhere);
 }
 
 TEST_CASE("sheets of two groups back to back have no curve between them") {
@@ -193,16 +195,16 @@ TEST_CASE("sheets of two groups back to back have no curve between them") {
         all.insert(all.end(), 32, 1);
         return all;
     }());
-    CHECK(two.freedom(6, 7) == Freedom::anywhere);
-    CHECK(two.freedom(12, 18) == Freedom::anywhere);
+    CHECK(two.allowed_position(6, 7) == AllowedPosition::anywhere);
+    CHECK(two.allowed_position(12, 18) == AllowedPosition::anywhere);
     const std::vector<Index> back = squares(4, [](Index x, Index) { return 1 + x / 2; });
     groups.insert(groups.end(), back.begin(), back.end());
     Map three(mesh, groups);
-    CHECK(three.freedom(6, 7) == Freedom::at_second);
-    CHECK(three.freedom(7, 12) == Freedom::anywhere);
-    CHECK(three.freedom(8, 13) == Freedom::anywhere);
+    CHECK(three.allowed_position(6, 7) == AllowedPosition::at_second);
+    CHECK(three.allowed_position(7, 12) == AllowedPosition::anywhere);
+    CHECK(three.allowed_position(8, 13) == AllowedPosition::anywhere);
     std::size_t seen = 0;
-    three.curves.for_each_edge(three.complex, 12, [&](Index, Index n) {
+    three.curves.for_each_curve_edge(three.collapse_mesh, 12, [&](Index, Index n) {
         CHECK((n == 7 || n == 17));
         ++seen;
     });
@@ -214,23 +216,23 @@ TEST_CASE("virtual pairs do not join groups, nor touch a curve") {
     std::vector<Index> groups = squares(2, [](Index x, Index) { return x; });
     groups.insert(groups.end(), 2, Index{1});
     Map map(mesh, groups, {{5, 9}, {3, 9}, {4, 9}});
-    CHECK(map.freedom(5, 9) == Freedom::anywhere);
-    CHECK(map.freedom(3, 9) == Freedom::nowhere);
-    CHECK(map.freedom(4, 9) == Freedom::nowhere);
+    CHECK(map.allowed_position(5, 9) == AllowedPosition::anywhere);
+    CHECK(map.allowed_position(3, 9) == AllowedPosition::nowhere);
+    CHECK(map.allowed_position(4, 9) == AllowedPosition::nowhere);
 }
 
 TEST_CASE("what is joined with a curve is on it") {
     Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
-    map.curves.collapsing(0, 1);
-    CHECK(map.curves.has(0));
-    map.curves.collapsing(2, 5);
-    CHECK(!map.curves.has(2));
+    map.curves.before_collapse(0, 1);
+    CHECK(map.curves.has_vertex(0));
+    map.curves.before_collapse(2, 5);
+    CHECK(!map.curves.has_vertex(2));
 }
 
 TEST_CASE("each face on an edge of a curve is shown") {
     const Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
     std::multiset<std::pair<Index, Index>> seen;
-    map.curves.for_each_edge(map.complex, 4, [&](Index f, Index n) { seen.insert({f, n}); });
+    map.curves.for_each_curve_edge(map.collapse_mesh, 4, [&](Index f, Index n) { seen.insert({f, n}); });
     // Up and down from the middle; a face of either side each.
     CHECK(seen == std::multiset<std::pair<Index, Index>>{{0, 1}, {3, 1}, {4, 7}, {7, 7}});
 }

@@ -16,11 +16,11 @@ constexpr Rules flip_only = {LinkCondition::off, 0, 0};
 
 std::optional<Refusal> verdict(const TriangleMesh& mesh, Index u, Index v, const Vector3& p,
                                const Rules& rules) {
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         if (std::minmax(pairs.first(pair), pairs.second(pair)) == std::minmax(u, v))
-            return Legality(complex).check(complex, pairs, u, v, pair, p, rules);
+            return Legality(collapse_mesh).check(collapse_mesh, pairs, u, v, pair, p, rules);
     }
     throw std::logic_error("no such edge");
 }
@@ -122,19 +122,19 @@ bool keeps_counts(const std::vector<Triangle>& triangles, const test::Edges& edg
 
 // Each pair of the mesh against the definitions; counts the verdicts of both kinds.
 bool agrees_everywhere(const TriangleMesh& mesh, int (&count)[2][2]) {
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     const test::Edges edges = test::edges(mesh.triangles);
-    Legality legality(complex);
+    Legality legality(collapse_mesh);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         const Index u = pairs.first(pair), v = pairs.second(pair);
         const bool manifold =
             edges.at(std::minmax(u, v)) <= 2 && locally_manifold(edges, u) && locally_manifold(edges, v);
         const bool expected = manifold ? keeps_topology(mesh.triangles, edges, u, v)
                                        : keeps_counts(mesh.triangles, edges, u, v);
-        const Vector3 p = 0.4 * complex.position(u) + 0.6 * complex.position(v);
+        const Vector3 p = 0.4 * collapse_mesh.position(u) + 0.6 * collapse_mesh.position(v);
         ++count[manifold][expected];
-        const auto refusal = legality.check(complex, pairs, u, v, pair, p, link_only);
+        const auto refusal = legality.check(collapse_mesh, pairs, u, v, pair, p, link_only);
         if (refusal == Refusal::degenerate) continue;
         if ((refusal == Refusal::link) == expected) return false;
     }

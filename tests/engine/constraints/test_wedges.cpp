@@ -30,29 +30,29 @@ CornerAttributes charts(const TriangleMesh& mesh, const std::vector<int>& chart)
 //   0 - 1 - 2
 struct Split {
     TriangleMesh mesh = test::grid(2);
-    Complex complex = test::complex_of(mesh);
-    Wedges wedges{complex, charts(mesh, {0, 0, 1, 1, 0, 0, 1, 1})};
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges{collapse_mesh, charts(mesh, {0, 0, 1, 1, 0, 0, 1, 1})};
 };
 
-unsigned corner_of(const Complex& complex, Index f, Index v) {
-    const Triangle& t = complex.triangle(f);
+unsigned corner_of(const CollapseMesh& collapse_mesh, Index f, Index v) {
+    const Triangle& t = collapse_mesh.triangle(f);
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
 }  // namespace
 
 TEST_CASE("without attributes there is no rule and nothing to keep") {
-    const Complex complex = test::complex_of(test::quad());
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::quad());
     Wedges none;
     CHECK(none.empty());
     CHECK(none.width() == 0);
-    CHECK(none.freedom(complex, 0, 2) == Freedom::anywhere);
-    none.collapsing(complex, 0, 2, {0.5, 0.5, 0});
+    CHECK(none.allowed_position(collapse_mesh, 0, 2) == AllowedPosition::anywhere);
+    none.before_collapse(collapse_mesh, 0, 2, {0.5, 0.5, 0});
 }
 
 TEST_CASE("corners with equal values share a wedge, a vertex with two is on a seam") {
     const Split split;
-    for (Index v = 0; v < 9; ++v) CHECK(split.wedges.is_seam(split.complex, v) == (v % 3 == 1));
+    for (Index v = 0; v < 9; ++v) CHECK(split.wedges.is_seam(split.collapse_mesh, v) == (v % 3 == 1));
     CHECK(split.wedges.width() == 2);
     CHECK(split.wedges.values(3, 1)[0] == 12);
     CHECK(split.wedges.values(3, 1)[1] == 1);
@@ -60,15 +60,15 @@ TEST_CASE("corners with equal values share a wedge, a vertex with two is on a se
 
 TEST_CASE("next to a seam, the seam stays and the inside comes to it") {
     Split split;
-    CHECK(split.wedges.freedom(split.complex, 3, 4) == Freedom::at_second);
-    CHECK(split.wedges.freedom(split.complex, 4, 3) == Freedom::at_first);
-    CHECK(split.wedges.freedom(split.complex, 4, 5) == Freedom::at_first);
-    CHECK(split.wedges.freedom(split.complex, 0, 3) == Freedom::anywhere);
+    CHECK(split.wedges.allowed_position(split.collapse_mesh, 3, 4) == AllowedPosition::at_second);
+    CHECK(split.wedges.allowed_position(split.collapse_mesh, 4, 3) == AllowedPosition::at_first);
+    CHECK(split.wedges.allowed_position(split.collapse_mesh, 4, 5) == AllowedPosition::at_first);
+    CHECK(split.wedges.allowed_position(split.collapse_mesh, 0, 3) == AllowedPosition::anywhere);
 }
 
 TEST_CASE("along a seam a pair may go anywhere") {
     Split split;
-    CHECK(split.wedges.freedom(split.complex, 1, 4) == Freedom::anywhere);
+    CHECK(split.wedges.allowed_position(split.collapse_mesh, 1, 4) == AllowedPosition::anywhere);
 }
 
 TEST_CASE("two seams are not pulled into one") {
@@ -76,59 +76,59 @@ TEST_CASE("two seams are not pulled into one") {
     const TriangleMesh mesh = test::grid(3);
     std::vector<int> chart;
     for (int f = 0; f < 18; ++f) chart.push_back(f / 2 % 3);
-    const Complex complex = test::complex_of(mesh);
-    Wedges wedges(complex, charts(mesh, chart));
-    CHECK(wedges.freedom(complex, 5, 6) == Freedom::nowhere);
-    CHECK(wedges.freedom(complex, 5, 9) == Freedom::anywhere);
-    CHECK(wedges.freedom(complex, 4, 5) == Freedom::at_second);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges(collapse_mesh, charts(mesh, chart));
+    CHECK(wedges.allowed_position(collapse_mesh, 5, 6) == AllowedPosition::nowhere);
+    CHECK(wedges.allowed_position(collapse_mesh, 5, 9) == AllowedPosition::anywhere);
+    CHECK(wedges.allowed_position(collapse_mesh, 4, 5) == AllowedPosition::at_second);
 }
 
 TEST_CASE("a seam is not shortened from the end it peters out in") {
     // Two triangles on the edge 0-1 that agree at 0 only: joining 0 and 1 would glue the two sides of 1.
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}});
-    const Complex complex = test::complex_of(mesh);
-    Wedges wedges(complex, {{0, 1, 2, 9, 0, 3}, 1});
-    CHECK_FALSE(wedges.is_seam(complex, 0));
-    CHECK(wedges.is_seam(complex, 1));
-    CHECK(wedges.freedom(complex, 0, 1) == Freedom::nowhere);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges(collapse_mesh, {{0, 1, 2, 9, 0, 3}, 1});
+    CHECK_FALSE(wedges.is_seam(collapse_mesh, 0));
+    CHECK(wedges.is_seam(collapse_mesh, 1));
+    CHECK(wedges.allowed_position(collapse_mesh, 0, 1) == AllowedPosition::nowhere);
 }
 
 TEST_CASE("parts that share no face cannot be joined without tearing") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {2, 0, 0}));
-    const Complex complex = test::complex_of(mesh);
-    Wedges wedges(complex, charts(mesh, {0, 0, 0, 0}));
-    CHECK(wedges.freedom(complex, 1, 4) == Freedom::nowhere);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges(collapse_mesh, charts(mesh, {0, 0, 0, 0}));
+    CHECK(wedges.allowed_position(collapse_mesh, 1, 4) == AllowedPosition::nowhere);
 }
 
 TEST_CASE("values at the new vertex are those of the surface there, on each side of the seam") {
     Split split;
     const Vector3 p(1, 0.25, 0);
-    split.wedges.collapsing(split.complex, 4, 1, p);
-    split.complex.collapse(4, 1, p);
+    split.wedges.before_collapse(split.collapse_mesh, 4, 1, p);
+    split.collapse_mesh.collapse(4, 1, p);
     std::size_t faces = 0;
-    split.complex.for_each_face(4, [&](Index f, unsigned corner) {
+    split.collapse_mesh.for_each_face(4, [&](Index f, unsigned corner) {
         const bool right = f / 2 % 2 == 1;
         CHECK(split.wedges.values(f, corner)[0] == (right ? 11 : 1));
         CHECK(split.wedges.values(f, corner)[1] == 0.25f);
         ++faces;
     });
     CHECK(faces == 5);
-    CHECK(split.wedges.is_seam(split.complex, 4));
+    CHECK(split.wedges.is_seam(split.collapse_mesh, 4));
 }
 
 TEST_CASE("inside a chart, a point off both ends is interpolated in the face it lies on") {
     TriangleMesh mesh = test::grid(2);
-    Complex complex = test::complex_of(mesh);
-    Wedges wedges(complex, charts(mesh, std::vector<int>(8, 0)));
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges(collapse_mesh, charts(mesh, std::vector<int>(8, 0)));
     const Vector3 p(0.75, 0.5, 0);
-    wedges.collapsing(complex, 4, 0, p);
-    complex.collapse(4, 0, p);
-    complex.for_each_face(4, [&](Index f, unsigned corner) {
+    wedges.before_collapse(collapse_mesh, 4, 0, p);
+    collapse_mesh.collapse(4, 0, p);
+    collapse_mesh.for_each_face(4, [&](Index f, unsigned corner) {
         CHECK(wedges.values(f, corner)[0] == 0.75f);
         CHECK(wedges.values(f, corner)[1] == 0.5f);
     });
-    CHECK_FALSE(wedges.is_seam(complex, 4));
+    CHECK_FALSE(wedges.is_seam(collapse_mesh, 4));
 }
 
 TEST_CASE("corners at a vertex that did not move keep their values to the last bit") {
@@ -143,23 +143,23 @@ TEST_CASE("corners at a vertex that did not move keep their values to the last b
         for (Index f = 0; f < 8; ++f) {
             for (const Index v : mesh.triangles[f]) uv.values.push_back(value[v + 9 * (f / 2 % 2)]);
         }
-        Complex complex = test::complex_of(mesh);
-        Wedges wedges(complex, uv);
+        CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+        Wedges wedges(collapse_mesh, uv);
         // 3 goes to 4, which stays; gone or survivor, whichever way round.
         const bool swapped = round % 2;
         const Index survivor = swapped ? 3 : 4, gone = swapped ? 4 : 3;
-        const Vector3 p = complex.position(4);
-        wedges.collapsing(complex, survivor, gone, p);
-        complex.collapse(survivor, gone, p);
+        const Vector3 p = collapse_mesh.position(4);
+        wedges.before_collapse(collapse_mesh, survivor, gone, p);
+        collapse_mesh.collapse(survivor, gone, p);
         bool same = true;
-        complex.for_each_face(survivor, [&](Index f, unsigned corner) {
+        collapse_mesh.for_each_face(survivor, [&](Index f, unsigned corner) {
             const Index was = mesh.triangles[f][corner];
             same = same && *wedges.values(f, corner) == value[4 + 9 * (f / 2 % 2)];
-            same = same && (was == 3 || was == 4) && corner_of(complex, f, survivor) == corner;
+            same = same && (was == 3 || was == 4) && corner_of(collapse_mesh, f, survivor) == corner;
         });
         for (Index f = 0; f < 8; ++f) {
-            for (unsigned corner = 0; corner < 3 && complex.alive(f); ++corner) {
-                const Index v = complex.triangle(f)[corner];
+            for (unsigned corner = 0; corner < 3 && collapse_mesh.is_alive(f); ++corner) {
+                const Index v = collapse_mesh.triangle(f)[corner];
                 if (v != survivor) same = same && *wedges.values(f, corner) == value[v + 9 * (f / 2 % 2)];
             }
         }
@@ -171,10 +171,10 @@ TEST_CASE("where all faces are without area, each joined wedge keeps a value of 
     // Four faces on one line; the seam runs along it, so that two wedges are joined.
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {1, 0, 3}});
-    const Complex complex = test::complex_of(mesh);
-    Wedges wedges(complex, {{1, 2, 3, 12, 11, 13}, 1});
-    REQUIRE(wedges.freedom(complex, 0, 1) == Freedom::anywhere);
-    wedges.collapsing(complex, 0, 1, {0.5, 0, 0});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    Wedges wedges(collapse_mesh, {{1, 2, 3, 12, 11, 13}, 1});
+    REQUIRE(wedges.allowed_position(collapse_mesh, 0, 1) == AllowedPosition::anywhere);
+    wedges.before_collapse(collapse_mesh, 0, 1, {0.5, 0, 0});
     // Face 0 has the first wedge of 0, face 1 the second.
     CHECK(wedges.values(0, 0)[0] < 5);
     CHECK(wedges.values(1, 1)[0] > 5);

@@ -13,9 +13,9 @@ namespace {
 
 using Found = std::set<std::tuple<Index, std::uint32_t, std::uint32_t>>;
 
-Found open_after(const Complex& complex, const PairTable& pairs, Index u, Index v) {
+Found open_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
     Found found;
-    for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
+    for_each_boundary_edge_after(mesh, pairs, u, v, [&](const BoundaryEdge& edge) {
         CHECK(found.insert({edge.vertex, edge.with_u, edge.with_v}).second);
     });
     return found;
@@ -27,29 +27,29 @@ TEST_CASE("open edges: of a square of two triangles when its lower side collapse
     // 3---2
     // | / |
     // 0---1
-    const Complex complex = test::complex_of(test::quad());
-    const PairTable pairs(complex, {});
-    CHECK(open_after(complex, pairs, 0, 1) == Found{{2, 2, 1}, {3, 1, 0}});
-    CHECK(open_after(complex, pairs, 1, 0) == Found{{2, 1, 2}, {3, 0, 1}});
-    CHECK(open_after(complex, pairs, 0, 2).empty());
+    const CollapseMesh mesh = test::collapse_mesh_of(test::quad());
+    const PairTable pairs(mesh, {});
+    CHECK(open_after(mesh, pairs, 0, 1) == Found{{2, 2, 1}, {3, 1, 0}});
+    CHECK(open_after(mesh, pairs, 1, 0) == Found{{2, 1, 2}, {3, 0, 1}});
+    CHECK(open_after(mesh, pairs, 0, 2).empty());
 }
 
 TEST_CASE("open edges: foretold for every pair of a soup, they are those that the collapse leaves") {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const TriangleMesh soup = test::soup(seed, 20, 40);
-        const Complex complex = test::complex_of(soup);
-        const PairTable pairs(complex, {});
+        const CollapseMesh mesh = test::collapse_mesh_of(soup);
+        const PairTable pairs(mesh, {});
         for (Index pair = 0; pair < pairs.size(); ++pair) {
             const Index u = pairs.first(pair), v = pairs.second(pair);
             std::set<Index> foretold, left;
-            for (const auto& [vertex, with_u, with_v] : open_after(complex, pairs, u, v)) {
+            for (const auto& [vertex, with_u, with_v] : open_after(mesh, pairs, u, v)) {
                 foretold.insert(vertex);
             }
-            Complex after = complex;
+            CollapseMesh after = mesh;
             PairTable pairs_after = pairs;
             std::vector<Index> killed;
             std::vector<PairTable::Change> changes;
-            after.collapse(u, v, complex.position(u));
+            after.collapse(u, v, mesh.position(u));
             pairs_after.merge(after, u, v, killed, changes);
             pairs_after.for_each_pair(u, [&](Neighbour n) {
                 if (pairs_after.face_count(n.pair) == 1) left.insert(n.vertex);
@@ -61,16 +61,16 @@ TEST_CASE("open edges: foretold for every pair of a soup, they are those that th
 
 TEST_CASE("open edges: of a book of three pages all but its spine, in order") {
     const TriangleMesh book = test::book();
-    const Complex complex = test::complex_of(book);
-    const PairTable pairs(complex, {});
+    const CollapseMesh mesh = test::collapse_mesh_of(book);
+    const PairTable pairs(mesh, {});
     std::vector<std::array<Index, 2>> expected;
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         const auto [a, b] = std::minmax({pairs.first(pair), pairs.second(pair)});
         if (pairs.face_count(pair) == 1) expected.push_back({a, b});
     }
     std::sort(expected.begin(), expected.end());
-    CHECK(find_open_edges(book.triangles, book.positions.size()) == expected);
+    CHECK(find_boundary_edges(book.triangles, book.positions.size()) == expected);
     CHECK(expected.size() == 6);
-    CHECK(find_open_edges(test::tetrahedron().triangles, 4).empty());
-    CHECK(find_open_edges({}, 0).empty());
+    CHECK(find_boundary_edges(test::tetrahedron().triangles, 4).empty());
+    CHECK(find_boundary_edges({}, 0).empty());
 }

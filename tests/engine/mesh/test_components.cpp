@@ -10,14 +10,14 @@ using namespace faqem;
 using namespace faqem::engine;
 
 TEST_CASE("faces joined by one vertex are one component, faces that only lie close are two") {
-    CHECK(components(test::complex_of(test::bow_tie())).size() == 1);
-    CHECK(components(test::complex_of(test::both(test::quad(), test::quad()))).size() == 2);
+    CHECK(components(test::collapse_mesh_of(test::bow_tie())).size() == 1);
+    CHECK(components(test::collapse_mesh_of(test::both(test::quad(), test::quad()))).size() == 2);
 }
 
 TEST_CASE("components come by their smallest face, with their faces and boxes") {
     TriangleMesh mesh = test::both(test::quad(), test::moved(test::scaled(test::quad(), 2), {5, 5, 5}));
     std::swap(mesh.triangles[0], mesh.triangles[2]);  // faces 1, 2 of the first; 0, 3 of the second
-    const auto parts = components(test::complex_of(mesh));
+    const auto parts = components(test::collapse_mesh_of(mesh));
     REQUIRE(parts.size() == 2);
     CHECK(parts[0].faces == std::vector<Index>{0, 3});
     CHECK(parts[1].faces == std::vector<Index>{1, 2});
@@ -27,17 +27,17 @@ TEST_CASE("components come by their smallest face, with their faces and boxes") 
 }
 
 TEST_CASE("dead faces join nothing") {
-    Complex complex = test::complex_of(test::grid(1));
-    CHECK(components(complex).size() == 1);
-    Complex strip = test::complex_of(test::cylinder(8, 1, 1));
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(test::grid(1));
+    CHECK(components(collapse_mesh).size() == 1);
+    CollapseMesh strip = test::collapse_mesh_of(test::cylinder(8, 1, 1));
     strip.remove_face(0);
     strip.remove_face(1);
     strip.remove_face(8);
     strip.remove_face(9);
     CHECK(components(strip).size() == 2);
-    complex.remove_face(0);
-    complex.remove_face(1);
-    CHECK(components(complex).empty());
+    collapse_mesh.remove_face(0);
+    collapse_mesh.remove_face(1);
+    CHECK(components(collapse_mesh).empty());
 }
 
 TEST_CASE("expendable are the small components: not the largest, none with a locked vertex, smallest first") {
@@ -45,12 +45,12 @@ TEST_CASE("expendable are the small components: not the largest, none with a loc
     const auto quad_of = [](double size, double at) {
         return test::moved(test::scaled(test::quad(), size), {at, 0, 0});
     };
-    const Complex complex = test::complex_of(
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::both(test::both(quad_of(3, 0), quad_of(1, 10)), test::both(quad_of(4, 20), quad_of(2, 30))));
-    std::vector<std::uint8_t> locked(complex.vertex_slots(), 0);
+    std::vector<std::uint8_t> locked(collapse_mesh.vertex_slots(), 0);
     const auto first_faces = [&](double largest_diagonal) {
         std::vector<Index> faces;
-        for (const Component& c : expendable_components(complex, locked, largest_diagonal))
+        for (const Component& c : removable_components(collapse_mesh, locked, largest_diagonal))
             faces.push_back(c.faces[0]);
         return faces;
     };
@@ -66,10 +66,10 @@ TEST_CASE("a long component without area is the most expendable") {
     TriangleMesh line;
     line.positions = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
     line.triangles = {{0, 1, 2}};
-    const Complex complex = test::complex_of(
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::both(test::both(test::quad(), line), test::moved(test::scaled(test::quad(), 2), {0, 5, 0})));
-    const std::vector<std::uint8_t> locked(complex.vertex_slots(), 0);
-    const auto found = expendable_components(complex, locked, 100);
+    const std::vector<std::uint8_t> locked(collapse_mesh.vertex_slots(), 0);
+    const auto found = removable_components(collapse_mesh, locked, 100);
     REQUIRE(found.size() == 2);
     CHECK(found[0].faces == std::vector<Index>{2});
     CHECK(found[1].faces == std::vector<Index>{0, 1});

@@ -5,20 +5,20 @@
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using engine::List;
-using engine::Lists;
+using engine::IndexList;
+using engine::IndexLists;
 
 namespace {
 
-std::vector<Index> items(const Lists& lists, const List& list) {
+std::vector<Index> items(const IndexLists& lists, const IndexList& list) {
     return {lists[list].begin(), lists[list].end()};
 }
 
 }  // namespace
 
 TEST_CASE("lists: a list is empty until it is given something, and may be emptied again") {
-    Lists lists;
-    List list;
+    IndexLists lists;
+    IndexList list;
     CHECK(items(lists, list).empty());
     lists.assign(list, std::vector<Index>{7, 3});
     CHECK(items(lists, list) == std::vector<Index>{7, 3});
@@ -27,8 +27,8 @@ TEST_CASE("lists: a list is empty until it is given something, and may be emptie
 }
 
 TEST_CASE("lists: with room enough a list stays where it is, else it moves") {
-    Lists lists;
-    List list = lists.make_room(3), next = lists.make_room(3);
+    IndexLists lists;
+    IndexList list = lists.allocate(3), next = lists.allocate(3);
     const Index place = list.place;
     for (Index i = 0; i < 3; ++i) lists.push_back(list, i);
     lists.push_back(next, 9);
@@ -45,8 +45,8 @@ TEST_CASE("lists: with room enough a list stays where it is, else it moves") {
 
 TEST_CASE("lists: many of them do not disturb each other") {
     test::Random random(4);
-    Lists lists;
-    std::vector<List> handles(50);
+    IndexLists lists;
+    std::vector<IndexList> handles(50);
     std::vector<std::vector<Index>> expected(handles.size());
     for (int step = 0; step < 5000; ++step) {
         const std::size_t at = random.below(handles.size());

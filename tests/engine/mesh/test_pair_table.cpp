@@ -22,16 +22,16 @@ struct Expected {
 };
 using Model = std::map<Ends, Expected>;
 
-std::vector<Triangle> living(const Complex& complex) {
+std::vector<Triangle> living(const CollapseMesh& collapse_mesh) {
     std::vector<Triangle> result;
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        if (complex.alive(f)) result.push_back(complex.triangle(f));
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
+        if (collapse_mesh.is_alive(f)) result.push_back(collapse_mesh.triangle(f));
     }
     return result;
 }
 
 // What is left of the pairs after v became u, counted anew from the triangles.
-Model after_collapse(const Model& before, const Complex& complex, Index u, Index v) {
+Model after_collapse(const Model& before, const CollapseMesh& collapse_mesh, Index u, Index v) {
     Model model;
     for (const auto& [pair, what] : before) {
         const Ends renamed = ends(pair.first == v ? u : pair.first, pair.second == v ? u : pair.second);
@@ -39,38 +39,39 @@ Model after_collapse(const Model& before, const Complex& complex, Index u, Index
         const auto [at, fresh] = model.insert({renamed, {0, what.is_virtual}});
         if (!fresh) at->second.is_virtual = at->second.is_virtual && what.is_virtual;
     }
-    const test::Edges edges = test::edges(living(complex));
+    const test::Edges edges = test::edges(living(collapse_mesh));
     for (auto at = model.begin(); at != model.end();) {
         const auto edge = edges.find(at->first);
         at->second.faces = edge == edges.end() ? 0 : edge->second;
         const bool lives =
-            at->second.faces > 0 ||
-            (at->second.is_virtual && complex.degree(at->first.first) && complex.degree(at->first.second));
+            at->second.faces > 0 || (at->second.is_virtual && collapse_mesh.degree(at->first.first) &&
+                                     collapse_mesh.degree(at->first.second));
         at = lives ? std::next(at) : model.erase(at);
     }
     return model;
 }
 
 // Are they as many living faces as it has, each of them with both of its ends?
-bool knows_its_faces(const PairTable& pairs, const Complex& complex, Index pair) {
+bool knows_its_faces(const PairTable& pairs, const CollapseMesh& collapse_mesh, Index pair) {
     const std::uint32_t count = pairs.face_count(pair);
     if (count > 2) return true;
     const auto [first, last] = pairs.faces(pair);
     const auto has = [&](Index f) {
-        return f != no_index && complex.alive(f) && complex.has_corner(f, pairs.first(pair)) &&
-               complex.has_corner(f, pairs.second(pair));
+        return f != no_index && collapse_mesh.is_alive(f) && collapse_mesh.has_corner(f, pairs.first(pair)) &&
+               collapse_mesh.has_corner(f, pairs.second(pair));
     };
     return (count < 1 || has(first)) && (count < 2 || (has(last) && first != last));
 }
 
-bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) {
+bool agrees(const PairTable& pairs, const CollapseMesh& collapse_mesh, const Model& model) {
     Model found;
-    std::vector<std::uint32_t> open(complex.vertex_slots(), 0), crowded(complex.vertex_slots(), 0);
+    std::vector<std::uint32_t> open(collapse_mesh.vertex_slots(), 0),
+        crowded(collapse_mesh.vertex_slots(), 0);
     for (Index p = 0; p < pairs.size(); ++p) {
-        if (!pairs.alive(p)) continue;
+        if (!pairs.is_alive(p)) continue;
         const Ends e = ends(pairs.first(p), pairs.second(p));
         if (!found.insert({e, {pairs.face_count(p), false}}).second) return false;
-        if (!knows_its_faces(pairs, complex, p)) return false;
+        if (!knows_its_faces(pairs, collapse_mesh, p)) return false;
         if (pairs.face_count(p) == 1) ++open[e.first], ++open[e.second];
         if (pairs.face_count(p) > 2) ++crowded[e.first], ++crowded[e.second];
     }
@@ -79,11 +80,11 @@ bool agrees(const PairTable& pairs, const Complex& complex, const Model& model) 
         const auto at = found.find(pair);
         if (at == found.end() || at->second.faces != what.faces) return false;
     }
-    for (Index v = 0; v < complex.vertex_slots(); ++v) {
+    for (Index v = 0; v < collapse_mesh.vertex_slots(); ++v) {
         std::set<Ends> listed, expected;
         bool good = true;
         pairs.for_each_pair(v, [&](Neighbour n) {
-            good = good && pairs.alive(n.pair) && listed.insert(ends(v, n.vertex)).second &&
+            good = good && pairs.is_alive(n.pair) && listed.insert(ends(v, n.vertex)).second &&
                    ends(pairs.first(n.pair), pairs.second(n.pair)) == ends(v, n.vertex);
         });
         for (const auto& entry : model) {
@@ -120,23 +121,23 @@ bool changes_agree(const std::vector<PairTable::Change>& changes, const Model& b
 
 TEST_CASE("pairs are numbered by smaller vertex, then in the order of its corners, virtual ones last") {
     // Corners of vertex 0 of the quad: (0 1 2), then (0 2 3).
-    const Complex complex = test::complex_of(test::both(test::quad(), test::quad()));
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::both(test::quad(), test::quad()));
     const std::vector<Ends> extra = {{2, 7}};
-    const PairTable pairs(complex, extra);
+    const PairTable pairs(collapse_mesh, extra);
     REQUIRE(pairs.size() == 11);
     const std::vector<Ends> expected = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {2, 3}, {4, 5},
                                         {4, 6}, {4, 7}, {5, 6}, {6, 7}, {2, 7}};
     for (Index p = 0; p < pairs.size(); ++p) {
         CHECK(Ends(pairs.first(p), pairs.second(p)) == expected[p]);
         CHECK(pairs.face_count(p) == (p == 10 ? 0u : p == 1 || p == 6 ? 2u : 1u));
-        CHECK(pairs.alive(p));
+        CHECK(pairs.is_alive(p));
     }
     CHECK(pairs.boundary_degree(0) == 2);
 }
 
 TEST_CASE("faces of an edge are counted beyond two") {
-    const Complex complex = test::complex_of(test::book());
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::book());
+    const PairTable pairs(collapse_mesh, {});
     CHECK(pairs.size() == 7);
     CHECK(pairs.face_count(0) == 3);
     CHECK(pairs.boundary_degree(0) == 3);
@@ -145,11 +146,11 @@ TEST_CASE("faces of an edge are counted beyond two") {
 
 TEST_CASE("when a face is removed its edges still know the others") {
     // Three pages on the spine of a book: without one of them it has two.
-    Complex complex = test::complex_of(test::book());
-    PairTable pairs(complex, {});
-    const Triangle page = complex.triangle(1);
-    complex.remove_face(1);
-    pairs.face_removed(complex, page);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(test::book());
+    PairTable pairs(collapse_mesh, {});
+    const Triangle page = collapse_mesh.triangle(1);
+    collapse_mesh.remove_face(1);
+    pairs.after_face_removal(collapse_mesh, page);
     const Index spine = test::pair_of(pairs, 0, 1);
     REQUIRE(pairs.face_count(spine) == 2);
     CHECK(pairs.faces(spine) == std::array<Index, 2>{0, 2});
@@ -160,18 +161,18 @@ TEST_CASE("a virtual pair that becomes an edge is one, and dies with its faces")
     // Faces 0 1 2 and 3 4 5, virtual pairs 0-3 and 1-3: collapsing 0-3 to 0 makes 1-3 the edge 0-1.
     const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
                                          {{0, 1, 2}, {3, 4, 5}});
-    Complex complex = test::complex_of(mesh);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const std::vector<Ends> extra = {{0, 3}, {1, 3}};
-    PairTable pairs(complex, extra);
+    PairTable pairs(collapse_mesh, extra);
     std::vector<Index> killed;
     std::vector<PairTable::Change> changes;
-    complex.collapse(0, 3, Vector3::Zero());
-    pairs.merge(complex, 0, 3, killed, changes);
+    collapse_mesh.collapse(0, 3, Vector3::Zero());
+    pairs.merge(collapse_mesh, 0, 3, killed, changes);
     CHECK(killed == std::vector<Index>{6, 7});
     CHECK(changes.size() == 4);
     killed.clear();
-    complex.collapse(1, 2, Vector3::Zero());
-    pairs.merge(complex, 1, 2, killed, changes);
+    collapse_mesh.collapse(1, 2, Vector3::Zero());
+    pairs.merge(collapse_mesh, 1, 2, killed, changes);
     // Vertices 0 and 3 (by then 0) lost their open edges to 1 and 2.
     REQUIRE(changes.size() == 1);
     CHECK(changes[0].neighbour.vertex == 0);
@@ -184,18 +185,19 @@ TEST_CASE("after every collapse the pairs are those counted anew from the triang
         const std::size_t vertices = 5 + seed;
         // Few faces: many borders; many: edges of three and more.
         TriangleMesh mesh = test::soup(seed, vertices, seed % 2 ? vertices : 4 * vertices);
-        Complex complex = test::complex_of(mesh);
+        CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
         Model model;
         for (const auto& [edge, faces] : test::edges(mesh.triangles)) model[edge] = {faces, false};
         test::Random random(seed);
         std::vector<Ends> extra;
         for (int i = 0; i < 8; ++i) {
             const Ends e = ends(random.below(vertices), random.below(vertices));
-            if (e.first == e.second || !complex.degree(e.first) || !complex.degree(e.second)) continue;
+            if (e.first == e.second || !collapse_mesh.degree(e.first) || !collapse_mesh.degree(e.second))
+                continue;
             if (model.insert({e, {0, true}}).second) extra.push_back(e);
         }
-        PairTable pairs(complex, extra);
-        bool good = agrees(pairs, complex, model);
+        PairTable pairs(collapse_mesh, extra);
+        bool good = agrees(pairs, collapse_mesh, model);
         while (!model.empty() && good) {
             auto at = model.begin();
             std::advance(at, random.below(model.size()));
@@ -203,16 +205,16 @@ TEST_CASE("after every collapse the pairs are those counted anew from the triang
             if (random.unit() < 0.5) std::swap(u, v);
             std::set<Index> before;
             for (Index p = 0; p < pairs.size(); ++p) {
-                if (pairs.alive(p)) before.insert(p);
+                if (pairs.is_alive(p)) before.insert(p);
             }
             const Model old = model;
-            complex.collapse(u, v, Vector3::Zero());
-            model = after_collapse(model, complex, u, v);
+            collapse_mesh.collapse(u, v, Vector3::Zero());
+            model = after_collapse(model, collapse_mesh, u, v);
             std::vector<Index> killed;
             std::vector<PairTable::Change> changes;
-            pairs.merge(complex, u, v, killed, changes);
-            for (const Index p : killed) good = good && before.erase(p) == 1 && !pairs.alive(p);
-            good = good && before.size() == model.size() && agrees(pairs, complex, model) &&
+            pairs.merge(collapse_mesh, u, v, killed, changes);
+            for (const Index p : killed) good = good && before.erase(p) == 1 && !pairs.is_alive(p);
+            good = good && before.size() == model.size() && agrees(pairs, collapse_mesh, model) &&
                    changes_agree(changes, old, model, u, v, vertices);
         }
         INFO("seed " << seed);

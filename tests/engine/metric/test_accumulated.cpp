@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/detail/simplify/presets.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -25,25 +25,29 @@ CompositeWeights paper() {
 
 struct Bench {
     Bench(const TriangleMesh& mesh, const CompositeWeights& weights, std::vector<std::uint8_t> seams = {})
-        : complex(test::complex_of(mesh)), pairs(complex, {}), seam(std::move(seams)), metric(weights, seam) {
-        metric.initialise(complex, pairs);
+        : collapse_mesh(test::collapse_mesh_of(mesh)),
+          pairs(collapse_mesh, {}),
+          seam(std::move(seams)),
+          metric(weights, seam) {
+        metric.initialise(collapse_mesh, pairs);
     }
-    std::optional<Candidate> evaluate(Index u, Index v, Freedom freedom = Freedom::anywhere) const {
-        return metric.evaluate(complex, pairs, test::pair_of(pairs, u, v), freedom);
+    std::optional<Candidate> evaluate(Index u, Index v,
+                                      AllowedPosition allowed_position = AllowedPosition::anywhere) const {
+        return metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, u, v), allowed_position);
     }
     PairTable::Change collapse(Index u, Index v, const Vector3& p) {
-        metric.collapsing(complex, pairs, u, v, p);
-        complex.collapse(u, v, p);
+        metric.before_collapse(collapse_mesh, pairs, u, v, p);
+        collapse_mesh.collapse(u, v, p);
         std::vector<Index> killed;
         std::vector<PairTable::Change> changes;
-        pairs.merge(complex, u, v, killed, changes);
+        pairs.merge(collapse_mesh, u, v, killed, changes);
         return changes.empty() ? PairTable::Change() : changes.front();
     }
 
-    Complex complex;
+    CollapseMesh collapse_mesh;
     PairTable pairs;
     std::vector<std::uint8_t> seam;
-    MemoryMetric metric;
+    AccumulatedMetric metric;
 };
 
 }  // namespace
@@ -105,10 +109,10 @@ TEST_CASE("a seam vertex multiplies its whole first quadric") {
 
 TEST_CASE("freedom is kept, and nowhere is no candidate") {
     const Bench bench(test::quad(), paper());
-    CHECK(bench.evaluate(0, 1, Freedom::at_first)->point == Vector3(0, 0, 0));
-    CHECK(bench.evaluate(0, 1, Freedom::at_second)->point == Vector3(1, 0, 0));
-    CHECK(bench.evaluate(0, 1, Freedom::at_first)->cost == Approx(500 / root2 + 50));
-    CHECK_FALSE(bench.evaluate(0, 1, Freedom::nowhere));
+    CHECK(bench.evaluate(0, 1, AllowedPosition::at_first)->point == Vector3(0, 0, 0));
+    CHECK(bench.evaluate(0, 1, AllowedPosition::at_second)->point == Vector3(1, 0, 0));
+    CHECK(bench.evaluate(0, 1, AllowedPosition::at_first)->cost == Approx(500 / root2 + 50));
+    CHECK_FALSE(bench.evaluate(0, 1, AllowedPosition::nowhere));
 }
 
 TEST_CASE("a cost that is not finite is no candidate") {
@@ -136,7 +140,7 @@ TEST_CASE("the area term is that of the border as it is now, not of its history"
     w.area = 1;
     Bench bench(test::quad(), w);
     bench.collapse(0, 1, {0.5, 0, 0});
-    const auto found = bench.evaluate(2, 3, Freedom::at_second);
+    const auto found = bench.evaluate(2, 3, AllowedPosition::at_second);
     REQUIRE(found);
     // At 3 = (0, 1, 0) the sides 2-3 and 3-0 cost nothing; side 2-0 spans the triangle of area 1/2.
     CHECK(found->cost == Approx(2 * 0.25));
@@ -145,8 +149,8 @@ TEST_CASE("the area term is that of the border as it is now, not of its history"
 TEST_CASE("only the area term reaches beyond the survivor's own pairs") {
     const PairTable::Change open{{1, 2}, true}, inner{{1, 2}, false};
     CompositeWeights w;
-    CHECK(MemoryMetric(w).staleness(open) == Staleness::none);
+    CHECK(AccumulatedMetric(w).reevaluation(open) == Reevaluation::none);
     w.area = 1;
-    CHECK(MemoryMetric(w).staleness(open) == Staleness::now);
-    CHECK(MemoryMetric(w).staleness(inner) == Staleness::none);
+    CHECK(AccumulatedMetric(w).reevaluation(open) == Reevaluation::immediate);
+    CHECK(AccumulatedMetric(w).reevaluation(inner) == Reevaluation::none);
 }

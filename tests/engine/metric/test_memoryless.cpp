@@ -2,20 +2,22 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/recorder.hpp"
 #include "faqem/simplify.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
 
 namespace {
 
-Candidate evaluated(const Complex& complex, Index u, Index v, const MemorylessWeights& weights = {}) {
-    const PairTable pairs(complex, {});
+Candidate evaluated(const CollapseMesh& collapse_mesh, Index u, Index v,
+                    const MemorylessWeights& weights = {}) {
+    const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric(weights);
-    metric.initialise(complex, pairs);
-    const auto found = metric.evaluate(complex, pairs, test::pair_of(pairs, u, v), Freedom::anywhere);
+    metric.initialise(collapse_mesh, pairs);
+    const auto found =
+        metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, u, v), AllowedPosition::anywhere);
     REQUIRE(found);
     return *found;
 }
@@ -25,9 +27,9 @@ Candidate evaluated(const Complex& complex, Index u, Index v, const MemorylessWe
 //   3---4---5
 //   | / | / |
 //   0---1---2
-Complex strip() {
-    return Complex({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
-                   {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+CollapseMesh strip() {
+    return CollapseMesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+                        {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
 }
 
 }  // namespace
@@ -36,16 +38,16 @@ TEST_CASE("memoryless: an open edge costs its squared length times the squared d
     // Collapsing (0, 1) to a point at height y: faces are in the plane, so only border planes count. At 0: x
     // = 0 and y = 0; at 1: y = 0 twice, edges (0, 1) and (1, 2); the shared edge (0, 1) less half of what
     // both say of it.
-    const Complex complex = strip();
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = strip();
+    const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric;
-    metric.initialise(complex, pairs);
+    metric.initialise(collapse_mesh, pairs);
     const Candidate at_first =
-        *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_first);
+        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_first);
     CHECK(at_first.cost == Approx(0).margin(1e-15));
     // From the plane x = 0 of edge (0, 3), length 1: squared distance 1.
     const Candidate at_second =
-        *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_second);
+        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_second);
     CHECK(at_second.cost == Approx(1));
 }
 
@@ -55,11 +57,12 @@ TEST_CASE("memoryless: without weights of edges a plane sheet costs nothing anyw
 
 TEST_CASE("memoryless: a shared face counts one and a half times") {
     // A ridge: two triangles over the edge (0, 1), one in z = 0, one in y = 0; both vertices see both faces.
-    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
+    const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric({0, 0, 0});
-    metric.initialise(complex, pairs);
-    const Candidate found = *metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second);
+    metric.initialise(collapse_mesh, pairs);
+    const Candidate found =
+        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second);
     // (0, 2) shares the face in z = 0, on which vertex 2 lies; the other face has area 1/2 and is 1 away from
     // it.
     CHECK(found.cost == Approx(0.5));
@@ -67,20 +70,21 @@ TEST_CASE("memoryless: a shared face counts one and a half times") {
 
 TEST_CASE("memoryless: the corner of a cube is found from the edges beside it") {
     const TriangleMesh cube = test::cube();
-    const Complex complex = test::complex_of(cube);
-    const Triangle& t = complex.triangle(0);
-    const Candidate found = evaluated(complex, t[0], t[1]);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(cube);
+    const Triangle& t = collapse_mesh.triangle(0);
+    const Candidate found = evaluated(collapse_mesh, t[0], t[1]);
     CHECK(found.cost > 0.1);  // any point off a corner or edge leaves a face of area 1
 }
 
 TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cube is not") {
     // Two triangles nearly on each other over the edge (0, 1): (0, 1, 2) looks down, (1, 0, 3) up.
     const auto cost = [](double height, double fold) {
-        const Complex blade({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}}, {{1, 0, 2}, {0, 1, 3}});
+        const CollapseMesh blade({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}},
+                                 {{1, 0, 2}, {0, 1, 3}});
         const PairTable pairs(blade, {});
         MemorylessMetric metric({0, 0, fold});
         metric.initialise(blade, pairs);
-        return metric.evaluate(blade, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
+        return metric.evaluate(blade, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)->cost;
     };
     // Vertex 2 is 1 away from the rim, of length 1, along which each face has a plane.
     CHECK(cost(0.01, 0.2) - cost(0.01, 0) == Approx(0.4).epsilon(1e-3));
@@ -89,12 +93,14 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
 
 TEST_CASE("memoryless: where windings disagree, a flat edge is no rim") {
     // Two triangles over the edge (0, 1), wound against each other, flat.
-    const Complex complex({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{1, 0, 2}, {1, 0, 3}});
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}},
+                                     {{1, 0, 2}, {1, 0, 3}});
+    const PairTable pairs(collapse_mesh, {});
     const auto cost = [&](double fold) {
         MemorylessMetric metric({0, 0, fold});
-        metric.initialise(complex, pairs);
-        return metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
+        metric.initialise(collapse_mesh, pairs);
+        return metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)
+            ->cost;
     };
     CHECK(cost(0.2) == cost(0));
 }
@@ -104,12 +110,14 @@ TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where
     const std::vector<Vector3> p = {{0, 0, 0},    {1, 0, 0},   {0.5, 1, 0},
                                     {0.5, -1, 0}, {0.5, 0, 1}, {0.5, 0, -1}};
     const auto held = [&](const std::vector<Triangle>& triangles) {
-        const Complex complex(p, triangles);
-        const PairTable pairs(complex, {});
+        const CollapseMesh collapse_mesh(p, triangles);
+        const PairTable pairs(collapse_mesh, {});
         const auto cost = [&](double weight) {
             MemorylessMetric metric({0, weight, 0});
-            metric.initialise(complex, pairs);
-            return metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 2), Freedom::at_second)->cost;
+            metric.initialise(collapse_mesh, pairs);
+            return metric
+                .evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)
+                ->cost;
         };
         return cost(5) - cost(0);
     };
@@ -123,39 +131,39 @@ TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where
 TEST_CASE("memoryless: the last faces of a part cost their longest edge to the fourth, a hundred times") {
     // The longest edge is 5; the edge plane of the open edges costs something besides.
     const std::vector<Vector3> p = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
-    const Complex triangle(p, {{0, 1, 2}});
-    const Complex doubled(p, {{0, 1, 2}, {0, 2, 1}});
+    const CollapseMesh triangle(p, {{0, 1, 2}});
+    const CollapseMesh doubled(p, {{0, 1, 2}, {0, 2, 1}});
     CHECK(evaluated(triangle, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
     CHECK(evaluated(doubled, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
     // With faces beyond the pair's the part is not gone.
-    CHECK(evaluated(test::complex_of(test::quad()), 0, 1).cost < 100);
+    CHECK(evaluated(test::collapse_mesh_of(test::quad()), 0, 1).cost < 100);
 }
 
 TEST_CASE("memoryless: after collapses the costs are those of the surface as it is") {
     const TriangleMesh mesh = test::icosphere(2);
-    Complex complex = test::complex_of(mesh);
-    PairTable pairs(complex, {});
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric;
-    metric.initialise(complex, pairs);
+    metric.initialise(collapse_mesh, pairs);
     std::vector<Index> killed;
     std::vector<PairTable::Change> changes;
     for (int round = 0; round < 40; ++round) {
         Index pair = static_cast<Index>(round * 7);
-        while (!pairs.alive(pair)) ++pair;
+        while (!pairs.is_alive(pair)) ++pair;
         const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto found = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto found = metric.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
         REQUIRE(found);
-        metric.collapsing(complex, pairs, u, v, found->point);
-        complex.collapse(u, v, found->point);
-        pairs.merge(complex, u, v, killed, changes);
-        metric.collapsed(complex, pairs, u, changes);
+        metric.before_collapse(collapse_mesh, pairs, u, v, found->point);
+        collapse_mesh.collapse(u, v, found->point);
+        pairs.merge(collapse_mesh, u, v, killed, changes);
+        metric.after_collapse(collapse_mesh, pairs, u, changes);
     }
     MemorylessMetric anew;
-    anew.initialise(complex, pairs);
+    anew.initialise(collapse_mesh, pairs);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
-        if (!pairs.alive(pair)) continue;
-        const auto a = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
-        const auto b = anew.evaluate(complex, pairs, pair, Freedom::anywhere);
+        if (!pairs.is_alive(pair)) continue;
+        const auto a = metric.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
+        const auto b = anew.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
         REQUIRE(a);
         REQUIRE(b);
         CHECK(a->cost == Approx(b->cost).epsilon(1e-9).margin(1e-15));
@@ -176,15 +184,15 @@ TEST_CASE("no vertex goes far outside, where planes are parallel but for noise")
     TriangleMesh mesh = test::cylinder(10, 10, 10);
     for (Vec3& p : mesh.positions) p[0] *= 0.1;
     mesh = test::shaken(mesh, 1e-4, 2);
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric;
-    metric.initialise(complex, pairs);
+    metric.initialise(collapse_mesh, pairs);
     Eigen::AlignedBox3d box;
     for (const Vec3& p : mesh.positions) box.extend(to_eigen(p));
     for (Index pair = 0; pair < pairs.size(); ++pair) {
-        const auto found = metric.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto found = metric.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
         REQUIRE(found);
-        CHECK(room_around(box).contains(found->point));
+        CHECK(placement_bounds(box).contains(found->point));
     }
 }

@@ -3,22 +3,22 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "support/original.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/original.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
 
 namespace {
 
-static_assert(WeighingMetric<ImportanceMetric<MemoryMetric>>);
-static_assert(!WeighingMetric<MemorylessMetric>);
-static_assert(!RefiningMetric<ImportanceMetric<MemorylessMetric>>);
-static_assert(RefiningMetric<ImportanceMetric<TrackedMetric>>);
+static_assert(VertexWeightedMetric<WeightedMetric<AccumulatedMetric>>);
+static_assert(!VertexWeightedMetric<MemorylessMetric>);
+static_assert(!LowerBoundMetric<WeightedMetric<MemorylessMetric>>);
+static_assert(LowerBoundMetric<WeightedMetric<TrackedMetric>>);
 
 bool is_upper(const TriangleMesh& mesh, const Triangle& t) {
     return mesh.positions[t[0]][2] + mesh.positions[t[1]][2] + mesh.positions[t[2]][2] > 0;
@@ -59,14 +59,14 @@ struct Globe {
 
 // Calls visit(u, v, without, with) for every pair: what it costs without weights and with them.
 template <class Metric, class Visit>
-void for_each_pair(const Complex& complex, const PairTable& pairs, Metric& plain,
-                   ImportanceMetric<Metric>& weighted, Visit&& visit) {
-    plain.initialise(complex, pairs);
-    weighted.initialise(complex, pairs);
+void for_each_pair(const CollapseMesh& collapse_mesh, const PairTable& pairs, Metric& plain,
+                   WeightedMetric<Metric>& weighted, Visit&& visit) {
+    plain.initialise(collapse_mesh, pairs);
+    weighted.initialise(collapse_mesh, pairs);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         const Index u = pairs.first(pair), v = pairs.second(pair);
-        const auto a = plain.evaluate(complex, pairs, pair, Freedom::anywhere);
-        const auto b = weighted.evaluate(complex, pairs, pair, Freedom::anywhere);
+        const auto a = plain.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
+        const auto b = weighted.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
         REQUIRE((a && b));
         visit(u, v, *a, *b);
     }
@@ -76,62 +76,63 @@ void for_each_pair(const Complex& complex, const PairTable& pairs, Metric& plain
 
 TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing") {
     const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     test::Random random(2);
     std::vector<double> weights;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) weights.push_back(random.between(0.1, 10));
     MemorylessMetric plain;
-    ImportanceMetric weighted(MemorylessMetric(), weights);
-    for_each_pair(complex, pairs, plain, weighted,
+    WeightedMetric weighted(MemorylessMetric(), weights);
+    for_each_pair(collapse_mesh, pairs, plain, weighted,
                   [&](Index u, Index v, const Candidate& a, const Candidate& b) {
                       CHECK(a.point == b.point);
                       CHECK(weighted.weight(u, v) == std::max(weights[u], weights[v]));
                       CHECK(b.cost == Approx(a.cost * weighted.weight(u, v)));
-                      CHECK(!weighted.evaluate(complex, pairs, test::pair_of(pairs, u, v), Freedom::nowhere));
+                      CHECK(!weighted.evaluate(collapse_mesh, pairs, test::pair_of(pairs, u, v),
+                                               AllowedPosition::nowhere));
                   });
 }
 
 TEST_CASE("what refining finds is multiplied too and never falls below the first cost") {
     const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     const std::vector<double> weights(mesh.positions.size(), 3);
     const test::OriginalOf original(mesh);
-    TrackedMetric plain({}, original.surface, original.lineage, 80, 0.1);
-    ImportanceMetric weighted(TrackedMetric({}, original.surface, original.lineage, 80, 0.1), weights);
-    for_each_pair(complex, pairs, plain, weighted,
+    TrackedMetric plain({}, original.surface, original.tracked, 80, 0.1);
+    WeightedMetric weighted(TrackedMetric({}, original.surface, original.tracked, 80, 0.1), weights);
+    for_each_pair(collapse_mesh, pairs, plain, weighted,
                   [&](Index u, Index v, const Candidate& a, const Candidate& b) {
-                      const double refined = weighted.refine(complex, pairs, u, v, b);
-                      CHECK(refined == Approx(3 * plain.refine(complex, pairs, u, v, a)));
+                      const double refined = weighted.exact_cost(collapse_mesh, pairs, u, v, b);
+                      CHECK(refined == Approx(3 * plain.exact_cost(collapse_mesh, pairs, u, v, a)));
                       CHECK(refined >= b.cost);
                   });
 }
 
 TEST_CASE("the new vertex has the weight of its place on the edge") {
     const TriangleMesh mesh = test::quad();
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
     // Vertices 0 and 1 are at x = 0 and 1; the last one lies beside the edge, the others before and behind.
     const std::pair<Vector3, double> places[] = {{{0, 0, 0}, 1},  {{1, 0, 0}, 9}, {{0.25, 0, 0}, 3},
                                                  {{-5, 0, 0}, 1}, {{7, 0, 0}, 9}, {{0.5, 3, -2}, 5}};
     for (const auto& [place, expected] : places) {
         CAPTURE(place.transpose());
-        ImportanceMetric metric(MemorylessMetric(), {1, 9, 0.5, 0.5});
-        metric.initialise(complex, pairs);
-        metric.collapsing(complex, pairs, 0, 1, place);
+        WeightedMetric metric(MemorylessMetric(), {1, 9, 0.5, 0.5});
+        metric.initialise(collapse_mesh, pairs);
+        metric.before_collapse(collapse_mesh, pairs, 0, 1, place);
         CHECK(metric.weight(0, 3) == expected);
     }
 }
 
 TEST_CASE("a cost that is no longer finite is no candidate") {
     const TriangleMesh mesh = test::scaled(test::tetrahedron(), 1e60);
-    const Complex complex = test::complex_of(mesh);
-    const PairTable pairs(complex, {});
-    ImportanceMetric metric(MemorylessMetric(), {1e200, 1, 1, 1});
-    metric.initialise(complex, pairs);
-    CHECK(!metric.evaluate(complex, pairs, test::pair_of(pairs, 0, 1), Freedom::at_first));
-    CHECK(metric.evaluate(complex, pairs, test::pair_of(pairs, 2, 3), Freedom::at_first));
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const PairTable pairs(collapse_mesh, {});
+    WeightedMetric metric(MemorylessMetric(), {1e200, 1, 1, 1});
+    metric.initialise(collapse_mesh, pairs);
+    CHECK(!metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_first));
+    CHECK(metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 2, 3), AllowedPosition::at_first));
 }
 
 TEST_CASE("where the weight is ten, more faces are kept and the error is smaller") {

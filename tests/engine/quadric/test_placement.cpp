@@ -17,37 +17,37 @@ TEST_CASE("a well-conditioned quadric gives its minimum") {
     Quadric q = plane_x(7, 1);
     q += Quadric::plane_through({0, 1, 0}, {0, 8, 0}, 1);
     q += Quadric::plane_through({0, 0, 1}, {0, 0, 9}, 1);
-    CHECK(place(q, a, b, Freedom::anywhere) == Vector3(7, 8, 9));
-    CHECK(place(q, a, b, Freedom::at_first) == a);
-    CHECK(place(q, a, b, Freedom::at_second) == b);
+    CHECK(optimal_position(q, a, b, AllowedPosition::anywhere) == Vector3(7, 8, 9));
+    CHECK(optimal_position(q, a, b, AllowedPosition::at_first) == a);
+    CHECK(optimal_position(q, a, b, AllowedPosition::at_second) == b);
 }
 
 TEST_CASE("a singular quadric gives the best of the ends and the midpoint") {
     // Paper, Sec. 3.1.
-    CHECK(place(plane_x(0.5, 1), a, b, Freedom::anywhere) == a);
-    CHECK(place(plane_x(3.5, 1), a, b, Freedom::anywhere) == b);
-    CHECK(place(plane_x(2.5, 1), a, b, Freedom::anywhere) == Vector3(2, 0, 0));
+    CHECK(optimal_position(plane_x(0.5, 1), a, b, AllowedPosition::anywhere) == a);
+    CHECK(optimal_position(plane_x(3.5, 1), a, b, AllowedPosition::anywhere) == b);
+    CHECK(optimal_position(plane_x(2.5, 1), a, b, AllowedPosition::anywhere) == Vector3(2, 0, 0));
 }
 
 TEST_CASE("of equally good places the first end comes first, then the second") {
-    CHECK(place(Quadric(), a, b, Freedom::anywhere) == a);
-    CHECK(place(Quadric(), b, a, Freedom::anywhere) == b);
-    CHECK(place(plane_x(3, 1), a, b, Freedom::anywhere) == b);            // b and midpoint tie
-    CHECK(place(plane_x(1, 1), a, b, Freedom::anywhere) == a);            // a and midpoint tie
-    CHECK(place(plane_x(2, 1), a, b, Freedom::anywhere) == (a + b) / 2);  // a and b tie
+    CHECK(optimal_position(Quadric(), a, b, AllowedPosition::anywhere) == a);
+    CHECK(optimal_position(Quadric(), b, a, AllowedPosition::anywhere) == b);
+    CHECK(optimal_position(plane_x(3, 1), a, b, AllowedPosition::anywhere) == b);  // b and midpoint tie
+    CHECK(optimal_position(plane_x(1, 1), a, b, AllowedPosition::anywhere) == a);  // a and midpoint tie
+    CHECK(optimal_position(plane_x(2, 1), a, b, AllowedPosition::anywhere) == (a + b) / 2);  // a and b tie
 }
 
 TEST_CASE("two freedoms together are the stricter one, or none where they differ") {
-    using enum Freedom;
-    for (const Freedom one : {anywhere, at_first, at_second, nowhere}) {
-        CHECK(both(one, one) == one);
-        CHECK(both(anywhere, one) == one);
-        CHECK(both(one, anywhere) == one);
-        CHECK(both(one, nowhere) == nowhere);
-        CHECK(both(nowhere, one) == nowhere);
+    using enum AllowedPosition;
+    for (const AllowedPosition one : {anywhere, at_first, at_second, nowhere}) {
+        CHECK(intersection(one, one) == one);
+        CHECK(intersection(anywhere, one) == one);
+        CHECK(intersection(one, anywhere) == one);
+        CHECK(intersection(one, nowhere) == nowhere);
+        CHECK(intersection(nowhere, one) == nowhere);
     }
-    CHECK(both(at_first, at_second) == nowhere);
-    CHECK(both(at_second, at_first) == nowhere);
+    CHECK(intersection(at_first, at_second) == nowhere);
+    CHECK(intersection(at_second, at_first) == nowhere);
 }
 
 TEST_CASE("a minimum outside of the room there is counts as none") {
@@ -56,12 +56,12 @@ TEST_CASE("a minimum outside of the room there is counts as none") {
     q += Quadric::plane_through({0, 0, 1}, {0, 0, 0}, 1);
     const Eigen::AlignedBox3d wide(Vector3(0, 0, 0), Vector3(7, 0, 0)),
         narrow(Vector3(0, 0, 0), Vector3(6, 0, 0));
-    CHECK(place(q, a, b, Freedom::anywhere, &wide) == Vector3(7, 0, 0));
-    CHECK(place(q, a, b, Freedom::anywhere, &narrow) == b);
+    CHECK(optimal_position(q, a, b, AllowedPosition::anywhere, &wide) == Vector3(7, 0, 0));
+    CHECK(optimal_position(q, a, b, AllowedPosition::anywhere, &narrow) == b);
 }
 
 TEST_CASE("the room around a surface is its box and a tenth of the diagonal on all sides") {
-    const Eigen::AlignedBox3d room = room_around({Vector3(0, 0, 1), Vector3(3, 4, 1)});
+    const Eigen::AlignedBox3d room = placement_bounds({Vector3(0, 0, 1), Vector3(3, 4, 1)});
     CHECK(room.min() == Vector3(-0.5, -0.5, 0.5));
     CHECK(room.max() == Vector3(3.5, 4.5, 1.5));
 }

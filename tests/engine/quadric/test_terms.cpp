@@ -11,18 +11,18 @@ namespace {
 
 // The base terms of all faces at v.
 Quadric base_at(const TriangleMesh& mesh, Index v, BaseWeight weight, double plane_area = 1) {
-    const Complex complex = test::complex_of(mesh);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     Quadric q;
-    complex.for_each_face(v, [&](Index f, unsigned) {
-        q += base_term(complex.area_vector(f), complex.position(v), weight, plane_area, 1e-12);
+    collapse_mesh.for_each_face(v, [&](Index f, unsigned) {
+        q += base_term(collapse_mesh.area_vector(f), collapse_mesh.position(v), weight, plane_area, 1e-12);
     });
     return q;
 }
 
 Quadric area_of_pair(const TriangleMesh& mesh, Index u, Index v,
                      const std::vector<std::pair<Index, Index>>& extra = {}) {
-    const Complex complex = test::complex_of(mesh);
-    return area_term(complex, PairTable(complex, extra), u, v);
+    const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    return area_term(collapse_mesh, PairTable(collapse_mesh, extra), u, v);
 }
 
 // Twice the squared area of the triangle abp.
@@ -81,8 +81,8 @@ TEST_CASE("areas are clamped from below, and a face without area has no plane") 
 
 TEST_CASE("border neighbours are the two ends of the border, the smaller index first") {
     const auto neighbours = [](const TriangleMesh& mesh, Index v) {
-        const Complex complex = test::complex_of(mesh);
-        return border_neighbours(PairTable(complex, {}), v);
+        const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+        return boundary_neighbours(PairTable(collapse_mesh, {}), v);
     };
     using Two = std::array<Index, 2>;
     CHECK_FALSE(neighbours(test::fan(6), 0));
@@ -104,17 +104,17 @@ TEST_CASE("curvature of a circular rim is about 1/(4R)") {
             const auto at = [&](int i) {
                 return Vector3(radius * std::cos(i * t), radius * std::sin(i * t), 3);
             };
-            const double kappa = border_curvature(at(1), at(0), at(2));
+            const double kappa = boundary_curvature(at(1), at(0), at(2));
             CHECK(kappa == Approx(1 / (2 * radius * (1 + std::cos(t)))));
-            CHECK(border_curvature(at(1), at(2), at(0)) == Approx(kappa));
+            CHECK(boundary_curvature(at(1), at(2), at(0)) == Approx(kappa));
             if (n == 100) CHECK(kappa == Approx(1 / (4 * radius)).epsilon(0.01));
         }
     }
 }
 
 TEST_CASE("a straight border has no curvature, nor has one that turns back on itself") {
-    CHECK(border_curvature({1, 1, 1}, {0, 0, 0}, {3, 3, 3}) == 0);
-    CHECK(border_curvature({1, 0, 0}, {0, 0, 0}, {0, 0, 0}) == 0);
+    CHECK(boundary_curvature({1, 1, 1}, {0, 0, 0}, {3, 3, 3}) == 0);
+    CHECK(boundary_curvature({1, 0, 0}, {0, 0, 0}, {0, 0, 0}) == 0);
     CHECK(boundary_term({1, 1, 1}, {0, 0, 0}, {3, 3, 3})({5, -7, 9}) == 0);
 }
 
@@ -147,20 +147,20 @@ TEST_CASE("boundary planes of the rim of a half cylinder follow the closed form"
 
 TEST_CASE("the normal term is the tangent plane of the area-weighted unit normal") {
     // Paper eq. 10. Corner 0 of the cube: (-1 -1 -1) / sqrt 3. Corner 1: one face each in y and z, two in x.
-    const Complex cube = test::complex_of(test::cube());
+    const CollapseMesh cube = test::collapse_mesh_of(test::cube());
     CHECK(normal_term(cube, 0)({1, 2, 3}) == Approx(36 / 3.0));
     CHECK(normal_term(cube, 0)({1, -3, 2}) == Approx(0).margin(1e-12));
     CHECK(normal_term(cube, 1)({3, 1, 1}) == Approx(4 / 6.0));
     // Faces of area 1/2 (along z) and 2 (along y): 1 : 4, not 1 : 1.
-    const Complex uneven = test::complex_of(
+    const CollapseMesh uneven = test::collapse_mesh_of(
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, 0, 2}}, {{0, 1, 2}, {0, 3, 4}}));
     CHECK(normal_term(uneven, 0)({0, 0, 1}) == Approx(1 / 17.0));
     CHECK(normal_term(uneven, 0)({0, 1, 0}) == Approx(16 / 17.0));
 }
 
 TEST_CASE("where the normals cancel there is no normal term") {
-    const Complex sheet =
-        test::complex_of(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}));
+    const CollapseMesh sheet =
+        test::collapse_mesh_of(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}));
     CHECK(normal_term(sheet, 0)({5, 6, 7}) == 0);
 }
 

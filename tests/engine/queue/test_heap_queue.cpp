@@ -4,20 +4,20 @@
 #include <set>
 #include <utility>
 
-#include "support/meshes.hpp"
 #include "faqem/engine/queue/bucket_queue.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
 
-static_assert(CollapseQueue<HeapQueue> && !LazyQueue<HeapQueue> && !AimingQueue<HeapQueue>);
+static_assert(CollapseQueue<HeapQueue> && !LazyQueue<HeapQueue> && !TargetDependentQueue<HeapQueue>);
 
 TEST_CASE("equal costs come out by index, however they went in") {
     HeapQueue queue;
     queue.reserve(6);
     for (const Index pair : {4u, 1u, 5u, 0u, 3u, 2u}) queue.set(pair, pair == 5 ? 1.0 : 7.0);
-    CHECK(queue.has_before(2));
-    CHECK_FALSE(queue.has_before(1));
+    CHECK(queue.has_cheaper(2));
+    CHECK_FALSE(queue.has_cheaper(1));
     std::vector<Index> order;
     while (!queue.empty()) order.push_back(queue.pop());
     CHECK(order == std::vector<Index>{5, 0, 1, 2, 3, 4});
@@ -27,17 +27,17 @@ TEMPLATE_TEST_CASE("the queue knows what is in it", "", HeapQueue, BucketQueue) 
     TestType queue;
     queue.reserve(3);
     CHECK(queue.empty());
-    CHECK_FALSE(queue.has_before(1));
+    CHECK_FALSE(queue.has_cheaper(1));
     queue.set(1, 2.0);
     queue.set(2, 8.0);
     CHECK(queue.contains(1));
     CHECK_FALSE(queue.contains(0));
-    CHECK(queue.has_before(4.0));
-    CHECK_FALSE(queue.has_before(2.0));
+    CHECK(queue.has_cheaper(4.0));
+    CHECK_FALSE(queue.has_cheaper(2.0));
     queue.erase(0);
     CHECK(queue.pop() == 1);
     CHECK_FALSE(queue.contains(1));
-    CHECK_FALSE(queue.has_before(4.0));
+    CHECK_FALSE(queue.has_cheaper(4.0));
     queue.erase(2);
     CHECK(queue.empty());
 }
@@ -61,8 +61,8 @@ TEST_CASE("the heap does what an ordered set does") {
             expected.erase({cost[pair], pair});
             queue.erase(pair);
         } else if (!expected.empty()) {
-            if (queue.has_before(expected.begin()->first)) FAIL("before the first at step " << step);
-            if (!queue.has_before(expected.begin()->first + 0.5)) FAIL("first at step " << step);
+            if (queue.has_cheaper(expected.begin()->first)) FAIL("before the first at step " << step);
+            if (!queue.has_cheaper(expected.begin()->first + 0.5)) FAIL("first at step " << step);
             if (queue.pop() != expected.begin()->second) FAIL("pop at step " << step);
             expected.erase(expected.begin());
         }

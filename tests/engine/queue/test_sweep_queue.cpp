@@ -11,17 +11,17 @@ using namespace faqem::engine;
 
 namespace {
 
-std::vector<Index> all_of(RoundQueue& queue) {
+std::vector<Index> all_of(SweepQueue& queue) {
     std::vector<Index> order;
     while (!queue.empty()) order.push_back(queue.pop());
     return order;
 }
 
 // Of which nine tenths are to go: a fourth of them in the first round, those up to 0.3 * 0.9^2 of the largest cost.
-RoundQueue ascending(std::size_t pairs) {
-    RoundQueue queue;
+SweepQueue ascending(std::size_t pairs) {
+    SweepQueue queue;
     queue.reserve(pairs);
-    queue.aim(pairs / 10);
+    queue.set_target(pairs / 10);
     for (Index pair = 0; pair < pairs; ++pair) queue.set(pair, 1 + pair);
     return queue;
 }
@@ -29,9 +29,9 @@ RoundQueue ascending(std::size_t pairs) {
 }  // namespace
 
 TEST_CASE("rounds give out by index all pairs up to a limit") {
-    RoundQueue queue;
+    SweepQueue queue;
     queue.reserve(64);
-    queue.aim(2);
+    queue.set_target(2);
     for (Index pair = 0; pair < 64; ++pair) queue.set(pair, pair % 2 ? 1 : 1000);
     queue.set(5, 3);
     std::vector<Index> expected;
@@ -46,9 +46,9 @@ TEST_CASE("rounds give out by index all pairs up to a limit") {
 }
 
 TEST_CASE("a pair whose cost has changed waits for the next round") {
-    RoundQueue queue = ascending(160);
+    SweepQueue queue = ascending(160);
     CHECK(queue.pop() == 0);
-    CHECK(queue.outdate(2));
+    CHECK(queue.mark_stale(2));
     CHECK(queue.pop() == 1);
     CHECK(queue.pop() == 3);
     Index last = 3, pair = queue.pop();
@@ -56,23 +56,23 @@ TEST_CASE("a pair whose cost has changed waits for the next round") {
     CHECK(pair == 2);
     CHECK(last >= 32);
     CHECK(last < 48);
-    CHECK_FALSE(queue.outdate(2));
+    CHECK_FALSE(queue.mark_stale(2));
 }
 
 TEST_CASE("what costs more than the limit comes after what does not") {
-    RoundQueue queue = ascending(160);
+    SweepQueue queue = ascending(160);
     CHECK(queue.pop() == 0);
-    CHECK_FALSE(queue.has_before(1));
-    CHECK(queue.has_before(100));
+    CHECK_FALSE(queue.has_cheaper(1));
+    CHECK(queue.has_cheaper(100));
     queue.set(0, 1e9);
     CHECK(all_of(queue).back() == 0);
 }
 
 TEST_CASE("near the end the cheapest comes first") {
     test::Random random(3);
-    RoundQueue queue;
+    SweepQueue queue;
     queue.reserve(200);
-    queue.aim(100);
+    queue.set_target(100);
     std::vector<double> costs;
     for (Index pair = 0; pair < 200; ++pair) {
         costs.push_back(std::pow(10.0, random.between(-12, 3)));
@@ -86,11 +86,11 @@ TEST_CASE("near the end the cheapest comes first") {
 
 TEST_CASE("few pairs come out as from buckets, whatever is done to them") {
     test::Random random(6);
-    RoundQueue queue(300);
+    SweepQueue queue(300);
     BucketQueue buckets;
     queue.reserve(300);
     buckets.reserve(300);
-    queue.aim(3);
+    queue.set_target(3);
     for (Index pair = 0; pair < 300; ++pair) {
         const double cost = random.below(50);
         queue.set(pair, cost);
@@ -109,19 +109,19 @@ TEST_CASE("few pairs come out as from buckets, whatever is done to them") {
             buckets.erase(pair);
         } else if (!buckets.empty()) {
             REQUIRE(queue.pop() == buckets.pop());
-            CHECK_FALSE(queue.outdate(0));
+            CHECK_FALSE(queue.mark_stale(0));
         }
         REQUIRE(queue.empty() == buckets.empty());
-        REQUIRE(queue.has_before(25) == buckets.has_before(25));
+        REQUIRE(queue.has_cheaper(25) == buckets.has_cheaper(25));
     }
 }
 
 TEST_CASE("what is in comes out, once, and in the end all") {
     test::Random random(8);
     for (const std::size_t end : {0u, 40u, 4000u}) {
-        RoundQueue queue;
+        SweepQueue queue;
         queue.reserve(10'000);
-        queue.aim(end);
+        queue.set_target(end);
         std::vector<bool> is_in(10'000, false);
         std::size_t size = 0;
         const auto set = [&](Index pair) {
@@ -136,7 +136,7 @@ TEST_CASE("what is in comes out, once, and in the end all") {
             is_in[popped] = false;
             --size;
             const Index pair = random.below(10'000);
-            queue.outdate(pair);
+            queue.mark_stale(pair);
             if (step % 3 == 0) set(pair);
             if (step % 3 == 1) {
                 size -= is_in[pair];
@@ -150,14 +150,14 @@ TEST_CASE("what is in comes out, once, and in the end all") {
 }
 
 TEST_CASE("a pair that waits for more rounds than a byte counts comes out") {
-    RoundQueue queue;
+    SweepQueue queue;
     queue.reserve(2);
     queue.set(0, 0);
     queue.set(1, 1);
     REQUIRE(queue.pop() == 0);
     for (int round = 0; round < 700; ++round) {
         queue.set(0, 0);
-        queue.outdate(1);
+        queue.mark_stale(1);
         REQUIRE(queue.pop() == 0);
     }
     CHECK(queue.pop() == 1);
@@ -165,10 +165,10 @@ TEST_CASE("a pair that waits for more rounds than a byte counts comes out") {
 
 TEST_CASE("whoever asks is not kept waiting while a long round finds nothing") {
     int asked = 0;
-    Asker asker([&] { return ++asked, Continue::yes; });
-    RoundQueue queue;
+    ProgressMonitor monitor([&] { return ++asked, Continue::yes; });
+    SweepQueue queue;
     queue.reserve(1'000'000);
-    queue.aim(0, Poll(asker));
+    queue.set_target(0, CancellationCheck(monitor));
     queue.set(0, 1);
     queue.set(999'999, 1);
     CHECK(queue.pop() == 0);

@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/original.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/original.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;
@@ -14,25 +14,25 @@ namespace {
 struct Bench {
     explicit Bench(const TriangleMesh& mesh)
         : original(mesh),
-          complex(original.positions, original.triangles),
-          pairs(complex, {}),
-          border(original.surface, original.lineage, complex, pairs) {}
+          collapse_mesh(original.positions, original.triangles),
+          pairs(collapse_mesh, {}),
+          border(original.surface, original.tracked, collapse_mesh, pairs) {}
     double squared_distance(Index u, Index v, const Vector3& p) {
-        return border.squared_distance(complex, pairs, u, v, p);
+        return border.squared_distance(collapse_mesh, pairs, u, v, p);
     }
     void collapse(Index u, Index v, const Vector3& p) {
-        border.collapsing(pairs, u, v);
-        complex.collapse(u, v, p);
+        border.before_collapse(pairs, u, v);
+        collapse_mesh.collapse(u, v, p);
         std::vector<Index> killed;
         std::vector<PairTable::Change> changes;
-        pairs.merge(complex, u, v, killed, changes);
-        border.collapsed(complex, pairs, u, changes);
+        pairs.merge(collapse_mesh, u, v, killed, changes);
+        border.after_collapse(collapse_mesh, pairs, u, changes);
     }
 
     test::OriginalOf original;
-    Complex complex;
+    CollapseMesh collapse_mesh;
     PairTable pairs;
-    BorderBindings border;
+    BoundaryBindings border;
 };
 
 // The unit square with its middle.
@@ -80,7 +80,7 @@ TEST_CASE("border bindings: what is bound goes with the border from collapse to 
     Bench bench(test::fan(16));
     double last = 0;
     for (Index next = 2; next < 8; ++next) {
-        const Vector3 p = bench.complex.position(1);
+        const Vector3 p = bench.collapse_mesh.position(1);
         const double distance = bench.squared_distance(1, next, p);
         // The chord from 1 to next + 1 stands for an arc of `next` sides: it is farthest from its middle.
         const double half = test::pi * next / 16;
@@ -96,14 +96,14 @@ TEST_CASE("border bindings: what is bound goes with the border from collapse to 
 TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell") {
     // Of the square only corner 1 is looked after: nothing is bound to the edges at corner 3.
     const test::OriginalOf original(square);
-    Complex complex(original.positions, original.triangles);
-    PairTable pairs(complex, {});
-    Lineage corner;
+    CollapseMesh collapse_mesh(original.positions, original.triangles);
+    PairTable pairs(collapse_mesh, {});
+    TrackedVertices corner;
     corner.add(1, 1);
-    BorderBindings border(original.surface, corner, complex, pairs);
-    CHECK(border.squared_distance(complex, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
+    BoundaryBindings border(original.surface, corner, collapse_mesh, pairs);
+    CHECK(border.squared_distance(collapse_mesh, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
     // On the side 0 1, but the middle of the edge to 2 is 1/4 away from the side 1 2.
-    CHECK(border.squared_distance(complex, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
+    CHECK(border.squared_distance(collapse_mesh, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
 }
 
 TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {

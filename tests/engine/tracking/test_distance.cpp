@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/meshes.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using engine::TriangleDistance;
@@ -40,9 +40,9 @@ TEST_CASE("distance: of several triangles the nearest is found, the first of equ
     const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), up(0, 0, 1);
     const std::vector<TriangleDistance> layers = {
         {a, b, c}, {a + up, b + up, c + up}, {a + up, b + up, c + up}};
-    CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.4}) == 0);
-    CHECK(engine::nearest_of(layers, {0.2, 0.2, 0.6}) == 1);
-    CHECK(engine::nearest_of(std::vector<TriangleDistance>(), a) == 0);
+    CHECK(engine::nearest_index(layers, {0.2, 0.2, 0.4}) == 0);
+    CHECK(engine::nearest_index(layers, {0.2, 0.2, 0.6}) == 1);
+    CHECK(engine::nearest_index(std::vector<TriangleDistance>(), a) == 0);
 }
 
 TEST_CASE(
@@ -66,7 +66,7 @@ TEST_CASE("distance: the farthest point is that with the largest smallest distan
         for (int k = 0; k < i % 13; ++k) {
             const Vector3 p = 2 * point();
             farthest.add(p);
-            expected = std::max(expected, segments[engine::nearest_of(segments, p)](p));
+            expected = std::max(expected, segments[engine::nearest_index(segments, p)](p));
             CHECK(farthest.squared_distance() == expected);
         }
     }

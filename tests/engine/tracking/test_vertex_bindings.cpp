@@ -9,7 +9,7 @@ using namespace faqem::engine;
 
 namespace {
 
-std::vector<Index> bound_to(const Bindings& bindings, Index f) {
+std::vector<Index> bound_to(const VertexBindings& bindings, Index f) {
     std::vector<Index> found;
     bindings.for_each_bound(f, [&](Index v) { found.push_back(v); });
     std::sort(found.begin(), found.end());
@@ -20,14 +20,14 @@ std::vector<Index> bound_to(const Bindings& bindings, Index f) {
 
 TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces") {
     const test::OriginalOf original(test::icosphere(1));
-    const Complex complex(original.positions, original.triangles);
-    Bindings bindings(original.surface, original.lineage, complex);
-    bindings.begin(complex);
-    std::vector<int> times(complex.vertex_slots(), 0);
-    for (Index f = 0; f < complex.face_slots(); ++f) {
+    const CollapseMesh collapse_mesh(original.positions, original.triangles);
+    VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
+    bindings.bind_all(collapse_mesh);
+    std::vector<int> times(collapse_mesh.vertex_slots(), 0);
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
         for (const Index v : bound_to(bindings, f)) {
-            CHECK(complex.has_corner(f, v));
-            CHECK(bindings.position(v) == complex.position(v));
+            CHECK(collapse_mesh.has_corner(f, v));
+            CHECK(bindings.position(v) == collapse_mesh.position(v));
             ++times[v];
         }
     }
@@ -36,13 +36,13 @@ TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces"
 
 TEST_CASE("bindings: what is released is bound to nothing until it is bound anew") {
     const test::OriginalOf original(test::quad());
-    const Complex complex(original.positions, original.triangles);
-    Bindings bindings(original.surface, original.lineage, complex);
-    bindings.begin(complex);
+    const CollapseMesh collapse_mesh(original.positions, original.triangles);
+    VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
+    bindings.bind_all(collapse_mesh);
     std::vector<Index> all = bound_to(bindings, 0);
     for (const Index v : bound_to(bindings, 1)) all.push_back(v);
     CHECK(all.size() == 4);
-    for (const Index f : {0u, 1u}) bindings.release(f);
+    for (const Index f : {0u, 1u}) bindings.unbind_all(f);
     CHECK(bound_to(bindings, 0).empty());
     bindings.bind(2, 1);
     bindings.bind(0, 1);
@@ -51,9 +51,9 @@ TEST_CASE("bindings: what is released is bound to nothing until it is bound anew
 
 TEST_CASE("bindings: a vertex without faces is bound to nothing") {
     const test::OriginalOf original(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}));
-    const Complex complex(original.positions, original.triangles);
-    Bindings bindings(original.surface, original.lineage, complex);
-    bindings.begin(complex);
+    const CollapseMesh collapse_mesh(original.positions, original.triangles);
+    VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
+    bindings.bind_all(collapse_mesh);
     CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1, 2});
 }
 
@@ -61,30 +61,31 @@ TEST_CASE("bindings: what went into another vertex is bound to the face nearest 
     // Every second column of a grid goes into its left neighbour, which stays in place.
     const TriangleMesh mesh = test::grid(6);
     const test::OriginalOf original(mesh);
-    Complex complex = test::complex_of(mesh);
-    Bindings bindings(original.surface, original.lineage, complex);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
     for (Index y = 0; y <= 6; ++y) {
         for (const Index x : {1u, 3u, 5u}) {
             const Index v = x + 7 * y;
             bindings.merge(v - 1, v);
-            complex.collapse(v - 1, v, complex.position(v - 1));
+            collapse_mesh.collapse(v - 1, v, collapse_mesh.position(v - 1));
         }
     }
-    bindings.begin(complex);
+    bindings.bind_all(collapse_mesh);
     const auto distance = [&](Index f, const Vector3& p) {
-        const Triangle& t = complex.triangle(f);
-        return TriangleDistance(complex.position(t[0]), complex.position(t[1]), complex.position(t[2]))(p);
+        const Triangle& t = collapse_mesh.triangle(f);
+        return TriangleDistance(collapse_mesh.position(t[0]), collapse_mesh.position(t[1]),
+                                collapse_mesh.position(t[2]))(p);
     };
     std::size_t found = 0;
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        if (!complex.alive(f)) {
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
+        if (!collapse_mesh.is_alive(f)) {
             CHECK(bound_to(bindings, f).empty());
             continue;
         }
         for (const Index v : bound_to(bindings, f)) {
             ++found;
-            for (Index other = 0; other < complex.face_slots(); ++other) {
-                if (complex.alive(other))
+            for (Index other = 0; other < collapse_mesh.face_slots(); ++other) {
+                if (collapse_mesh.is_alive(other))
                     CHECK(distance(f, bindings.position(v)) <= distance(other, bindings.position(v)));
             }
         }
@@ -95,16 +96,16 @@ TEST_CASE("bindings: what went into another vertex is bound to the face nearest 
 TEST_CASE("bindings: the lineage is followed over many steps") {
     const TriangleMesh mesh = test::fan(8);
     const test::OriginalOf original(mesh);
-    Complex complex = test::complex_of(mesh);
-    Bindings bindings(original.surface, original.lineage, complex);
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
     for (Index v = 2; v < 7; ++v) {
         bindings.merge(v, v - 1);
-        complex.collapse(v, v - 1, complex.position(v));
+        collapse_mesh.collapse(v, v - 1, collapse_mesh.position(v));
     }
-    bindings.begin(complex);
+    bindings.bind_all(collapse_mesh);
     std::size_t found = 0;
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        if (complex.alive(f)) found += bound_to(bindings, f).size();
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
+        if (collapse_mesh.is_alive(f)) found += bound_to(bindings, f).size();
     }
     CHECK(found == 9);
 }
@@ -112,26 +113,26 @@ TEST_CASE("bindings: the lineage is followed over many steps") {
 TEST_CASE("bindings: distances to the original stay those to the original") {
     const TriangleMesh mesh = test::fan(6);
     const test::OriginalOf original(mesh);
-    Complex complex = test::complex_of(mesh);
-    const Bindings bindings(original.surface, original.lineage, complex);
-    complex.collapse(0, 1, {0, 0, 5});
-    CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 100) == Approx(4));
-    CHECK(bindings.squared_distance_around(0, {0.1, 0.1, 2}, 1) == 1);
-    CHECK(bindings.squared_distance_around(1, {2, 0, 0}, 100) == Approx(1));
+    CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
+    const VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
+    collapse_mesh.collapse(0, 1, {0, 0, 5});
+    CHECK(bindings.squared_distance_to_ring(0, {0.1, 0.1, 2}, 100) == Approx(4));
+    CHECK(bindings.squared_distance_to_ring(0, {0.1, 0.1, 2}, 1) == 1);
+    CHECK(bindings.squared_distance_to_ring(1, {2, 0, 0}, 100) == Approx(1));
 }
 
 TEST_CASE("bindings: of a complex that is what the original has become, and for some vertices only") {
     // A square of two triangles over what was a square of a hundred and twenty-eight.
     const test::OriginalOf original(test::grid(8));
-    const Complex complex({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}});
-    Lineage lineage;
-    lineage.add(3, 1);   // at (3, 0), below the diagonal
-    lineage.add(30, 0);  // at (3, 3), on it
-    lineage.add(66, 0);  // at (3, 7), above
-    Bindings bindings(original.surface, lineage, complex);
-    bindings.begin(complex);
+    const CollapseMesh collapse_mesh({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    TrackedVertices tracked;
+    tracked.add(3, 1);   // at (3, 0), below the diagonal
+    tracked.add(30, 0);  // at (3, 3), on it
+    tracked.add(66, 0);  // at (3, 7), above
+    VertexBindings bindings(original.surface, tracked, collapse_mesh);
+    bindings.bind_all(collapse_mesh);
     CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1});
     CHECK(bound_to(bindings, 1) == std::vector<Index>{2});
     CHECK(bindings.position(2) == Vector3(3, 7, 0));
-    CHECK(bindings.squared_distance_around(2, {3, 7, 2}, 100) == Approx(4));
+    CHECK(bindings.squared_distance_to_ring(2, {3, 7, 2}, 100) == Approx(4));
 }

@@ -3,21 +3,21 @@
 #include <bit>
 #include <catch2/catch.hpp>
 
-using faqem::engine::scrambled;
+using faqem::engine::splitmix64;
 
-TEST_CASE("scrambled: after the step of SplitMix64 it gives that generator's numbers") {
+TEST_CASE("splitmix64: after the step of SplitMix64 it gives that generator's numbers") {
     // The first three for seed 1234567, as published with the generator.
     std::uint64_t state = 1234567;
-    const auto next = [&] { return scrambled(state += 0x9e3779b97f4a7c15u); };
+    const auto next = [&] { return splitmix64(state += 0x9e3779b97f4a7c15u); };
     CHECK(next() == 6457827717110365317u);
     CHECK(next() == 3203168211198807973u);
     CHECK(next() == 9817491932198370423u);
 }
 
-TEST_CASE("scrambled: one bit of the argument changes about half of the bits") {
+TEST_CASE("splitmix64: one bit of the argument changes about half of the bits") {
     int changed = 0;
     for (int bit = 0; bit < 64; ++bit) {
-        changed += std::popcount(scrambled(12345) ^ scrambled(12345 ^ (std::uint64_t{1} << bit)));
+        changed += std::popcount(splitmix64(12345) ^ splitmix64(12345 ^ (std::uint64_t{1} << bit)));
     }
     CHECK(changed > 64 * 28);
     CHECK(changed < 64 * 36);

@@ -16,21 +16,22 @@
 #include <type_traits>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Poll;
+using engine::CancellationCheck;
 
 /// Who does the work of a phase: so many threads, of which the calling one asks whether to go on.
 struct Workers {
     // Not explicit: where nobody is to be asked, a number says it all.
-    Workers(std::uint32_t at_most = 0, Poll poll_of_caller = {}) : threads(at_most), poll(poll_of_caller) {}
+    Workers(std::uint32_t at_most = 0, CancellationCheck poll_of_caller = {})
+        : threads(at_most), check_cancelled(poll_of_caller) {}
 
     std::uint32_t threads;  ///< at most; 0: all there are
-    Poll poll;
+    CancellationCheck check_cancelled;
 };
 
 /// Number of threads for a request of `wanted` (0: all there are).
@@ -48,15 +49,15 @@ public:
 
     /// Works on one block after the other, until there are none left or a thread has failed.
     template <class Work>
-    void run(Work& work, Poll poll) {
+    void run(Work& work, CancellationCheck check_cancelled) {
         for (std::size_t b; (b = next_.fetch_add(1)) < blocks_;) {
             try {
                 const std::size_t begin = b * block_, end = std::min(size_, begin + block_);
-                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, Poll>) {
-                    work(begin, end, poll);
+                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, CancellationCheck>) {
+                    work(begin, end, check_cancelled);
                 } else {
                     work(begin, end);
-                    poll(end - begin);
+                    check_cancelled(end - begin);
                 }
             } catch (...) {
                 fail();
@@ -66,31 +67,31 @@ public:
 
     /// run() on a thread that helps: its poll tells it that another one has failed.
     template <class Work>
-    void help(Work& work) {
-        engine::Asker asker([this] { return has_failed_ ? Continue::cancel : Continue::yes; });
-        run(work, Poll(asker));
+    void run_helper(Work& work) {
+        engine::ProgressMonitor monitor([this] { return has_failed_ ? Continue::cancel : Continue::yes; });
+        run(work, CancellationCheck(monitor));
         const std::lock_guard lock(mutex_);
         --helpers_;
         ended_.notify_one();
     }
-    void expect_helper() {
+    void add_helper() {
         const std::lock_guard lock(mutex_);
         ++helpers_;
     }
-    void expect_no_helper() {
+    void remove_helper() {
         const std::lock_guard lock(mutex_);
         --helpers_;
     }
 
     /// Until all helpers have ended; the caller is asked meanwhile.
-    void wait(Poll poll) {
+    void wait(CancellationCheck check_cancelled) {
         std::unique_lock lock(mutex_);
         while (helpers_ > 0) {
             ended_.wait_for(lock, std::chrono::milliseconds(10));
             if (helpers_ == 0 || has_failed_) continue;
             lock.unlock();
             try {
-                poll.now();
+                check_cancelled.now();
             } catch (...) {
                 fail();
             }
@@ -126,7 +127,7 @@ private:
 /// Calls work(begin, end) for consecutive blocks of [0, size), each call once, in any order.
 /// Blocks depend on `size` and `block` only, never on the number of threads, so that per-block results can be
 /// joined in block order to the same sum anywhere. Where the system gives fewer threads, fewer do it.
-/// \param work  one that takes long for a block takes a Poll as well, and polls it. Elsewhere the operations
+/// \param work  one that takes long for a block takes a CancellationCheck as well, and polls it. Elsewhere the operations
 ///              of a block are as many as its length.
 /// \throws what the calling thread throws, and else the first exception; the others stop before that
 template <class Work>
@@ -138,15 +139,15 @@ void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers
     helpers.reserve(count);
     try {
         for (std::size_t i = 1; i < count; ++i) {
-            queue.expect_helper();
-            helpers.emplace_back([&] { queue.help(work); });
+            queue.add_helper();
+            helpers.emplace_back([&] { queue.run_helper(work); });
         }
     } catch (const std::system_error&) {
         // The system gives no more threads: those there are do it all.
-        queue.expect_no_helper();
+        queue.remove_helper();
     }
-    queue.run(work, workers.poll);
-    queue.wait(workers.poll);
+    queue.run(work, workers.check_cancelled);
+    queue.wait(workers.check_cancelled);
     for (std::thread& helper : helpers) helper.join();
     queue.rethrow();
 }

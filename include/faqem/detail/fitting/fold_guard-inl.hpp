@@ -1,20 +1,21 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/fitting/fold_guard.hpp"
+#include "faqem/export.hpp"
 
 #include "faqem/detail/geometry/halfedges.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE FoldGuard::FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll)
-    : triangles_(mesh.triangles), least_fold_(least_fold) {
-    const std::vector<engine::Vector3> normals = unit_normals(mesh, poll);
-    for_each_edge(sorted_sides(triangles_, poll), [&](std::span<const Side> on) {
-        poll();
+FAQEM_INLINE FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine,
+                                  engine::CancellationCheck check_cancelled)
+    : triangles_(mesh.triangles), min_fold_cosine_(min_fold_cosine) {
+    const std::vector<engine::Vector3> normals = unit_normals(mesh, check_cancelled);
+    for_each_edge(sorted_halfedges(triangles_, check_cancelled), [&](std::span<const Halfedge> on) {
+        check_cancelled();
         if (on.size() != 2) return;
-        const Edge edge{{on[0].face, on[1].face}, on[0].goes_up == on[1].goes_up};
+        const Edge edge{{on[0].face, on[1].face}, on[0].is_ascending == on[1].is_ascending};
         if (!is_fold(edge, normals)) edges_.push_back(edge);
     });
 }

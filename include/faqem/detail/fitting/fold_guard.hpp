@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -17,20 +17,20 @@ namespace detail {
 class FoldGuard {
 public:
     /// \param mesh        as it is at the start; its triangles are referred to
-    /// \param least_fold  cosine between the faces' normals below which an edge is a fold
+    /// \param min_fold_cosine  cosine between the faces' normals below which an edge is a fold
     /// \throws what the poll throws
     /// O(faces log faces)
-    FoldGuard(const Patchwork& mesh, double least_fold, engine::Poll poll = {});
+    FoldGuard(const MeshRef& mesh, double min_fold_cosine, engine::CancellationCheck check_cancelled = {});
 
     /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now.
     /// \throws what the poll throws.
     /// O(faces)
     template <class Visit>
     void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit,
-                       engine::Poll poll = {}) const {
-        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_}, poll);
+                       engine::CancellationCheck check_cancelled = {}) const {
+        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_}, check_cancelled);
         for (const Edge& edge : edges_) {
-            poll();
+            check_cancelled();
             if (is_fold(edge, normals)) visit(triangles_[edge.faces[0]], triangles_[edge.faces[1]]);
         }
     }
@@ -38,15 +38,15 @@ public:
 private:
     struct Edge {
         std::array<Index, 2> faces;
-        bool is_wound_alike;  ///< both faces go through it from the same end
+        bool has_same_direction;  ///< both faces go through it from the same end
     };
     bool is_fold(const Edge& edge, std::span<const engine::Vector3> normals) const {
         const double cosine = normals[edge.faces[0]].dot(normals[edge.faces[1]]);
-        return (edge.is_wound_alike ? -cosine : cosine) < least_fold_;
+        return (edge.has_same_direction ? -cosine : cosine) < min_fold_cosine_;
     }
 
     std::span<const Triangle> triangles_;
-    double least_fold_;
+    double min_fold_cosine_;
     std::vector<Edge> edges_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
+#include "faqem/export.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -16,16 +16,16 @@ namespace detail {
 using engine::Vector3;
 using Matrix3 = Eigen::Matrix3d;
 
-inline constexpr double along_normal = 0.9;
+inline constexpr double point_to_plane_weight = 0.9;
 /// Distances below this share of the mean weigh as if they were that: what fits holds the vertex too.
-inline constexpr double least_distance = 0.1;
+inline constexpr double min_distance_share = 0.1;
 /// Share of its own weight by which a vertex is held.
 inline constexpr double damping = 0.02;
-/// The same, as a share of the mean weight: for vertices that hardly a pull tells about.
+/// The same, as a share of the mean weight: for vertices that hardly a correspondence tells about.
 inline constexpr double mean_damping = 2e-4;
 /// Of conjugate gradients: at most so many iterations, until the residual is this share of the right side.
-inline constexpr int most_iterations = 60;
-inline constexpr double least_residual = 1e-3;
+inline constexpr int max_iterations = 60;
+inline constexpr double residual_tolerance = 1e-3;
 
 /// A symmetric matrix.
 struct Symmetric3 {
@@ -47,54 +47,56 @@ struct Symmetric3 {
     }
 };
 
-/// Of one pull: how much its gap counts in each direction.
-inline Symmetric3 metric_along(const Vector3& n, double weight) {
-    const double a = weight * along_normal, b = weight * (1 - along_normal);
+/// Of one correspondence: how much its residual counts in each direction.
+inline Symmetric3 residual_metric(const Vector3& n, double weight) {
+    const double a = weight * point_to_plane_weight, b = weight * (1 - point_to_plane_weight);
     return {a * n[0] * n[0] + b, a * n[0] * n[1], a * n[0] * n[2],
             a * n[1] * n[1] + b, a * n[1] * n[2], a * n[2] * n[2] + b};
 }
 
 /// The part of the system that belongs to one face.
 struct FaceSystem {
-    std::array<Symmetric3, 3> own;    ///< of each corner with itself
-    std::array<Symmetric3, 3> other;  ///< of corner k with corner k + 1
-    std::array<Vector3, 3> right = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+    std::array<Symmetric3, 3> diagonal;      ///< of each corner with itself
+    std::array<Symmetric3, 3> off_diagonal;  ///< of corner k with corner k + 1
+    std::array<Vector3, 3> rhs = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
 };
 
 /// Of the power asked for most std::pow took 5% of all the time of `best`.
-inline double raised(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
+inline double power_of(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
 
-inline void add(const Pull& pull, double weight, FaceSystem& face) {
-    const Symmetric3 metric = metric_along(pull.normal, weight);
-    const Vector3 wanted = metric * pull.gap;
-    const Vec3& share = pull.spot.weight;
+inline void add(const Correspondence& correspondence, double weight, FaceSystem& face) {
+    const Symmetric3 metric = residual_metric(correspondence.normal, weight);
+    const Vector3 wanted = metric * correspondence.residual;
+    const Vec3& share = correspondence.sample.barycentric;
     for (std::size_t k = 0; k < 3; ++k) {
-        face.right[k] += share[k] * wanted;
-        face.own[k].add(share[k] * share[k], metric);
-        face.other[k].add(share[k] * share[(k + 1) % 3], metric);
+        face.rhs[k] += share[k] * wanted;
+        face.diagonal[k].add(share[k] * share[k], metric);
+        face.off_diagonal[k].add(share[k] * share[(k + 1) % 3], metric);
     }
 }
 
-inline std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const Pull> pulls, double power,
-                                     Workers workers) {
+inline std::vector<FaceSystem> face_systems(std::size_t faces,
+                                            std::span<const Correspondence> correspondences, double power,
+                                            Workers workers) {
     double mean = 0;
-    for (const Pull& pull : pulls) {
-        workers.poll();
-        mean += pull.gap.norm();
+    for (const Correspondence& correspondence : correspondences) {
+        workers.check_cancelled();
+        mean += correspondence.residual.norm();
     }
-    mean /= static_cast<double>(std::max<std::size_t>(pulls.size(), 1));
+    mean /= static_cast<double>(std::max<std::size_t>(correspondences.size(), 1));
     const Buckets<std::size_t> by_face(faces, [&](auto&& put) {
-        for (std::size_t i = 0; i < pulls.size(); ++i) {
-            workers.poll();
-            put(pulls[i].spot.face, i);
+        for (std::size_t i = 0; i < correspondences.size(); ++i) {
+            workers.check_cancelled();
+            put(correspondences[i].sample.face, i);
         }
     });
     std::vector<FaceSystem> all(faces);
     parallel_blocks(faces, 512, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             for (const std::size_t i : by_face[f]) {
-                const double distance = std::max(pulls[i].gap.norm(), least_distance * mean);
-                add(pulls[i], distance > 0 ? raised(distance / mean, power) : 0, all[f]);
+                const double distance =
+                    std::max(correspondences[i].residual.norm(), min_distance_share * mean);
+                add(correspondences[i], distance > 0 ? power_of(distance / mean, power) : 0, all[f]);
             }
         }
     });
@@ -102,41 +104,41 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces, std::span<const P
 }
 
 /// The matrix of the system: rows and columns of fixed vertices are left out.
-class System {
+class NormalEquations {
 public:
-    System(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-           std::span<const std::uint8_t> fixed, double power, Workers workers)
+    NormalEquations(std::span<const Triangle> triangles, std::span<const Correspondence> correspondences,
+                    std::span<const std::uint8_t> fixed, double power, Workers workers)
         : triangles_(triangles),
-          faces_(face_systems(triangles.size(), pulls, power, workers)),
+          faces_(face_systems(triangles.size(), correspondences, power, workers)),
           free_(fixed.size()),
-          own_(fixed.size()),
+          diagonal_(fixed.size()),
           inverse_(fixed.size(), Matrix3::Zero()),
-          right_(fixed.size(), Vector3::Zero()),
-          poll_(workers.poll) {
+          rhs_(fixed.size(), Vector3::Zero()),
+          check_cancelled_(workers.check_cancelled) {
         for (std::size_t v = 0; v < free_.size(); ++v) free_[v] = !fixed[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            poll_();
+            check_cancelled_();
             if (triangles_[f][0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
-                own_[triangles_[f][k]].add(1, faces_[f].own[k]);
-                right_[triangles_[f][k]] += faces_[f].right[k];
+                diagonal_[triangles_[f][k]].add(1, faces_[f].diagonal[k]);
+                rhs_[triangles_[f][k]] += faces_[f].rhs[k];
             }
         }
-        hold();
+        apply_damping();
     }
 
-    const std::vector<Vector3>& right() const { return right_; }
+    const std::vector<Vector3>& rhs() const { return rhs_; }
 
     void multiply(std::span<const Vector3> x, std::vector<Vector3>& result) const {
-        for (std::size_t v = 0; v < x.size(); ++v) result[v] = own_[v] * x[v];
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            poll_();
+            check_cancelled_();
             const Triangle& t = triangles_[f];
             if (t[0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index v = t[k], w = t[(k + 1) % 3];
-                result[v] += faces_[f].other[k] * x[w];
-                result[w] += faces_[f].other[k] * x[v];
+                result[v] += faces_[f].off_diagonal[k] * x[w];
+                result[w] += faces_[f].off_diagonal[k] * x[v];
             }
         }
         for (std::size_t v = 0; v < x.size(); ++v) {
@@ -150,31 +152,31 @@ public:
     }
 
 private:
-    void hold() {
+    void apply_damping() {
         double whole_trace = 0;
         for (std::size_t v = 0; v < free_.size(); ++v) {
-            if (free_[v]) whole_trace += own_[v].trace();
+            if (free_[v]) whole_trace += diagonal_[v].trace();
         }
         const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(free_.size(), 1));
         for (std::size_t v = 0; v < free_.size(); ++v) {
-            poll_();
+            check_cancelled_();
             if (!free_[v]) {
-                right_[v].setZero();
+                rhs_[v].setZero();
                 continue;
             }
-            const double hold = (damping * own_[v].trace() + mean_damping * mean_trace) / 3;
-            own_[v].add(hold > 0 ? hold : 1.0, {1, 0, 0, 1, 0, 1});
-            inverse_[v] = own_[v].matrix().inverse();
+            const double hold = (damping * diagonal_[v].trace() + mean_damping * mean_trace) / 3;
+            diagonal_[v].add(hold > 0 ? hold : 1.0, {1, 0, 0, 1, 0, 1});
+            inverse_[v] = diagonal_[v].matrix().inverse();
         }
     }
 
     std::span<const Triangle> triangles_;
     std::vector<FaceSystem> faces_;
     std::vector<std::uint8_t> free_;
-    std::vector<Symmetric3> own_;
+    std::vector<Symmetric3> diagonal_;
     std::vector<Matrix3> inverse_;
-    std::vector<Vector3> right_;
-    Poll poll_;
+    std::vector<Vector3> rhs_;
+    CancellationCheck check_cancelled_;
 };
 
 inline double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
@@ -183,27 +185,30 @@ inline double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
     return sum;
 }
 
-FAQEM_INLINE std::vector<Vector3> fitting_step(std::span<const Triangle> triangles, std::span<const Pull> pulls,
-                                  std::span<const std::uint8_t> fixed, double power, Workers workers) {
-    const System system(triangles, pulls, fixed, power, workers);
+FAQEM_INLINE std::vector<Vector3> gauss_newton_step(std::span<const Triangle> triangles,
+                                                    std::span<const Correspondence> correspondences,
+                                                    std::span<const std::uint8_t> fixed, double power,
+                                                    Workers workers) {
+    const NormalEquations system(triangles, correspondences, fixed, power, workers);
     const std::size_t size = fixed.size();
-    std::vector<Vector3> x(size, Vector3::Zero()), residual = system.right(), direction(size), along(size),
-                                                   eased(size);
-    system.precondition(residual, eased);
-    direction = eased;
-    double height = dot(residual, eased);
-    const double enough = least_residual * least_residual * dot(residual, residual);
-    for (int i = 0; i < most_iterations && dot(residual, residual) > enough; ++i) {
-        system.multiply(direction, along);
-        const double length = height / dot(direction, along);
+    std::vector<Vector3> x(size, Vector3::Zero()), residual = system.rhs(), direction(size),
+                                                   matrix_direction(size), preconditioned(size);
+    system.precondition(residual, preconditioned);
+    direction = preconditioned;
+    double residual_product = dot(residual, preconditioned);
+    const double enough = residual_tolerance * residual_tolerance * dot(residual, residual);
+    for (int i = 0; i < max_iterations && dot(residual, residual) > enough; ++i) {
+        system.multiply(direction, matrix_direction);
+        const double length = residual_product / dot(direction, matrix_direction);
         for (std::size_t v = 0; v < size; ++v) {
             x[v] += length * direction[v];
-            residual[v] -= length * along[v];
+            residual[v] -= length * matrix_direction[v];
         }
-        system.precondition(residual, eased);
-        const double next = dot(residual, eased);
-        for (std::size_t v = 0; v < size; ++v) direction[v] = eased[v] + (next / height) * direction[v];
-        height = next;
+        system.precondition(residual, preconditioned);
+        const double next = dot(residual, preconditioned);
+        for (std::size_t v = 0; v < size; ++v)
+            direction[v] = preconditioned[v] + (next / residual_product) * direction[v];
+        residual_product = next;
     }
     return x;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -11,16 +11,16 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Poll;
+using engine::CancellationCheck;
 using engine::Vector3;
 
 inline constexpr int bins = 16;
 /// Ranges up to this long are halved, so that the last nodes are full.
-inline constexpr std::uint32_t short_range = 16;
+inline constexpr std::uint32_t max_halved_range = 16;
 /// Beyond that lengths in the frame would overflow, or their squares would be lost.
-inline constexpr double largest_scale = 1e90;
+inline constexpr double max_scale = 1e90;
 
-struct Box {
+struct BuildBox {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
     Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
 
@@ -28,7 +28,7 @@ struct Box {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
     }
-    void add(const Box& other) {
+    void add(const BuildBox& other) {
         low = low.cwiseMin(other.low);
         high = high.cwiseMax(other.high);
     }
@@ -43,7 +43,7 @@ struct Box {
 /// The state of one construction.
 struct Bvh::Build {
     struct Item {
-        Box box;
+        BuildBox box;
         Vector3 centre;  ///< of the box
         std::uint32_t triangle;
     };
@@ -52,32 +52,32 @@ struct Bvh::Build {
         std::size_t depth;  ///< splits so far
         std::uint32_t size() const { return end - begin; }
     };
-    struct Todo {
+    struct PendingRange {
         Range range;
         std::uint32_t node;
     };
 
     std::vector<Item> items;
-    Poll poll;
+    CancellationCheck check_cancelled;
 
     /// Surface-area heuristic over bins of the longest axis; returns begin where it finds no split.
-    std::uint32_t split_by_area(const Range& range, const Box& centres, int axis) {
+    std::uint32_t split_by_sah(const Range& range, const BuildBox& centres, int axis) {
         // Halved: the difference of the largest doubles is beyond them.
         const double low = 0.5 * centres.low[axis], extent = 0.5 * centres.high[axis] - low;
         if (!(extent > 0)) return range.begin;
         const auto bin_of = [&](const Item& item) {
             return std::clamp(static_cast<int>((0.5 * item.centre[axis] - low) / extent * bins), 0, bins - 1);
         };
-        std::array<Box, bins> boxes;
+        std::array<BuildBox, bins> boxes;
         std::array<std::uint32_t, bins> counts = {};
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            poll();
+            check_cancelled();
             const auto bin = static_cast<std::size_t>(bin_of(items[i]));
             boxes[bin].add(items[i].box);
             ++counts[bin];
         }
         std::array<double, bins> right_cost = {};
-        Box box;
+        BuildBox box;
         std::uint32_t count = 0;
         for (std::size_t b = bins - 1; b > 0; --b) {
             box.add(boxes[b]);
@@ -102,7 +102,7 @@ struct Bvh::Build {
         if (best < 0) return range.begin;
         const auto middle =
             std::partition(items.begin() + range.begin, items.begin() + range.end, [&](const Item& item) {
-                poll();
+                check_cancelled();
                 return bin_of(item) <= best;
             });
         return static_cast<std::uint32_t>(middle - items.begin());
@@ -112,7 +112,7 @@ struct Bvh::Build {
     std::uint32_t halve(const Range& range, int axis) {
         const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
         const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
-        poll(range.size());
+        check_cancelled(range.size());
         std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                          [axis](const Item& a, const Item& b) {
                              return std::pair(a.centre[axis], a.triangle) <
@@ -122,22 +122,22 @@ struct Bvh::Build {
     }
 
     std::uint32_t split(const Range& range) {
-        Box centres;
+        BuildBox centres;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            poll();
+            check_cancelled();
             centres.add(items[i].centre);
         }
         int axis = 0;
         (centres.high - centres.low).maxCoeff(&axis);
-        if (range.size() > short_range && range.depth < sah_levels) {
-            const std::uint32_t middle = split_by_area(range, centres, axis);
+        if (range.size() > max_halved_range && range.depth < sah_levels) {
+            const std::uint32_t middle = split_by_sah(range, centres, axis);
             if (middle != range.begin) return middle;
         }
         return halve(range, axis);
     }
 
     /// Up to four parts of a range: the longest one is split first.
-    std::vector<Range> parts(const Range& range) {
+    std::vector<Range> split_into_children(const Range& range) {
         std::vector<Range> all = {range};
         while (all.size() < width) {
             const auto longest = std::max_element(
@@ -155,12 +155,12 @@ struct Bvh::Build {
 
 template <class Positions>
 std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles,
-                                       Poll poll) {
+                                       CancellationCheck check_cancelled) {
     std::vector<Corners> all;
     all.reserve(triangles.size());
     const auto place = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const auto [a, b, c] = triangles[f];
         if (a == no_index || b == no_index || c == no_index) continue;
         all.push_back({place(a), place(b), place(c), static_cast<Index>(f)});
@@ -168,18 +168,20 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
     return all;
 }
 
-FAQEM_INLINE Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, Poll poll)
-    : Bvh(corners(positions, triangles, poll), poll) {}
+FAQEM_INLINE Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                      CancellationCheck check_cancelled)
+    : Bvh(corners(positions, triangles, check_cancelled), check_cancelled) {}
 
-FAQEM_INLINE Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll)
-    : Bvh(corners(positions, triangles, poll), poll) {}
+FAQEM_INLINE Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles,
+                      CancellationCheck check_cancelled)
+    : Bvh(corners(positions, triangles, check_cancelled), check_cancelled) {}
 
-inline float below(double x) {
+inline float round_down(double x) {
     const auto rounded = static_cast<float>(x);
     return rounded > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
 }
 
-inline float above(double x) { return -below(-x); }
+inline float round_up(double x) { return -round_down(-x); }
 
 FAQEM_INLINE Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     const Vector3 local = frame(p);
@@ -205,14 +207,14 @@ FAQEM_INLINE float Bvh::limit_in_frame(double distance_squared) const {
            std::numeric_limits<float>::min();
 }
 
-FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
+FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_cancelled) {
     if (triangles.empty()) return;
     assert(triangles.size() < leaf_bit);
-    Build build{{}, poll};
+    Build build{{}, check_cancelled};
     build.items.reserve(triangles.size());
-    Box whole;
+    BuildBox whole;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        poll();
+        check_cancelled();
         Build::Item item;
         for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
         item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
@@ -222,15 +224,15 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
     }
     frame_.centre = 0.5 * whole.low + 0.5 * whole.high;
     const double half_width = (0.5 * whole.high - 0.5 * whole.low).maxCoeff();
-    if (half_width > 0) frame_.scale = std::min(1 / half_width, largest_scale);
+    if (half_width > 0) frame_.scale = std::min(1 / half_width, max_scale);
 
     triangles_.reserve(triangles.size());
     nodes_.resize(1);
-    std::vector<Build::Todo> todo = {{{0, static_cast<std::uint32_t>(triangles.size()), 0}, 0}};
+    std::vector<Build::PendingRange> todo = {{{0, static_cast<std::uint32_t>(triangles.size()), 0}, 0}};
     while (!todo.empty()) {
         const auto [range, at] = todo.back();
         todo.pop_back();
-        for (const Build::Range& part : build.parts(range)) {
+        for (const Build::Range& part : build.split_into_children(range)) {
             const std::uint32_t k = nodes_[at].count++;
             if (part.size() == 1) {
                 nodes_[at].child[k] = static_cast<std::uint32_t>(triangles_.size()) | leaf_bit;
@@ -242,32 +244,33 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, Poll poll) {
             }
         }
     }
-    fit_boxes(poll);
+    fit_boxes(check_cancelled);
 }
 
-FAQEM_INLINE void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles, Poll poll) {
+FAQEM_INLINE void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles,
+                             CancellationCheck check_cancelled) {
     for (Corners& t : triangles_) {
-        poll();
+        check_cancelled();
         const auto [a, b, c] = triangles[t.face];
         t.a = positions[a], t.b = positions[b], t.c = positions[c];
     }
-    fit_boxes(poll);
+    fit_boxes(check_cancelled);
 }
 
-FAQEM_INLINE void Bvh::fit_boxes(Poll poll) {
+FAQEM_INLINE void Bvh::fit_boxes(CancellationCheck check_cancelled) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
-        poll();
+        check_cancelled();
         Node& node = nodes_[n];
         for (std::size_t i = 0; i < 3; ++i) node.low[i].fill(infinity), node.high[i].fill(-infinity);
         for (std::uint32_t k = 0; k < node.count; ++k) {
             if (node.child[k] & leaf_bit) {
                 const Corners& t = triangles_[node.child[k] & ~leaf_bit];
-                Box box;
+                BuildBox box;
                 for (const Vector3& p : {t.a, t.b, t.c}) box.add(frame_(p));
                 for (int i = 0; i < 3; ++i) {
-                    node.low[static_cast<std::size_t>(i)][k] = below(box.low[i]);
-                    node.high[static_cast<std::size_t>(i)][k] = above(box.high[i]);
+                    node.low[static_cast<std::size_t>(i)][k] = round_down(box.low[i]);
+                    node.high[static_cast<std::size_t>(i)][k] = round_up(box.high[i]);
                 }
             } else {
                 const Node& child = nodes_[node.child[k]];

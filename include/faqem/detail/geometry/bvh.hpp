@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
-#include "faqem/detail/geometry/triangle.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -33,16 +33,17 @@ public:
     /// Keeps copies. O(n log n) time, about 140 bytes per face.
     /// \pre fewer than 2^31 triangles
     /// \throws what the poll throws
-    Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles, engine::Poll poll = {});
+    Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+        engine::CancellationCheck check_cancelled = {});
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
-        engine::Poll poll = {});
+        engine::CancellationCheck check_cancelled = {});
 
     /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
     /// \param triangles  those of the constructor
     /// \throws what the poll throws: then the tree is of no use any more.
     /// O(n)
     void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
-               engine::Poll poll = {});
+               engine::CancellationCheck check_cancelled = {});
 
     /// A point of the mesh.
     struct Hit {
@@ -64,8 +65,8 @@ public:
     /// As closest() without limit, for one who knows a face near p; the nearer, the faster.
     /// \param face     of the tree
     /// \param a,b,c    its corners
-    Hit closest_from(const Vec3& p, Index face, const engine::Vector3& a, const engine::Vector3& b,
-                     const engine::Vector3& c) const {
+    Hit closest_with_hint(const Vec3& p, Index face, const engine::Vector3& a, const engine::Vector3& b,
+                          const engine::Vector3& c) const {
         const ClosestPoint near = closest_point_on_triangle(engine::to_eigen(p), a, b, c);
         const Hit hit = closest(p, near.distance_squared);
         if (hit.face != no_index) return hit;
@@ -76,11 +77,11 @@ public:
 
     /// As closest(), over the faces f with filter(f) only. The filter is asked for faces that would be the
     /// best so far.
-    /// \param max_refused  that many times the filter may say no; then the best so far is the answer
+    /// \param max_rejections  that many times the filter may say no; then the best so far is the answer
     template <class Filter>
     Hit closest_if(const Vec3& p, Filter&& filter,
                    double max_distance_squared = std::numeric_limits<double>::infinity(),
-                   std::size_t max_refused = std::numeric_limits<std::size_t>::max()) const;
+                   std::size_t max_rejections = std::numeric_limits<std::size_t>::max()) const;
 
     /// Calls visit(face, const ClosestPoint&) for every face at most sqrt(distance_squared) from p, in no
     /// particular but always the same order.
@@ -94,10 +95,10 @@ public:
     /// lies in is not met.
     /// \param origin     finite; the ray goes on without end
     /// \param direction  finite, of about unit length
-    /// \param counts     (face, Side) -> bool, asked for triangles that are met
+    /// \param accepts     (face, Side) -> bool, asked for triangles that are met
     /// O(log n) typically. Source: Moeller and Trumbore 1997
-    template <class Counts>
-    bool meets(const Vec3& origin, const Vec3& direction, Counts&& counts) const;
+    template <class Accepts>
+    bool any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) const;
 
 private:
     using Vector3 = engine::Vector3;
@@ -138,7 +139,7 @@ private:
             return sum * (1 - 1e-6f);
         }
         /// Which of the children's boxes a ray goes through; by rounding some that it passes by.
-        Eigen::Array<bool, width, 1> on_way(const Ray& ray) const {
+        Eigen::Array<bool, width, 1> intersected_boxes(const Ray& ray) const {
             Lanes enter = Lanes::Zero(), leave = Lanes::Constant(std::numeric_limits<float>::max());
             for (std::size_t i = 0; i < 3; ++i) {
                 const bool up = ray.inverse[i] > 0;
@@ -166,12 +167,12 @@ private:
 
     template <class Positions>
     static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles,
-                                        engine::Poll poll);
+                                        engine::CancellationCheck check_cancelled);
 
     struct Build;
 
-    Bvh(std::vector<Corners> triangles, engine::Poll poll);
-    void fit_boxes(engine::Poll poll);
+    Bvh(std::vector<Corners> triangles, engine::CancellationCheck check_cancelled);
+    void fit_boxes(engine::CancellationCheck check_cancelled);
 
     /// A squared distance in the frame, rounded up.
     float limit_in_frame(double distance_squared) const;
@@ -216,22 +217,22 @@ void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
 
 template <class Filter>
 Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squared,
-                         std::size_t max_refused) const {
+                         std::size_t max_rejections) const {
     const Vector3 query = engine::to_eigen(p);
     ClosestPoint best;
     best.distance_squared = max_distance_squared;
     Index face = no_index;
-    std::size_t refused = 0;
-    constexpr double nothing_more = -1;
+    std::size_t rejections = 0;
+    constexpr double stop_search = -1;
     traverse(
-        query, [&] { return refused < max_refused ? best.distance_squared : nothing_more; },
+        query, [&] { return rejections < max_rejections ? best.distance_squared : stop_search; },
         [&](const Corners& t) {
             const ClosestPoint hit = closest_point_on_triangle(query, t.a, t.b, t.c);
             const bool nearer = hit.distance_squared < best.distance_squared;
             if (!nearer && !(hit.distance_squared == best.distance_squared && t.face < face)) return;
-            if (refused == max_refused) return;
+            if (rejections == max_rejections) return;
             if (!filter(t.face)) {
-                ++refused;
+                ++rejections;
                 return;
             }
             best = hit;
@@ -252,22 +253,22 @@ void Bvh::visit_within(const Vec3& p, double distance_squared, Visit&& visit) co
         });
 }
 
-template <class Counts>
-bool Bvh::meets(const Vec3& origin, const Vec3& direction, Counts&& counts) const {
+template <class Accepts>
+bool Bvh::any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) const {
     if (nodes_.empty()) return false;
-    const Vector3 from = engine::to_eigen(origin), way = engine::to_eigen(direction);
-    const Ray ray(Query(from, frame_), way);
-    const auto counts_where_met = [&](const Corners& t) {
-        const Vector3 e = t.b - t.a, g = t.c - t.a, h = way.cross(g), s = from - t.a;
+    const Vector3 from = engine::to_eigen(origin), ray_direction = engine::to_eigen(direction);
+    const Ray ray(Query(from, frame_), ray_direction);
+    const auto is_accepted_hit = [&](const Corners& t) {
+        const Vector3 e = t.b - t.a, g = t.c - t.a, h = ray_direction.cross(g), s = from - t.a;
         const double determinant = e.dot(h), sign = determinant < 0 ? -1 : 1;
         const double size = sign * determinant;
         if (!(size > 0)) return false;
         const double u = sign * s.dot(h);
         if (!(u >= 0 && u <= size)) return false;
         const Vector3 q = s.cross(e);
-        const double v = sign * way.dot(q);
+        const double v = sign * ray_direction.dot(q);
         if (!(v >= 0 && u + v <= size)) return false;
-        return sign * g.dot(q) > 0 && counts(t.face, determinant > 0 ? Side::front : Side::back);
+        return sign * g.dot(q) > 0 && accepts(t.face, determinant > 0 ? Side::front : Side::back);
     };
     std::array<std::uint32_t, (width - 1) * max_depth + 1> stack;
     std::size_t size = 0;
@@ -275,13 +276,13 @@ bool Bvh::meets(const Vec3& origin, const Vec3& direction, Counts&& counts) cons
     while (size > 0) {
         const std::uint32_t top = stack[--size];
         if (top & leaf_bit) {
-            if (counts_where_met(triangles_[top & ~leaf_bit])) return true;
+            if (is_accepted_hit(triangles_[top & ~leaf_bit])) return true;
             continue;
         }
         const Node& node = nodes_[top];
-        const Eigen::Array<bool, width, 1> on_way = node.on_way(ray);
+        const Eigen::Array<bool, width, 1> intersected_boxes = node.intersected_boxes(ray);
         for (std::uint32_t k = 0; k < node.count; ++k) {
-            if (on_way[k]) stack[size++] = node.child[k];
+            if (intersected_boxes[k]) stack[size++] = node.child[k];
         }
     }
     return false;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The edge swap: two triangles trade the diagonal of their quadrilateral.
+/// The edge flip: two triangles trade the diagonal of their quadrilateral.
 
 #include <cstddef>
 #include <optional>
@@ -17,8 +17,8 @@ struct Quadrilateral {
 
     Triangle first() const { return {a, b, c}; }
     Triangle second() const { return {b, a, d}; }
-    Triangle first_swapped() const { return {a, d, c}; }
-    Triangle second_swapped() const { return {b, c, d}; }
+    Triangle first_flipped() const { return {a, d, c}; }
+    Triangle second_flipped() const { return {b, c, d}; }
 };
 
 /// Nothing where the triangles do not share one edge alone, or are wound differently.
@@ -36,11 +36,11 @@ inline std::optional<Quadrilateral> quadrilateral(const Triangle& s, const Trian
 }
 
 /// Swaps the edge that s and t share. \return false: they share none that can be, and nothing happens
-inline bool swap_edge(Triangle& s, Triangle& t) {
+inline bool flip_edge(Triangle& s, Triangle& t) {
     const std::optional<Quadrilateral> q = quadrilateral(s, t);
     if (!q) return false;
-    s = q->first_swapped();
-    t = q->second_swapped();
+    s = q->first_flipped();
+    t = q->second_flipped();
     return true;
 }
 

@@ -1,31 +1,33 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE std::vector<Side> sorted_sides(std::span<const Triangle> triangles, engine::Poll poll) {
-    std::vector<Side> sides;
-    sides.reserve(3 * triangles.size());
+FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles,
+                                                    engine::CancellationCheck check_cancelled) {
+    std::vector<Halfedge> halfedges;
+    halfedges.reserve(3 * triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Triangle& t = triangles[f];
         if (t[0] == no_index) continue;
         for (std::uint8_t k = 0; k < 3; ++k) {
             const Index a = t[k], b = t[(k + 1) % 3];
-            if (a != b) sides.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), k, a < b});
+            if (a != b)
+                halfedges.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), k, a < b});
         }
     }
-    std::sort(sides.begin(), sides.end(), [poll](const Side& a, const Side& b) {
-        poll();
+    std::sort(halfedges.begin(), halfedges.end(), [check_cancelled](const Halfedge& a, const Halfedge& b) {
+        check_cancelled();
         if (a.edge() != b.edge()) return a.edge() < b.edge();
         return a.face != b.face ? a.face < b.face : a.corner < b.corner;
     });
-    return sides;
+    return halfedges;
 }
 
 }  // namespace detail

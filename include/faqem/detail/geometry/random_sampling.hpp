@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// A point of a surface.
-struct SurfaceSample {
+struct RandomSample {
     Index face = no_index;  ///< into Surface::triangles
     Vec3 barycentric = {};  ///< weights of its corners, sum 1
     Vec3 point = {};
@@ -22,7 +22,7 @@ struct SurfaceSample {
 /// \param s     with a face
 /// \param i     < n
 /// \param seed  another seed, other places
-FAQEM_EXPORT SurfaceSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
+FAQEM_EXPORT RandomSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace detail {
 using engine::Vector3;
 
 /// Faces lower than this share of their longest edge have no normal worth comparing.
-inline constexpr double least_height = 1e-12;
+inline constexpr double min_height_ratio = 1e-12;
 
 inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
     for (const Index v : t) {
@@ -27,10 +27,10 @@ inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices
 }
 
 /// Keeps the used positions, each once, and makes the triangles refer to them.
-inline void weld(Surface& s, engine::Poll poll) {
+inline void weld(Surface& s, engine::CancellationCheck check_cancelled) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;
     for (const Triangle& t : s.triangles) {
-        poll();
+        check_cancelled();
         for (const Index v : t) {
             if (new_index[v] != no_index) continue;
             new_index[v] = 0;
@@ -38,30 +38,30 @@ inline void weld(Surface& s, engine::Poll poll) {
         }
     }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        poll();
+        check_cancelled();
         if (s.positions[a] != s.positions[b]) return s.positions[a] < s.positions[b];
         return a < b;
     });
     std::vector<Vec3> kept;
     for (const Index v : order) {
-        poll();
+        check_cancelled();
         if (kept.empty() || kept.back() != s.positions[v]) kept.push_back(s.positions[v]);
         new_index[v] = static_cast<Index>(kept.size() - 1);
     }
     for (Triangle& t : s.triangles) {
-        poll();
+        check_cancelled();
         for (Index& v : t) v = new_index[v];
     }
     s.positions = std::move(kept);
 }
 
-FAQEM_INLINE Surface surface_of(const MeshView& mesh, engine::Poll poll) {
+FAQEM_INLINE Surface extract_surface(const MeshView& mesh, engine::CancellationCheck check_cancelled) {
     Surface s;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
     double area = 0;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Triangle t = mesh.triangles[f];
         check_indices(t, f, s.positions.size());
         const Vector3 a = engine::to_eigen(s.positions[t[0]]), b = engine::to_eigen(s.positions[t[1]]),
@@ -70,14 +70,14 @@ FAQEM_INLINE Surface surface_of(const MeshView& mesh, engine::Poll poll) {
         const double longest =
             std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
         const double twice_area = n.norm();
-        if (!(twice_area > least_height * longest) || !std::isfinite(twice_area)) continue;
+        if (!(twice_area > min_height_ratio * longest) || !std::isfinite(twice_area)) continue;
         area += twice_area / 2;
         s.triangles.push_back(t);
         s.faces.push_back(static_cast<Index>(f));
         s.normals.push_back(n / twice_area);
-        s.area_up_to.push_back(area);
+        s.cumulative_area.push_back(area);
     }
-    weld(s, poll);
+    weld(s, check_cancelled);
     if (s.positions.empty()) return s;
     s.low = s.high = engine::to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {
@@ -87,14 +87,14 @@ FAQEM_INLINE Surface surface_of(const MeshView& mesh, engine::Poll poll) {
     return s;
 }
 
-FAQEM_INLINE Surface make_surface(const MeshView& mesh, const char* name) {
-    Surface s = surface_of(mesh);
+FAQEM_INLINE Surface extract_nonempty_surface(const MeshView& mesh, const char* name) {
+    Surface s = extract_surface(mesh);
     if (s.triangles.empty()) throw InputError({}, name, "has no face with area");
     return s;
 }
 
-FAQEM_INLINE double best_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p, const Bvh::Hit& hit,
-                   const Vector3& normal, double tolerance) {
+FAQEM_INLINE double max_normal_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p,
+                                      const Bvh::Hit& hit, const Vector3& normal, double tolerance) {
     double best = normal.dot(normals[hit.face]);
     const double reach = std::sqrt(hit.distance_squared) + tolerance;
     tree.visit_within(p, reach * reach, [&](Index face, const ClosestPoint&) {

@@ -20,7 +20,7 @@ struct Surface {
     std::vector<Triangle> triangles;  ///< with area
     std::vector<Index> faces;         ///< per triangle: the mesh's face, whose corners come in the same order
     std::vector<engine::Vector3> normals;  ///< unit, per triangle
-    std::vector<double> area_up_to;        ///< per triangle: area of it and all before
+    std::vector<double> cumulative_area;   ///< per triangle: area of it and all before
     engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();
 
     double diagonal() const { return (high - low).norm(); }
@@ -38,12 +38,12 @@ struct Surface {
 /// \throws InputError  an index is out of range
 /// \throws what the poll throws
 /// O(n log n)
-FAQEM_EXPORT Surface surface_of(const MeshView& mesh, engine::Poll poll = {});
+FAQEM_EXPORT Surface extract_surface(const MeshView& mesh, engine::CancellationCheck check_cancelled = {});
 
 /// The same, where something must be left.
 /// \param name  of the mesh, for errors
 /// \throws InputError  no face has area, or an index is out of range
-FAQEM_EXPORT Surface make_surface(const MeshView& mesh, const char* name);
+FAQEM_EXPORT Surface extract_nonempty_surface(const MeshView& mesh, const char* name);
 
 /// Largest cosine between a normal and those of the faces as near to p as the nearest one: at an edge or a
 /// corner there are several, and which of them comes first is chance.
@@ -51,8 +51,8 @@ FAQEM_EXPORT Surface make_surface(const MeshView& mesh, const char* name);
 /// \param hit        tree.closest(p)
 /// \param normal     unit
 /// \param tolerance  faces that are farther by at most this are as near
-double best_cosine(const Bvh& tree, std::span<const engine::Vector3> normals, const Vec3& p,
-                   const Bvh::Hit& hit, const engine::Vector3& normal, double tolerance);
+double max_normal_cosine(const Bvh& tree, std::span<const engine::Vector3> normals, const Vec3& p,
+                         const Bvh::Hit& hit, const engine::Vector3& normal, double tolerance);
 
 /// Closest points for queries that come in spatial order: the answer to one bounds the next. Refers to its
 /// arguments; the tree is that of the surface.
@@ -62,8 +62,8 @@ public:
 
     /// The point closest to p, as Bvh::closest().
     Bvh::Hit operator()(const Vec3& p) {
-        const Bvh::Hit hit = tree_.closest_from(p, last_, surface_.corner(last_, 0),
-                                                surface_.corner(last_, 1), surface_.corner(last_, 2));
+        const Bvh::Hit hit = tree_.closest_with_hint(p, last_, surface_.corner(last_, 0),
+                                                     surface_.corner(last_, 1), surface_.corner(last_, 2));
         last_ = hit.face;
         return hit;
     }

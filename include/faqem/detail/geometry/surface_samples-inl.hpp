@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
+#include "faqem/export.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace detail {
 using engine::Vector3;
 
 /// The k-th point of a sequence that fills the triangle evenly.
-inline Vec3 even_weight(std::size_t k) {
+inline Vec3 even_barycentric(std::size_t k) {
     const auto fraction = [&](double step) {
         const double x = 0.5 + step * static_cast<double>(k);
         return x - std::floor(x);
@@ -23,68 +23,72 @@ inline Vec3 even_weight(std::size_t k) {
     return {1 - v - w, v, w};
 }
 
-FAQEM_INLINE std::vector<Vector3> unit_normals(const Patchwork& mesh, engine::Poll poll) {
+FAQEM_INLINE std::vector<Vector3> unit_normals(const MeshRef& mesh,
+                                               engine::CancellationCheck check_cancelled) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-        poll();
+        check_cancelled();
         normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
                                            : area_vector(mesh.positions, t).normalized());
     }
     return normals;
 }
 
-FAQEM_INLINE std::vector<Spot> evenly_spread(const Patchwork& mesh, std::size_t count, engine::Poll poll) {
-    std::vector<double> area_up_to;
+FAQEM_INLINE std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count,
+                                                             engine::CancellationCheck check_cancelled) {
+    std::vector<double> cumulative_area;
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
-        poll();
+        check_cancelled();
         if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
-        area_up_to.push_back(area);
+        cumulative_area.push_back(area);
     }
-    std::vector<Spot> spots;
-    if (!(area > 0)) return spots;
+    std::vector<SurfaceSample> samples;
+    if (!(area > 0)) return samples;
     Index face = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        poll();
-        const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
-        while (face + 1 < area_up_to.size() && !(area_up_to[face] > place)) ++face;
-        spots.push_back({face, even_weight(k)});
+        check_cancelled();
+        const double area_position = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
+        while (face + 1 < cumulative_area.size() && !(cumulative_area[face] > area_position)) ++face;
+        samples.push_back({face, even_barycentric(k)});
     }
-    return spots;
+    return samples;
 }
 
-FAQEM_INLINE std::vector<Spot> corners_and_middles(std::span<const Triangle> triangles, engine::Poll poll) {
-    std::vector<Spot> spots;
+FAQEM_INLINE std::vector<SurfaceSample> vertex_and_midpoint_samples(
+    std::span<const Triangle> triangles, engine::CancellationCheck check_cancelled) {
+    std::vector<SurfaceSample> samples;
     std::vector<std::uint8_t> seen;
     for (Index f = 0; f < triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Triangle& t = triangles[f];
         if (t[0] == no_index) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-            Spot corner{f, {0, 0, 0}};
-            corner.weight[k] = 1;
+            SurfaceSample corner{f, {0, 0, 0}};
+            corner.barycentric[k] = 1;
             if (seen.size() <= t[k]) seen.resize(std::size_t{t[k]} + 1, 0);
-            if (!std::exchange(seen[t[k]], std::uint8_t{1})) spots.push_back(corner);
-            corner.weight[k] = corner.weight[(k + 1) % 3] = 0.5;
-            spots.push_back(corner);
+            if (!std::exchange(seen[t[k]], std::uint8_t{1})) samples.push_back(corner);
+            corner.barycentric[k] = corner.barycentric[(k + 1) % 3] = 0.5;
+            samples.push_back(corner);
         }
     }
-    return spots;
+    return samples;
 }
 
-FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const Patchwork& mesh, engine::Poll poll) {
+FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh,
+                                                          engine::CancellationCheck check_cancelled) {
     std::vector<Vector3> normal(mesh.positions.size(), Vector3::Zero());
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : mesh.triangles) {
         if (t[0] == no_index) continue;
-        poll();
+        check_cancelled();
         const Vector3 n = area_vector(mesh.positions, t);
         for (const Index v : t) normal[v] += n, used[v] = 1;
     }
     std::vector<OrientedPoint> points;
     for (std::size_t v = 0; v < used.size(); ++v) {
-        poll();
+        check_cancelled();
         if (used[v]) points.push_back({mesh.positions[v], normal[v].normalized()});
     }
     return points;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -53,7 +53,7 @@ inline ClosestPoint on_boundary(const Vector3& p, const Vector3& a, const Vector
 }
 
 /// Sine of the smallest angle, roughly, below which the interior formula has lost half its digits.
-inline constexpr double thin = 1e-6;
+inline constexpr double sliver_ratio = 1e-6;
 
 }  // namespace closest_point
 
@@ -67,7 +67,7 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
     const Vector3 ab = b - a, ac = c - a, bc = c - b;
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
     const double area_squared = ab.cross(ac).squaredNorm();
-    const bool well_shaped = area_squared > thin * thin * longest * longest;
+    const bool well_shaped = area_squared > sliver_ratio * sliver_ratio * longest * longest;
 
     const Vector3 ap = p - a;
     const double d1 = ab.dot(ap), d2 = ac.dot(ap);

@@ -5,26 +5,26 @@
 #include <cstddef>
 #include <span>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/base/bucketed.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// The faces around each vertex, in their order.
-using FacesAround = Buckets<Index>;
+using VertexFaces = Buckets<Index>;
 
 /// \param vertices   their number
 /// \param triangles  a triangle with no_index corners is none
 /// \throws what the poll throws
 /// O(vertices + faces)
-inline FacesAround faces_around(std::size_t vertices, std::span<const Triangle> triangles,
-                                engine::Poll poll = {}) {
-    return FacesAround(vertices, [&](auto&& put) {
+inline VertexFaces make_vertex_faces(std::size_t vertices, std::span<const Triangle> triangles,
+                                     engine::CancellationCheck check_cancelled = {}) {
+    return VertexFaces(vertices, [&](auto&& put) {
         for (Index f = 0; f < triangles.size(); ++f) {
-            poll();
+            check_cancelled();
             if (triangles[f][0] == no_index) continue;
             for (const Index v : triangles[f]) put(v, f);
         }

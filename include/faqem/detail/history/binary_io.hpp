@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/error.hpp"
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
 FAQEM_NAMESPACE_BEGIN

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
-#include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/history/binary_io.hpp"
+#include "faqem/detail/history/final_versions.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -89,7 +89,7 @@ inline void check_patches(const CollapseHistory& h) {
         detail::fail_history("patch_begin", "must rise from 0 to the number of patch faces");
     }
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
-        if (h.patch(k).size() != 2) detail::fail_history(numbered("patch_begin", k), "a swap has two faces");
+        if (h.patch(k).size() != 2) detail::fail_history(numbered("patch_begin", k), "a flip has two faces");
     }
     for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
         const Index f = h.patch_faces[i];
@@ -105,7 +105,7 @@ inline void check_patches(const CollapseHistory& h) {
     }
 }
 
-// Vertex of the small mesh for each version that is kept.
+// Vertex of the simplified mesh for each version that is kept.
 inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
     std::vector<Index> vertex(h.positions.size() + h.collapses.size(), no_index);
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i)
@@ -113,8 +113,8 @@ inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
     return vertex;
 }
 
-// All faces over the vertices of the small mesh after the last swap; what was not kept has no_index corners.
-inline std::vector<Triangle> small_faces(const CollapseHistory& h) {
+// All faces over the vertices of the simplified mesh after the last flip; what was not kept has no_index corners.
+inline std::vector<Triangle> simplified_faces(const CollapseHistory& h) {
     const std::vector<Index> vertex = kept_vertex(h);
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
@@ -129,8 +129,8 @@ inline std::vector<Triangle> small_faces(const CollapseHistory& h) {
     }
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
         Triangle &s = faces[h.patch(k)[0]], &t = faces[h.patch(k)[1]];
-        if (s[0] == no_index || t[0] == no_index || !detail::swap_edge(s, t))
-            detail::fail_history(numbered("patch_begin", k), "a swap of faces that share no edge");
+        if (s[0] == no_index || t[0] == no_index || !detail::flip_edge(s, t))
+            detail::fail_history(numbered("patch_begin", k), "a flip of faces that share no edge");
     }
     return faces;
 }
@@ -149,7 +149,7 @@ inline void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
             detail::fail_history(numbered("kept_faces", i), "no such face");
     }
-    small_faces(h);
+    simplified_faces(h);
 }
 
 }  // namespace detail
@@ -173,7 +173,7 @@ FAQEM_INLINE TriangleMesh replay(const CollapseHistory& history) {
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         mesh.positions.push_back(history.kept_position(i));
     }
-    const std::vector<Triangle> faces = detail::small_faces(history);
+    const std::vector<Triangle> faces = detail::simplified_faces(history);
     for (const Index f : history.kept_faces) {
         mesh.triangles.push_back(faces[f]);
         if (!history.face_groups.empty()) mesh.face_groups.push_back(history.face_groups[f]);
@@ -214,15 +214,18 @@ FAQEM_INLINE CollapseHistory detail::read_history_body(std::istream& in) {
     const auto firsts = detail::get_array<Index>(in, "collapses");
     h.collapses.resize(firsts.size());
     detail::fill_column(h.collapses, &Collapse::first, firsts, "collapses");
-    detail::fill_column(h.collapses, &Collapse::second, detail::get_array<Index>(in, "collapses"), "collapses");
-    detail::fill_column(h.collapses, &Collapse::position, detail::get_array<Vec3>(in, "collapses"), "collapses");
+    detail::fill_column(h.collapses, &Collapse::second, detail::get_array<Index>(in, "collapses"),
+                        "collapses");
+    detail::fill_column(h.collapses, &Collapse::position, detail::get_array<Vec3>(in, "collapses"),
+                        "collapses");
     h.patch_begin = detail::get_array<std::uint64_t>(in, "patch_begin");
     h.patch_faces = detail::get_array<Index>(in, "patch_faces");
     h.kept_positions = detail::get_array<Vec3>(in, "kept_positions");
     const auto times = detail::get_array<std::uint64_t>(in, "deleted_faces");
     h.deleted_faces.resize(times.size());
     detail::fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
-    detail::fill_column(h.deleted_faces, &DeletedFace::face, detail::get_array<Index>(in, "deleted_faces"), "deleted_faces");
+    detail::fill_column(h.deleted_faces, &DeletedFace::face, detail::get_array<Index>(in, "deleted_faces"),
+                        "deleted_faces");
     h.kept_versions = detail::get_array<Index>(in, "kept_versions");
     h.kept_faces = detail::get_array<Index>(in, "kept_faces");
     validate(h);

@@ -1,22 +1,21 @@
 #pragma once
 
 #include "faqem/export.hpp"
-#include "faqem/cut.hpp"
+#include "faqem/truncate.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
 
-#include "faqem/error.hpp"
-#include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/history/binary_io.hpp"
+#include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
-
 
 inline std::string numbered(std::size_t level) { return "level " + std::to_string(level); }
 
@@ -24,27 +23,29 @@ inline bool is_same(const Collapse& a, const Collapse& b) {
     return a.first == b.first && a.second == b.second && a.position == b.position;
 }
 
-inline bool is_same(const DeletedFace& a, const DeletedFace& b) { return a.time == b.time && a.face == b.face; }
+inline bool is_same(const DeletedFace& a, const DeletedFace& b) {
+    return a.time == b.time && a.face == b.face;
+}
 
 // Does a run that had done `part` go on to `whole`?
-inline bool goes_on_to(const CollapseHistory& part, const CollapseHistory& whole) {
-    const auto begins = [](const auto& a, const auto& b, auto&& same) {
+inline bool is_prefix_of(const CollapseHistory& part, const CollapseHistory& whole) {
+    const auto is_prefix = [](const auto& a, const auto& b, auto&& same) {
         return a.size() <= b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
     };
     return part.positions == whole.positions && part.triangles == whole.triangles &&
            part.face_groups == whole.face_groups &&
-           begins(part.collapses, whole.collapses,
-                  [](const Collapse& a, const Collapse& b) { return is_same(a, b); }) &&
-           begins(part.deleted_faces, whole.deleted_faces,
-                  [](const DeletedFace& a, const DeletedFace& b) { return is_same(a, b); });
+           is_prefix(part.collapses, whole.collapses,
+                     [](const Collapse& a, const Collapse& b) { return is_same(a, b); }) &&
+           is_prefix(part.deleted_faces, whole.deleted_faces,
+                     [](const DeletedFace& a, const DeletedFace& b) { return is_same(a, b); });
 }
 
-inline HistoryLevel level_of(const CollapseHistory& history) {
+inline HistoryLevel level_from_history(const CollapseHistory& history) {
     HistoryLevel level;
     level.collapses = history.collapses.size();
     level.deleted = history.deleted_faces.size();
     for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k)
-        level.swaps.push_back({history.patch(k)[0], history.patch(k)[1]});
+        level.flips.push_back({history.patch(k)[0], history.patch(k)[1]});
     level.kept_versions = history.kept_versions;
     level.kept_faces = history.kept_faces;
     level.kept_positions = history.kept_positions;
@@ -52,7 +53,8 @@ inline HistoryLevel level_of(const CollapseHistory& history) {
 }
 
 // The first collapses and deletions.
-inline CollapseHistory beginning(const CollapseHistory& whole, std::size_t collapses, std::size_t deleted) {
+inline CollapseHistory history_prefix(const CollapseHistory& whole, std::size_t collapses,
+                                      std::size_t deleted) {
     CollapseHistory h;
     if (whole.patch_begin.empty()) return h;  // of nothing
     h.positions = whole.positions;
@@ -69,12 +71,12 @@ inline CollapseHistory beginning(const CollapseHistory& whole, std::size_t colla
 }
 
 // How far a history goes.
-struct Moment {
+struct HistoryLength {
     std::size_t collapses = 0, deleted = 0;
-    bool operator==(const Moment&) const = default;
+    bool operator==(const HistoryLength&) const = default;
 };
 
-inline Moment end_of_level(const ChainHistory& history, std::size_t level) {
+inline HistoryLength length_at_level(const ChainHistory& history, std::size_t level) {
     if (level == history.before.size())
         return {history.last.collapses.size(), history.last.deleted_faces.size()};
     return {static_cast<std::size_t>(history.before[level].collapses),
@@ -88,7 +90,7 @@ inline std::size_t faces_at_level(const ChainHistory& history, std::size_t level
 
 // Where a run to so many faces would have stopped, as an engine counts: what has lost its area counts too.
 // What is deleted between two collapses goes together.
-inline Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
+inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_t faces) {
     const Index made = static_cast<Index>(h.positions.size());
     std::vector<Triangle> corners = h.triangles;
     std::size_t left = static_cast<std::size_t>(
@@ -98,7 +100,7 @@ inline Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
         corners[f][0] = no_index;
         --left;
     };
-    Moment now;
+    HistoryLength now;
     const auto remove_deleted = [&] {
         while (now.deleted < h.deleted_faces.size() && h.deleted_faces[now.deleted].time == now.collapses)
             remove(h.deleted_faces[now.deleted++].face);
@@ -124,7 +126,7 @@ inline Moment moment_of(const CollapseHistory& h, std::uint64_t faces) {
 
 // Fills what is kept as a run would that ended there: vertices and faces in the order of the input, none
 // without area.
-inline void keep_what_is_left(CollapseHistory& h) {
+inline void fill_kept_elements(CollapseHistory& h) {
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
     for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
@@ -162,19 +164,19 @@ FAQEM_INLINE ChainHistory join(std::span<const CollapseHistory> levels) {
     ChainHistory result;
     result.last = levels.back();
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
-        if (!detail::goes_on_to(levels[i], levels[i + 1]))
+        if (!detail::is_prefix_of(levels[i], levels[i + 1]))
             detail::fail_history(detail::numbered(i), "the next one is of another run");
-        result.before.push_back(detail::level_of(levels[i]));
+        result.before.push_back(detail::level_from_history(levels[i]));
     }
     return result;
 }
 
-FAQEM_INLINE CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level) {
+FAQEM_INLINE CollapseHistory truncate_to_level(const ChainHistory& history, std::size_t level) {
     if (level == history.before.size()) return history.last;
     const HistoryLevel& end = history.before[level];
-    const detail::Moment moment = detail::end_of_level(history, level);
-    CollapseHistory h = detail::beginning(history.last, moment.collapses, moment.deleted);
-    for (const auto& [s, t] : end.swaps) {
+    const detail::HistoryLength length = detail::length_at_level(history, level);
+    CollapseHistory h = detail::history_prefix(history.last, length.collapses, length.deleted);
+    for (const auto& [s, t] : end.flips) {
         h.patch_faces.insert(h.patch_faces.end(), {s, t});
         h.patch_begin.push_back(h.patch_faces.size());
     }
@@ -184,21 +186,22 @@ FAQEM_INLINE CollapseHistory cut_at_level(const ChainHistory& history, std::size
     return h;
 }
 
-FAQEM_INLINE CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces) {
+FAQEM_INLINE CollapseHistory truncate_to_faces(const ChainHistory& history, std::uint64_t faces) {
     const std::size_t levels = history.level_count();
     for (std::size_t i = 0; i < levels; ++i) {
-        if (detail::faces_at_level(history, i) == faces) return cut_at_level(history, i);
+        if (detail::faces_at_level(history, i) == faces) return truncate_to_level(history, i);
     }
-    const detail::Moment moment = detail::moment_of(history.last, faces);
+    const detail::HistoryLength length = detail::length_at_face_count(history.last, faces);
     for (std::size_t i = 0; i < levels; ++i) {
-        if (detail::end_of_level(history, i) == moment) return cut_at_level(history, i);
+        if (detail::length_at_level(history, i) == length) return truncate_to_level(history, i);
     }
-    CollapseHistory h = detail::beginning(history.last, moment.collapses, moment.deleted);
-    detail::keep_what_is_left(h);
+    CollapseHistory h = detail::history_prefix(history.last, length.collapses, length.deleted);
+    detail::fill_kept_elements(h);
     return h;
 }
 
-FAQEM_INLINE std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces) {
+FAQEM_INLINE std::vector<CollapseHistory> truncate_to_faces(std::span<const ChainHistory> parts,
+                                                            std::uint64_t faces) {
     std::vector<CollapseHistory> result;
     if (parts.empty()) return result;
     detail::check_same_count(parts);
@@ -219,12 +222,12 @@ FAQEM_INLINE std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> p
     while (below < levels && faces_of_all(below) > faces) ++below;
     const bool is_level = below > 0 && faces_of_all(below) >= faces;  // above it only at the last
     if (is_level) {
-        for (const ChainHistory& part : parts) result.push_back(cut_at_level(part, below - 1));
+        for (const ChainHistory& part : parts) result.push_back(truncate_to_level(part, below - 1));
         return result;
     }
     if (parts.size() == 1 || below == 0) {
         for (const ChainHistory& part : parts)
-            result.push_back(cut_to(part, below == 0 ? faces_of(part, 0) : faces));
+            result.push_back(truncate_to_faces(part, below == 0 ? faces_of(part, 0) : faces));
         return result;
     }
     const std::uint64_t fewer = faces_of_all(below), more = faces_of_all(below - 1);
@@ -232,7 +235,7 @@ FAQEM_INLINE std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> p
     for (const ChainHistory& part : parts) {
         const std::uint64_t least = faces_of(part, below);
         const auto extra = static_cast<double>(faces_of(part, below - 1) - least);
-        result.push_back(cut_to(part, least + static_cast<std::uint64_t>(share * extra)));
+        result.push_back(truncate_to_faces(part, least + static_cast<std::uint64_t>(share * extra)));
     }
     return result;
 }
@@ -258,7 +261,7 @@ FAQEM_INLINE void write(const ChainHistory& history, std::ostream& out) {
     for (const HistoryLevel& level : history.before) {
         detail::put(out, level.collapses);
         detail::put(out, level.deleted);
-        detail::put_array(out, level.swaps);
+        detail::put_array(out, level.flips);
         detail::put_array(out, level.kept_positions);
         detail::put_array(out, level.kept_versions);
         detail::put_array(out, level.kept_faces);
@@ -274,25 +277,27 @@ FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
         history.last = detail::read_history_body(in);
         return history;
     }
-    if (magic != detail::chain_magic) detail::fail_history("header", "not a collapse history of this version");
+    if (magic != detail::chain_magic)
+        detail::fail_history("header", "not a collapse history of this version");
     history.last = read_history(in);
     const auto count = detail::get<std::uint64_t>(in, "levels");
-    detail::Moment latest;
+    detail::HistoryLength latest;
     for (std::uint64_t i = 0; i < count; ++i) {
         HistoryLevel& level = history.before.emplace_back();
         level.collapses = detail::get<std::uint64_t>(in, "levels");
         level.deleted = detail::get<std::uint64_t>(in, "levels");
-        level.swaps = detail::get_array<std::array<Index, 2>>(in, "levels");
+        level.flips = detail::get_array<std::array<Index, 2>>(in, "levels");
         level.kept_positions = detail::get_array<Vec3>(in, "levels");
         level.kept_versions = detail::get_array<Index>(in, "levels");
         level.kept_faces = detail::get_array<Index>(in, "levels");
-        const bool rises = level.collapses >= latest.collapses && level.deleted >= latest.deleted &&
-                           level.collapses <= history.last.collapses.size() &&
-                           level.deleted <= history.last.deleted_faces.size();
-        if (!rises)
-            detail::fail_history(detail::numbered(i), "goes not as far as the one before it, or farther than the last");
-        latest = detail::end_of_level(history, static_cast<std::size_t>(i));
-        validate(cut_at_level(history, static_cast<std::size_t>(i)));
+        const bool is_monotone = level.collapses >= latest.collapses && level.deleted >= latest.deleted &&
+                                 level.collapses <= history.last.collapses.size() &&
+                                 level.deleted <= history.last.deleted_faces.size();
+        if (!is_monotone)
+            detail::fail_history(detail::numbered(i),
+                                 "goes not as far as the one before it, or farther than the last");
+        latest = detail::length_at_level(history, static_cast<std::size_t>(i));
+        validate(truncate_to_level(history, static_cast<std::size_t>(i)));
     }
     return history;
 }

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "faqem/detail/lod/lod_chain.hpp"
-#include "faqem/error.hpp"
 #include "faqem/detail/simplify/run.hpp"
+#include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -18,7 +18,8 @@ namespace detail {
     throw OptionError("level " + std::to_string(level) + ": " + what);
 }
 
-inline detail::Goal goal(const Level& level, std::size_t number, double faces, double diagonal) {
+inline detail::LevelTarget level_target(const Level& level, std::size_t number, double faces,
+                                        double diagonal) {
     if (const MaxError* error = std::get_if<MaxError>(&level)) {
         if (!(error->value > 0 && std::isfinite(error->value)))
             fail(number, "a distance must be finite and > 0");
@@ -36,19 +37,21 @@ inline detail::Goal goal(const Level& level, std::size_t number, double faces, d
                 fail(number, "a number of faces must be finite and >= 1");
             break;
     }
-    return {std::max(detail::smallest_target, detail::faces_wanted(target, faces))};
+    return {std::max(detail::min_target_faces, detail::target_face_count(target, faces))};
 }
 
 }  // namespace detail
 
-FAQEM_INLINE std::vector<detail::Goal> detail::goals(const std::vector<Level>& levels, const Options& options,
-                                        double faces, double diagonal) {
+FAQEM_INLINE std::vector<detail::LevelTarget> detail::level_targets(const std::vector<Level>& levels,
+                                                                    const Options& options, double faces,
+                                                                    double diagonal) {
     if (options.target.kind != Target::Kind::unset || options.max_error)
         throw OptionError("target and max_error: of a chain the levels say them");
-    std::vector<Goal> goals;
-    Goal last{std::numeric_limits<std::uint64_t>::max(), 0};
+    std::vector<LevelTarget> level_targets;
+    LevelTarget last{std::numeric_limits<std::uint64_t>::max(), 0};
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const Goal& next = goals.emplace_back(detail::goal(levels[i], i, faces, diagonal));
+        const LevelTarget& next =
+            level_targets.emplace_back(detail::level_target(levels[i], i, faces, diagonal));
         if (next.faces) {
             if (*next.faces > *last.faces) detail::fail(i, "more faces than a level before it");
             last.faces = next.faces;
@@ -57,26 +60,28 @@ FAQEM_INLINE std::vector<detail::Goal> detail::goals(const std::vector<Level>& l
             last.allowed = next.allowed;
         }
     }
-    return goals;
+    return level_targets;
 }
 
-FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh, const std::vector<Level>& levels,
-                                             const Options& options) try {
+FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
+                                                          const std::vector<Level>& levels,
+                                                          const Options& options) try {
     validate(options);
-    const detail::AskMeanwhile meanwhile(options, 0);
-    const detail::Original original(mesh, options, meanwhile.poll());
+    const detail::MeasurementMonitor monitor(options, 0);
+    const detail::DistanceReference original(mesh, options, monitor.cancellation_check());
     const std::uint64_t faces = mesh.triangles.size();
-    const std::vector<detail::Goal> goals =
-        detail::goals(levels, options, static_cast<double>(faces),
-                      detail::diagonal_of_all(mesh, options, original, meanwhile.poll()));
-    if (goals.empty()) return {};
-    return detail::run_chain<SimplifiedLevel>(
-        goals, options, faces,
+    const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
+        levels, options, static_cast<double>(faces),
+        detail::unpruned_diagonal(mesh, options, original, monitor.cancellation_check()));
+    if (level_targets.empty()) return {};
+    return detail::run_lod_chain<SimplifiedLevel>(
+        level_targets, options, faces,
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            return detail::run_to(mesh, targets, own);
+            return detail::run_to_targets(mesh, targets, own);
         },
-        [&](const SimplifyResult& result, double allowed, detail::Look look, detail::Poll poll) {
-            return detail::distance(original, result, allowed, look, options, poll);
+        [&](const SimplifyResult& result, double allowed, detail::MeasureMode mode,
+            detail::CancellationCheck check_cancelled) {
+            return detail::distance(original, result, allowed, mode, options, check_cancelled);
         });
 } catch (const engine::Cancelled&) {
     std::vector<SimplifiedLevel> none(1);

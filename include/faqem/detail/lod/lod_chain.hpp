@@ -11,15 +11,15 @@
 #include <variant>
 #include <vector>
 
+#include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/export.hpp"
 #include "faqem/levels.hpp"
-#include "faqem/detail/simplify/error_bound_search.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// A level in numbers.
-struct Goal {
+struct LevelTarget {
     std::optional<std::uint64_t> faces;  ///< else a distance
     double allowed = std::numeric_limits<double>::infinity();
 };
@@ -28,8 +28,8 @@ struct Goal {
 /// \param faces     of the original
 /// \param diagonal  of the original
 /// \throws OptionError  see simplify_levels()
-FAQEM_EXPORT std::vector<Goal> goals(const std::vector<Level>& levels, const Options& options, double faces,
-                                     double diagonal);
+FAQEM_EXPORT std::vector<LevelTarget> level_targets(const std::vector<Level>& levels, const Options& options,
+                                                    double faces, double diagonal);
 
 /// A result, and the target that it was run to.
 template <class Result>
@@ -40,13 +40,14 @@ struct Attempt : Result {
 /// Runs and measures the levels. A door brings the runs.
 /// \tparam Out     has the members of SimplifiedLevel
 /// \param faces    of the original
-/// \param run      (targets, Options) -> results, as run_to()
-/// \param measure  (Result, allowed, Look, Poll) -> Distance
+/// \param run      (targets, Options) -> results, as run_to_targets()
+/// \param measure  (Result, allowed, MeasureMode, CancellationCheck) -> MeasuredDistance
 template <class Out, class Run, class Measure>
-std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, std::uint64_t faces,
-                           Run&& run, Measure&& measure) {
+std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
+                               std::uint64_t faces, Run&& run, Measure&& measure) {
     using Result = decltype(Out::result);
-    const auto searches = std::count_if(goals.begin(), goals.end(), [](const Goal& g) { return !g.faces; });
+    const auto searches = std::count_if(level_targets.begin(), level_targets.end(),
+                                        [](const LevelTarget& g) { return !g.faces; });
     double steps_done = 0;  // searches, and at last a run
     Options own = options;
     if (options.progress) {
@@ -56,27 +57,27 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
         };
     }
 
-    std::vector<Out> out(goals.size());
+    std::vector<Out> out(level_targets.size());
     std::vector<std::uint64_t> targets;
-    for (std::size_t i = 0; i < goals.size(); ++i) {
+    for (std::size_t i = 0; i < level_targets.size(); ++i) {
         const std::uint64_t most = targets.empty() ? faces : targets.back();
-        if (goals[i].faces) {
-            targets.push_back(std::min(*goals[i].faces, most));
+        if (level_targets[i].faces) {
+            targets.push_back(std::min(*level_targets[i].faces, most));
             continue;
         }
         Options search = own;
-        search.max_error = model_units(goals[i].allowed);
-        auto found = run_within<Attempt<Result>>(
-            search, most, goals[i].allowed,
+        search.max_error = model_units(level_targets[i].allowed);
+        auto found = search_within_error<Attempt<Result>>(
+            search, most, level_targets[i].allowed,
             [&](const Options& tried) {
-                const std::uint64_t target = faces_wanted(tried.target, static_cast<double>(most));
+                const std::uint64_t target = target_face_count(tried.target, static_cast<double>(most));
                 targets.push_back(target);
                 Attempt<Result> attempt{std::move(run(targets, tried).back()), target};
                 targets.pop_back();
                 return attempt;
             },
-            [&](const Result& result, Look look, Poll poll) {
-                return measure(result, goals[i].allowed, look, poll);
+            [&](const Result& result, MeasureMode mode, CancellationCheck check_cancelled) {
+                return measure(result, level_targets[i].allowed, mode, check_cancelled);
             });
         targets.push_back(found.target);
         out[i].result = std::move(found);
@@ -92,7 +93,7 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
     }
 
     std::vector<Result> results;
-    if (static_cast<std::size_t>(searches) < goals.size()) {
+    if (static_cast<std::size_t>(searches) < level_targets.size()) {
         Options half = own;
         if (own.progress)
             half.progress = [&](Phase phase, double fraction) { return own.progress(phase, fraction / 2); };
@@ -105,10 +106,11 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
         return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out.size());
     };
     // False: cancelled.
-    const auto take_measure = [&](std::size_t i) {
+    const auto try_measure = [&](std::size_t i) {
         try {
-            const AskMeanwhile meanwhile(own, done(i));
-            const Distance found = measure(out[i].result, goals[i].allowed, Look::in_full, meanwhile.poll());
+            const MeasurementMonitor monitor(own, done(i));
+            const MeasuredDistance found = measure(out[i].result, level_targets[i].allowed, MeasureMode::full,
+                                                   monitor.cancellation_check());
             out[i].distance = found.value;
             out[i].error = found.bound;
             return true;
@@ -117,14 +119,15 @@ std::vector<Out> run_chain(std::span<const Goal> goals, const Options& options, 
         }
     };
     for (std::size_t i = 0; i < out.size(); ++i) {
-        if (goals[i].faces) out[i].result = std::move(results[i]);
+        if (level_targets[i].faces) out[i].result = std::move(results[i]);
         if (is_cancelled && i + 1 == out.size()) {
             out[i].result.report.stop = StopReason::cancelled;
             break;
         }
-        const bool goes_on = !goals[i].faces || take_measure(i);
+        const bool is_measured = !level_targets[i].faces || try_measure(i);
         largest = out[i].error = std::max(out[i].error, largest);
-        if (!goes_on || (own.progress && own.progress(Phase::simplify, done(i + 1)) == Continue::cancel)) {
+        if (!is_measured ||
+            (own.progress && own.progress(Phase::simplify, done(i + 1)) == Continue::cancel)) {
             out[i].result.report.stop = StopReason::cancelled;
             out.resize(i + 1);
         }

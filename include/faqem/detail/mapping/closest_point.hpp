@@ -2,21 +2,21 @@
 /// \file
 /// From the small surface to the original by closest points: what a baker without history does.
 
-#include "faqem/export.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/detail/mapping/replay.hpp"
+#include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
-#include "faqem/detail/mapping/replay.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// The closest point of the whole original, with no regard to sides, sheets or groups. On thin walls that is
 /// the wrong side as often as not.
-class ClosestPoints {
+class ClosestPointMap {
 public:
     /// \throws what the poll throws
-    explicit ClosestPoints(const CollapseHistory& history, engine::Poll poll = {});
+    explicit ClosestPointMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
 
     /// Of faces at the same distance the one with the smallest index. O(log faces) typically
     SurfacePoint map(Index face, const Vec3& barycentric) const;
@@ -25,10 +25,10 @@ public:
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:
-    SurfacePoint found(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const;
+    SurfacePoint to_surface_point(const Bvh::Hit& hit, Index face, const Vec3& barycentric) const;
 
     const CollapseHistory& history_;
-    Replay replay_;
+    ReplayTables replay_;
     Bvh tree_;
 };
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <tuple>
 
-#include "faqem/detail/geometry/vertex_faces.hpp"
-#include "faqem/engine/mesh/vector.hpp"
-#include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/detail/geometry/vertex_faces.hpp"
+#include "faqem/detail/history/final_versions.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -22,7 +22,7 @@ using engine::Vector3;
 
 }  // namespace detail
 
-FAQEM_INLINE std::vector<Index> small_vertices(const CollapseHistory& history) {
+FAQEM_INLINE std::vector<Index> vertex_map(const CollapseHistory& history) {
     const std::vector<Index> last = detail::final_versions(history);
     std::vector<Index> number(last.size(), no_index);
     for (Index v = 0; v < history.kept_versions.size(); ++v) number[history.kept_versions[v]] = v;
@@ -36,62 +36,66 @@ struct ForwardMap::Impl {
     // The best place so far.
     struct Best {
         Index face = no_index;
-        bool looks_away = true;
+        bool is_opposite = true;
         double distance_squared = std::numeric_limits<double>::infinity();
         engine::Vector3 barycentric = engine::Vector3::Zero();
     };
 
     explicit Impl(const CollapseHistory& h)
         : history(h),
-          small(replay(h)),
-          vertex(small_vertices(h)),
-          around(detail::faces_around(small.positions.size(), small.triangles)) {}
+          simplified(replay(h)),
+          vertex(vertex_map(h)),
+          vertex_faces(detail::make_vertex_faces(simplified.positions.size(), simplified.triangles)) {}
 
     engine::Vector3 corner(Index face, std::size_t k) const {
-        return engine::to_eigen(small.positions[small.triangles[face][k]]);
+        return engine::to_eigen(simplified.positions[simplified.triangles[face][k]]);
     }
 
     // A face that looks the other way is the back of a thin wall, and taken only where there is no other. Of
     // faces at the same distance it is the one with the smallest index, whichever way led to it.
-    void look_around(Index v, const engine::Vector3& p, const engine::Vector3& normal, Best& best) const {
-        for (const Index f : around[v]) {
+    void search_vertex_faces(Index v, const engine::Vector3& p, const engine::Vector3& normal,
+                             Best& best) const {
+        for (const Index f : vertex_faces[v]) {
             const engine::Vector3 a = corner(f, 0), b = corner(f, 1), c = corner(f, 2);
             const engine::Vector3 own = engine::area_vector(a, b, c);
-            const bool looks_away = own.dot(normal) < -0.5 * own.norm();
+            const bool is_opposite = own.dot(normal) < -0.5 * own.norm();
             const detail::ClosestPoint at = detail::closest_point_on_triangle(p, a, b, c);
-            if (std::tie(looks_away, at.distance_squared, f) <
-                std::tie(best.looks_away, best.distance_squared, best.face))
-                best = {f, looks_away, at.distance_squared, at.barycentric};
+            if (std::tie(is_opposite, at.distance_squared, f) <
+                std::tie(best.is_opposite, best.distance_squared, best.face))
+                best = {f, is_opposite, at.distance_squared, at.barycentric};
         }
     }
 
     const CollapseHistory& history;
-    TriangleMesh small;
+    TriangleMesh simplified;
     std::vector<Index> vertex;
-    detail::FacesAround around;
+    detail::VertexFaces vertex_faces;
 };
 
-FAQEM_INLINE ForwardMap::ForwardMap(const CollapseHistory& history) : impl_(std::make_unique<const Impl>(history)) {}
+FAQEM_INLINE ForwardMap::ForwardMap(const CollapseHistory& history)
+    : impl_(std::make_unique<const Impl>(history)) {}
 FAQEM_INLINE ForwardMap::~ForwardMap() = default;
 FAQEM_INLINE ForwardMap::ForwardMap(ForwardMap&&) noexcept = default;
 FAQEM_INLINE ForwardMap& ForwardMap::operator=(ForwardMap&&) noexcept = default;
 
-FAQEM_INLINE SmallPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SimplifiedPoint ForwardMap::map(Index face, const Vec3& barycentric) const {
     assert(face < impl_->history.triangles.size());
     const Triangle& corners = impl_->history.triangles[face];
     if (corners[0] == no_index) return {};
     std::array<engine::Vector3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) at[k] = engine::to_eigen(impl_->history.positions[corners[k]]);
     const engine::Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
-    const engine::Vector3 normal = engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
+    const engine::Vector3 normal =
+        engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
     Impl::Best best;
     for (const Index v : corners) {
-        if (impl_->vertex[v] != no_index) impl_->look_around(impl_->vertex[v], p, normal, best);
+        if (impl_->vertex[v] != no_index) impl_->search_vertex_faces(impl_->vertex[v], p, normal, best);
     }
     Index from = no_index;
     while (best.face != from) {
         from = best.face;
-        for (const Index v : impl_->small.triangles[from]) impl_->look_around(v, p, normal, best);
+        for (const Index v : impl_->simplified.triangles[from])
+            impl_->search_vertex_faces(v, p, normal, best);
     }
     if (best.face == no_index) return {};
     return {best.face, engine::to_array(best.barycentric)};

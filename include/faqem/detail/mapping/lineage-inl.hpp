@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/mapping/lineage.hpp"
+#include "faqem/export.hpp"
 
 #include "faqem/engine/mesh/vector.hpp"
 
@@ -11,28 +11,28 @@ namespace detail {
 using engine::to_eigen;
 using engine::Vector3;
 
-FAQEM_INLINE LineageWalk::LineageWalk(const CollapseHistory& history, engine::Poll poll)
+FAQEM_INLINE LineageMap::LineageMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled)
     : history_(history),
-      replay_(replay_vertices(history, poll)),
+      replay_(replay_vertices(history, check_cancelled)),
       first_face_(history.positions.size() + 1, 0) {
     for (const Triangle& t : history.triangles) {
-        poll();
+        check_cancelled();
         if (t[0] == no_index) continue;
         for (Index v : t) ++first_face_[v + std::size_t{1}];
     }
     for (std::size_t v = 0; v < history.positions.size(); ++v) first_face_[v + 1] += first_face_[v];
     faces_.resize(first_face_.back());
-    std::vector<std::uint64_t> fill(first_face_.begin(), first_face_.end() - 1);
+    std::vector<std::uint64_t> next(first_face_.begin(), first_face_.end() - 1);
     for (std::size_t f = 0; f < history.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         if (history.triangles[f][0] == no_index) continue;
-        for (Index v : history.triangles[f]) faces_[fill[v]++] = static_cast<Index>(f);
+        for (Index v : history.triangles[f]) faces_[next[v]++] = static_cast<Index>(f);
     }
 }
 
-FAQEM_INLINE SurfacePoint LineageWalk::map(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SurfacePoint LineageMap::map(Index face, const Vec3& barycentric) const {
     const Triangle& corners = replay_.kept_corners[face];
-    const Vector3 p0 = replay_.place(face, barycentric);
+    const Vector3 p0 = replay_.position_on(face, barycentric);
     const auto distance = [&](Index v) { return (to_eigen(replay_.positions[v]) - p0).squaredNorm(); };
 
     Index at = corners[0];

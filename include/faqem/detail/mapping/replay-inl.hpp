@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/mapping/replay.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct PatchEdge {
 };
 
 // Buffers that live as long as the replay.
-struct Labeller {
+struct ComponentLabeller {
     std::vector<PatchEdge> edges;
     std::vector<std::size_t> parent;
 
@@ -31,9 +31,9 @@ struct Labeller {
     }
 
     // Labels the patch's components over edges that join two faces: 0, 1, ... in the order of their first
-    // faces. sheet(e): of face e of the patch
-    template <class Sheet>
-    void label(std::span<const Triangle> corners, Sheet&& sheet, std::span<std::uint8_t> labels) {
+    // faces. surface_patch(e): of face e of the patch
+    template <class PatchId>
+    void label(std::span<const Triangle> corners, PatchId&& surface_patch, std::span<std::uint8_t> labels) {
         edges.clear();
         parent.resize(corners.size());
         std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -46,11 +46,14 @@ struct Labeller {
         std::sort(edges.begin(), edges.end());
         for (std::size_t i = 0, end; i < edges.size(); i = end) {
             for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
-            const auto sheet_of_side = [&](std::size_t k) { return sheet(edges[i + k].entry); };
-            for_each_pair(end - i, sheet_of_side, [&](std::size_t first, std::size_t second) {
-                const std::size_t a = root(edges[i + first].entry), b = root(edges[i + second].entry);
-                parent[std::max(a, b)] = std::min(a, b);
-            });
+            const auto surface_patch_of_halfedge = [&](std::size_t k) {
+                return surface_patch(edges[i + k].entry);
+            };
+            for_each_connected_pair(
+                end - i, surface_patch_of_halfedge, [&](std::size_t first, std::size_t second) {
+                    const std::size_t a = root(edges[i + first].entry), b = root(edges[i + second].entry);
+                    parent[std::max(a, b)] = std::min(a, b);
+                });
         }
         std::uint8_t next = 0;
         for (std::size_t e = 0; e < corners.size(); ++e) {
@@ -81,10 +84,10 @@ inline std::vector<Vec3> version_positions(const CollapseHistory& history) {
     return result;
 }
 
-inline Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
+inline BoundingSphere bounding_sphere(const std::vector<Vec3>& positions, const Triangle& t) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const Vec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
-    Bound bound;
+    BoundingSphere bound;
     Vec3 centre;
     for (std::size_t i = 0; i < 3; ++i) {
         const double middle = 0.5 * std::min({a[i], b[i], c[i]}) + 0.5 * std::max({a[i], b[i], c[i]});
@@ -97,16 +100,17 @@ inline Bound bound_of(const std::vector<Vec3>& positions, const Triangle& t) {
     return bound;
 }
 
-// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or swaps
+// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or flips
 // its edge.
 template <class Before>
-std::vector<Triangle> replay_forward(const CollapseHistory& history, engine::Poll poll, Before&& before) {
+std::vector<Triangle> replay_forward(const CollapseHistory& history,
+                                     engine::CancellationCheck check_cancelled, Before&& before) {
     std::vector<Triangle> now = history.triangles;
     for (std::size_t k = 0; k < history.collapses.size(); ++k) {
         const Collapse& c = history.collapses[k];
         const Index made = static_cast<Index>(history.positions.size() + k);
         for (std::uint64_t e = history.patch_begin[k]; e < history.patch_begin[k + 1]; ++e) {
-            poll();
+            check_cancelled();
             Triangle& t = now[history.patch_faces[e]];
             before(k, e, t);
             for (Index& v : t) {
@@ -118,72 +122,80 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, engine::Pol
         const std::span<const Index> patch = history.patch(k);
         const std::uint64_t begin = history.patch_begin[k];
         for (std::size_t i = 0; i < 2; ++i) before(k, begin + i, now[patch[i]]);
-        swap_edge(now[patch[0]], now[patch[1]]);
+        flip_edge(now[patch[0]], now[patch[1]]);
     }
     return now;
 }
 
 // The faces of the small mesh: their corners' versions, and where those are in the end.
-inline void keep(const CollapseHistory& history, const std::vector<Triangle>& last, engine::Poll poll,
-          Replay& result) {
-    std::vector<Vec3> in_the_end = result.positions;
+inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
+                            engine::CancellationCheck check_cancelled, ReplayTables& result) {
+    std::vector<Vec3> final_positions = result.positions;
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        in_the_end[history.kept_versions[i]] = history.kept_position(i);
+        final_positions[history.kept_versions[i]] = history.kept_position(i);
     }
     for (const Index f : history.kept_faces) {
-        poll();
+        check_cancelled();
         const Triangle& t = last[f];
         result.kept_corners.push_back(t);
-        result.kept_positions.push_back({in_the_end[t[0]], in_the_end[t[1]], in_the_end[t[2]]});
+        result.kept_positions.push_back(
+            {final_positions[t[0]], final_positions[t[1]], final_positions[t[2]]});
     }
 }
 
-FAQEM_INLINE Replay replay_vertices(const CollapseHistory& history, engine::Poll poll) {
-    Replay result;
+FAQEM_INLINE ReplayTables replay_vertices(const CollapseHistory& history,
+                                          engine::CancellationCheck check_cancelled) {
+    ReplayTables result;
     result.positions = version_positions(history);
     const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
-    keep(history, replay_forward(history, poll, nothing), poll, result);
+    fill_kept_faces(history, replay_forward(history, check_cancelled, nothing), check_cancelled, result);
     return result;
 }
 
-FAQEM_INLINE Replay replay_patches(const CollapseHistory& history, engine::Poll poll) {
+FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history,
+                                         engine::CancellationCheck check_cancelled) {
     const std::size_t entries = history.patch_faces.size();
-    Replay result;
+    ReplayTables result;
     result.positions = version_positions(history);
     result.corners.resize(entries);
     result.previous.resize(entries);
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
-        replay_forward(history, poll, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
+        replay_forward(history, check_cancelled, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
             result.corners[e] = t;
             Index& latest = touched[history.patch_faces[e]];
             result.previous[e] = latest;
             latest = static_cast<Index>(k);
         });
-    keep(history, last, poll, result);
+    fill_kept_faces(history, last, check_cancelled, result);
     for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
     return result;
 }
 
-FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<const Index> sheets, Workers workers,
-                      Replay& replay) {
+FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches,
+                                   Workers workers, ReplayTables& replay) {
     replay.bounds.resize(replay.corners.size());
-    replay.umbrella.resize(replay.corners.size());
+    replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
-    parallel_blocks(history.patch_count(), 1024, workers, [&](std::size_t first, std::size_t last, Poll poll) {
-        Labeller labeller;
-        for (std::size_t k = first; k < last; ++k) {
-            const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
-            poll(size);
-            const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
-            for (std::size_t e = 0; e < size; ++e)
-                replay.bounds[begin + e] = bound_of(replay.positions, corners[e]);
-            const auto sheet = [&](std::size_t e) { return sheets[history.patch_faces[begin + e]]; };
-            labeller.label(corners, sheet, std::span(replay.umbrella).subspan(begin, size));
-            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
-        }
-    });
+    parallel_blocks(
+        history.patch_count(), 1024, workers,
+        [&](std::size_t first, std::size_t last, CancellationCheck check_cancelled) {
+            ComponentLabeller component_labeller;
+            for (std::size_t k = first; k < last; ++k) {
+                const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
+                check_cancelled(size);
+                const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
+                for (std::size_t e = 0; e < size; ++e)
+                    replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
+                const auto surface_patch = [&](std::size_t e) {
+                    return surface_patches[history.patch_faces[begin + e]];
+                };
+                component_labeller.label(corners, surface_patch,
+                                         std::span(replay.patch_component).subspan(begin, size));
+                replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
+            }
+        });
 }
 
 }  // namespace detail

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/mapping/successive_projection.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/detail/history/final_versions.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/detail/history/final_versions.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -16,99 +16,103 @@ using engine::to_array;
 using engine::to_eigen;
 using engine::Vector3;
 
-inline constexpr double least_cosine = 0.17;
-inline constexpr double umbrella_penalty = 0.3;
-inline constexpr double sheet_penalty = 1.0;
-// Of faces that the settling looks at in vain: where others lie between a point and its sheet, it would go
+inline constexpr double min_facing_cosine = 0.17;
+inline constexpr double component_penalty = 0.3;
+inline constexpr double surface_patch_penalty = 1.0;
+// Of faces that the settling looks at in vain: where others lie between a point and its surface_patch, it would go
 // through all of them for every sample.
-inline constexpr std::size_t most_refused = 512;
-// Of faces, of a sheet that is searched face by face: fins are sheets of one face each, with hundreds of others
+inline constexpr std::size_t max_rejections = 512;
+// Of faces, of a surface_patch that is searched face by face: fins are surface_patches of one face each, with hundreds of others
 // closer by.
-inline constexpr std::size_t small_sheet = 32;
+inline constexpr std::size_t small_surface_patch = 32;
 // Of faces that a walk looks at, about ten times what is usual: a vertex that swallowed a whole plain, one
 // vertex after the other, was in a patch for each of them.
-inline constexpr std::uint64_t most_walked = 2048;
+inline constexpr std::uint64_t max_visited_faces = 2048;
 // Of the mean edge of a patch: so close a point lies on the face at hand.
-inline constexpr double on_it = 1e-6;
+inline constexpr double coincidence_tolerance = 1e-6;
 // Of a small face's longest edge: so close to it the closest face around is beyond doubt.
-inline constexpr double close_by = 0.25;
+inline constexpr double near_threshold = 0.25;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-inline double distance_squared(const Vector3& p, const Bound& bound) {
+inline double distance_squared(const Vector3& p, const BoundingSphere& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
 }
 
-struct ProjectionWalk::Query {
+struct SuccessiveProjection::Query {
     Vector3 p0, n0;  // n0 zero: no side to look to
     Triangle corners;
     double longest_edge = 0;
     Index original = no_index;  // what the small face was
-    Index sheet = no_index, group = no_index;
+    Index surface_patch = no_index, group = no_index;
     double sign = 1;
 };
 
-struct ProjectionWalk::Best {
+struct SuccessiveProjection::Best {
     Index face = no_index;
     std::uint64_t entry = 0;
-    bool relaxed = false;
+    bool is_approximate = false;
     double score = infinity;
-    bool given_up = false;
+    bool is_aborted = false;
 };
 
 // One patch and the best of its faces so far.
-struct ProjectionWalk::Patch {
+struct SuccessiveProjection::Patch {
     const Query& query;
     double edge = 0;  // mean length
-    std::uint8_t umbrella = 0;
+    std::uint8_t patch_component = 0;
     Best best, best_away;
 };
 
-FAQEM_INLINE ProjectionWalk::ProjectionWalk(const CollapseHistory& history, std::span<const Triangle> unwelded,
-                               Workers workers)
+FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& history,
+                                                        std::span<const Triangle> unwelded, Workers workers)
     : history_(history),
-      tree_(history.positions, history.triangles, workers.poll),
-      sheets_(find_sheets(history.positions, history.triangles, unwelded, workers.poll)),
-      replay_(replay_patches(history, workers.poll)),
+      tree_(history.positions, history.triangles, workers.check_cancelled),
+      surface_patches_(
+          find_surface_patches(history.positions, history.triangles, unwelded, workers.check_cancelled)),
+      replay_(replay_patches(history, workers.check_cancelled)),
       last_(final_versions(history)) {
-    describe_patches(history, sheets_.sheet, workers, replay_);
+    describe_patches(history, surface_patches_.surface_patch, workers, replay_);
 }
 
-FAQEM_INLINE ProjectionWalk::Query ProjectionWalk::start(Index face, const Vec3& barycentric) const {
+FAQEM_INLINE SuccessiveProjection::Query SuccessiveProjection::make_query(Index face,
+                                                                          const Vec3& barycentric) const {
     Query query;
     query.corners = replay_.kept_corners[face];
-    const std::array<Vec3, 3>& places = replay_.kept_positions[face];
-    const Vector3 a = to_eigen(places[0]), b = to_eigen(places[1]), c = to_eigen(places[2]);
-    query.p0 = replay_.place(face, barycentric);
+    const std::array<Vec3, 3>& positions = replay_.kept_positions[face];
+    const Vector3 a = to_eigen(positions[0]), b = to_eigen(positions[1]), c = to_eigen(positions[2]);
+    query.p0 = replay_.position_on(face, barycentric);
     const Vector3 n = engine::area_vector(a, b, c);
     const double length = n.norm();
     query.n0 = length > 0 ? Vector3(n / length) : Vector3::Zero();
     query.longest_edge =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     query.original = history_.kept_faces[face];
-    query.sheet = sheets_.sheet[query.original];
-    query.sign = sheets_.sign[query.original];
+    query.surface_patch = surface_patches_.surface_patch[query.original];
+    query.sign = surface_patches_.sign[query.original];
     query.group = group(query.original);
     return query;
 }
 
-FAQEM_INLINE bool ProjectionWalk::faces_away(Index candidate, const Vector3& area_vector, const Query& query) const {
+FAQEM_INLINE bool SuccessiveProjection::is_facing_away(Index candidate, const Vector3& area_vector,
+                                                       const Query& query) const {
     if (query.n0.isZero(0)) return false;
-    const double d = query.sign * sheets_.sign[candidate] * area_vector.dot(query.n0);
-    return !(d > 0 && d * d >= least_cosine * least_cosine * area_vector.squaredNorm());
+    const double d = query.sign * surface_patches_.sign[candidate] * area_vector.dot(query.n0);
+    return !(d > 0 && d * d >= min_facing_cosine * min_facing_cosine * area_vector.squaredNorm());
 }
 
 // The least score wins, then the smaller face, in whatever order the faces come: so the one that looks
 // closest comes first, and spheres rule out most of the others.
-FAQEM_INLINE ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, Index face, const Query& query,
-                                                   std::uint64_t& walked) const {
+FAQEM_INLINE SuccessiveProjection::Best SuccessiveProjection::best_of_patch(Index collapse, Index face,
+                                                                            const Query& query,
+                                                                            std::uint64_t& visited) const {
     const std::uint64_t begin = history_.patch_begin[collapse], end = history_.patch_begin[collapse + 1];
     std::uint64_t own = begin, first = begin;
     while (own < end && history_.patch_faces[own] != face) ++own;
-    Patch patch{query, replay_.mean_edge[collapse], replay_.umbrella[own], {}, {}};
+    Patch patch{query, replay_.mean_edge[collapse], replay_.patch_component[own], {}, {}};
     consider(own, patch);
-    ++walked;
-    if (patch.best.score <= on_it * patch.edge) return patch.best;
-    walked += end - begin;
+    ++visited;
+    if (patch.best.score <= coincidence_tolerance * patch.edge) return patch.best;
+    visited += end - begin;
     patch.best = patch.best_away = {};
     double nearest = infinity;
     for (std::uint64_t e = begin; e < end; ++e) {
@@ -122,9 +126,9 @@ FAQEM_INLINE ProjectionWalk::Best ProjectionWalk::best_of_patch(Index collapse, 
     return patch.best.face != no_index ? patch.best : patch.best_away;
 }
 
-FAQEM_INLINE void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const {
+FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) const {
     const Query& query = patch.query;
-    const Bound& bound = replay_.bounds[e];
+    const BoundingSphere& bound = replay_.bounds[e];
     const double limit = patch.best.face != no_index ? patch.best.score : infinity;
     const double far = limit + bound.radius;
     if (distance_squared(query.p0, bound) > far * far) return;
@@ -133,29 +137,30 @@ FAQEM_INLINE void ProjectionWalk::consider(std::uint64_t e, Patch& patch) const 
     const Triangle& t = replay_.corners[e];
     const Vector3 a = to_eigen(replay_.positions[t[0]]), b = to_eigen(replay_.positions[t[1]]),
                   c = to_eigen(replay_.positions[t[2]]);
-    const bool away = faces_away(g, engine::area_vector(a, b, c), query);
+    const bool away = is_facing_away(g, engine::area_vector(a, b, c), query);
     if (away && patch.best.face != no_index) return;
-    const bool other_sheet = sheets_.sheet[g] != query.sheet;
-    const double penalty = (replay_.umbrella[e] != patch.umbrella ? umbrella_penalty * patch.edge : 0) +
-                           (other_sheet ? sheet_penalty * patch.edge : 0);
+    const bool is_other_patch = surface_patches_.surface_patch[g] != query.surface_patch;
+    const double penalty =
+        (replay_.patch_component[e] != patch.patch_component ? component_penalty * patch.edge : 0) +
+        (is_other_patch ? surface_patch_penalty * patch.edge : 0);
     const double score = std::sqrt(closest_point_on_triangle(query.p0, a, b, c).distance_squared) + penalty;
     Best& winner = away ? patch.best_away : patch.best;
     if (score < winner.score || (score == winner.score && g < winner.face)) {
-        winner = {g, e, away || other_sheet, score};
+        winner = {g, e, away || is_other_patch, score};
     }
 }
 
-FAQEM_INLINE ClosestPoint ProjectionWalk::on_original(Index face, const Vector3& p0) const {
+FAQEM_INLINE ClosestPoint SuccessiveProjection::on_original(Index face, const Vector3& p0) const {
     const Triangle& t = history_.triangles[face];
     if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, infinity};
     return closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]),
                                      to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
 }
 
-FAQEM_INLINE bool ProjectionWalk::passes(Index f, const Query& query) const {
-    if (sheets_.sheet[f] != query.sheet || group(f) != query.group) return false;
+FAQEM_INLINE bool SuccessiveProjection::is_accepted(Index f, const Query& query) const {
+    if (surface_patches_.surface_patch[f] != query.surface_patch || group(f) != query.group) return false;
     const Triangle& t = history_.triangles[f];
-    return !faces_away(
+    return !is_facing_away(
         f,
         engine::area_vector(to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
                             to_eigen(history_.positions[t[2]])),
@@ -163,7 +168,7 @@ FAQEM_INLINE bool ProjectionWalk::passes(Index f, const Query& query) const {
 }
 
 // Has a corner that collapsed into one of the small face's.
-FAQEM_INLINE bool ProjectionWalk::is_around(Index original_face, const Query& query) const {
+FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, const Query& query) const {
     const Triangle& t = history_.triangles[original_face];
     return std::any_of(t.begin(), t.end(), [&](Index v) {
         const Index last = last_[v];
@@ -173,99 +178,105 @@ FAQEM_INLINE bool ProjectionWalk::is_around(Index original_face, const Query& qu
 
 // The closest face of those that pass the tests and the filter.
 template <class Filter>
-Bvh::Hit ProjectionWalk::closest_that(const Query& query, double distance_squared, Filter&& filter) const {
-    const std::span<const Index> sheet = sheets_.of(query.sheet);
-    if (sheet.size() > small_sheet) {
+Bvh::Hit SuccessiveProjection::closest_accepted_if(const Query& query, double distance_squared,
+                                                   Filter&& filter) const {
+    const std::span<const Index> surface_patch = surface_patches_.of(query.surface_patch);
+    if (surface_patch.size() > small_surface_patch) {
         return tree_.closest_if(
-            to_array(query.p0), [&](Index f) { return filter(f) && passes(f, query); }, distance_squared,
-            most_refused);
+            to_array(query.p0), [&](Index f) { return filter(f) && is_accepted(f, query); }, distance_squared,
+            max_rejections);
     }
     Bvh::Hit best;
     best.distance_squared = distance_squared;
-    for (const Index f : sheet) {  // in ascending order: of two as close the first stays
+    for (const Index f : surface_patch) {  // in ascending order: of two as close the first stays
         const ClosestPoint hit = on_original(f, query.p0);
         const bool nearer = hit.distance_squared < best.distance_squared ||
                             (hit.distance_squared == best.distance_squared && best.face == no_index);
-        if (!nearer || !filter(f) || !passes(f, query)) continue;
+        if (!nearer || !filter(f) || !is_accepted(f, query)) continue;
         best = {f, to_array(hit.barycentric), to_array(hit.point), hit.distance_squared};
     }
     return best;
 }
 
-FAQEM_INLINE Bvh::Hit ProjectionWalk::closest_passing(const Query& query, double distance_squared) const {
-    return closest_that(query, distance_squared, [](Index) { return true; });
+FAQEM_INLINE Bvh::Hit SuccessiveProjection::closest_accepted(const Query& query,
+                                                             double distance_squared) const {
+    return closest_accepted_if(query, distance_squared, [](Index) { return true; });
 }
 
-FAQEM_INLINE SurfacePoint ProjectionWalk::closest_around(const Query& query, double distance_squared) const {
-    const Bvh::Hit hit = closest_that(query, distance_squared, [&](Index f) { return is_around(f, query); });
+FAQEM_INLINE SurfacePoint SuccessiveProjection::closest_preimage_face(const Query& query,
+                                                                      double distance_squared) const {
+    const Bvh::Hit hit =
+        closest_accepted_if(query, distance_squared, [&](Index f) { return is_preimage_face(f, query); });
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
 // The closest face around that passes the tests, or `face` where none is as close.
-FAQEM_INLINE SurfacePoint ProjectionWalk::settle(const Query& query, Index face, MapStep step) const {
+FAQEM_INLINE SurfacePoint SuccessiveProjection::snap_to_closest(const Query& query, Index face,
+                                                                MapStep step) const {
     const ClosestPoint here = on_original(face, query.p0);
-    SurfacePoint result = closest_around(query, here.distance_squared);
+    SurfacePoint result = closest_preimage_face(query, here.distance_squared);
     if (result.face == no_index) result = {face, to_array(here.barycentric), step};
     result.step = step;
     return result;
 }
 
-FAQEM_INLINE ProjectionWalk::Best ProjectionWalk::walk(Index face, const Query& query) const {
+FAQEM_INLINE SuccessiveProjection::Best SuccessiveProjection::walk(Index face, const Query& query) const {
     Best at{query.original, 0, false, infinity};
-    bool relaxed = false;
-    std::uint64_t walked = 0;
+    bool is_approximate = false;
+    std::uint64_t visited = 0;
     for (Index k = replay_.kept_last[face]; k != no_index; k = replay_.previous[at.entry]) {
-        if (walked > most_walked) {
-            at.given_up = true;
+        if (visited > max_visited_faces) {
+            at.is_aborted = true;
             break;
         }
-        const Best next = best_of_patch(k, at.face, query, walked);
+        const Best next = best_of_patch(k, at.face, query, visited);
         if (next.face == no_index) {
-            relaxed = true;
+            is_approximate = true;
             break;
         }
         at = next;
-        relaxed = relaxed || next.relaxed;
+        is_approximate = is_approximate || next.is_approximate;
     }
-    at.relaxed = relaxed;
+    at.is_approximate = is_approximate;
     return at;
 }
 
-FAQEM_INLINE SurfacePoint ProjectionWalk::by_walk(Index face, const Query& query) const {
+FAQEM_INLINE SurfacePoint SuccessiveProjection::map_by_walk(Index face, const Query& query) const {
     const Best end = walk(face, query);
-    if (!end.given_up && passes(end.face, query)) {
-        return settle(query, end.face, end.relaxed ? MapStep::relaxed : MapStep::history);
+    if (!end.is_aborted && is_accepted(end.face, query)) {
+        return snap_to_closest(query, end.face, end.is_approximate ? MapStep::approximate : MapStep::history);
     }
     const ClosestPoint here = on_original(end.face, query.p0);
     const double far = std::sqrt(here.distance_squared) + query.longest_edge;
-    if (end.given_up) {
-        const Bvh::Hit hit = closest_passing(query, far * far);
+    if (end.is_aborted) {
+        const Bvh::Hit hit = closest_accepted(query, far * far);
         if (hit.face != no_index) return {hit.face, hit.barycentric, MapStep::closest};
     }
-    const SurfacePoint closest = closest_around(query, far * far);
+    const SurfacePoint closest = closest_preimage_face(query, far * far);
     if (closest.face != no_index) return closest;
-    return {end.face, to_array(here.barycentric), MapStep::relaxed};
+    return {end.face, to_array(here.barycentric), MapStep::approximate};
 }
 
 // Wherever a walk ends, settling takes the closest face that passes if it is around and no farther than the
 // longest edge: most samples need no walk.
-FAQEM_INLINE SurfacePoint ProjectionWalk::map(Index face, const Vec3& barycentric) const {
-    const Query query = start(face, barycentric);
-    const double close = close_by * query.longest_edge;
-    const Bvh::Hit hit = closest_passing(query, close * close);
-    if (hit.face == no_index || !is_around(hit.face, query)) return by_walk(face, query);
+FAQEM_INLINE SurfacePoint SuccessiveProjection::map(Index face, const Vec3& barycentric) const {
+    const Query query = make_query(face, barycentric);
+    const double close = near_threshold * query.longest_edge;
+    const Bvh::Hit hit = closest_accepted(query, close * close);
+    if (hit.face == no_index || !is_preimage_face(hit.face, query)) return map_by_walk(face, query);
     return {hit.face, hit.barycentric, MapStep::history};
 }
 
-FAQEM_INLINE SurfacePoint ProjectionWalk::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
-    const Query query = start(face, barycentric);
-    if (!passes(near.face, query)) return map(face, barycentric);
+FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3& barycentric,
+                                                         const SurfacePoint& near) const {
+    const Query query = make_query(face, barycentric);
+    if (!is_accepted(near.face, query)) return map(face, barycentric);
     const ClosestPoint here = on_original(near.face, query.p0);
-    const Bvh::Hit hit = closest_passing(query, here.distance_squared);
+    const Bvh::Hit hit = closest_accepted(query, here.distance_squared);
     if (hit.face == no_index) return {near.face, to_array(here.barycentric), near.step};
     // On flat ground most faces are not around: `near` would hold on to the sample for the rest of its row.
-    return is_around(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
-                                      : by_walk(face, query);
+    return is_preimage_face(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
+                                             : map_by_walk(face, query);
 }
 
 }  // namespace detail

@@ -10,28 +10,30 @@
 FAQEM_NAMESPACE_BEGIN
 
 struct SurfaceMap::Impl {
-    std::unique_ptr<const detail::ProjectionWalk> projection;  // one of the three
-    std::unique_ptr<const detail::LineageWalk> lineage;
-    std::unique_ptr<const detail::ClosestPoints> closest;
+    std::unique_ptr<const detail::SuccessiveProjection> projection;  // one of the three
+    std::unique_ptr<const detail::LineageMap> lineage;
+    std::unique_ptr<const detail::ClosestPointMap> closest;
 };
 
-FAQEM_INLINE SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded)
-    : SurfaceMap(detail::polled_map(history, mapping, unwelded, {})) {}
+FAQEM_INLINE SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapping,
+                                    std::span<const Triangle> unwelded)
+    : SurfaceMap(detail::make_surface_map(history, mapping, unwelded, {})) {}
 
 FAQEM_INLINE SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-FAQEM_INLINE SurfaceMap detail::polled_map(const CollapseHistory& history, Mapping mapping,
-                              std::span<const Triangle> unwelded, const Workers& workers) {
+FAQEM_INLINE SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
+                                                 std::span<const Triangle> unwelded, const Workers& workers) {
     auto impl = std::make_unique<SurfaceMap::Impl>();
     switch (mapping) {
         case Mapping::projection:
-            impl->projection = std::make_unique<const detail::ProjectionWalk>(history, unwelded, workers);
+            impl->projection =
+                std::make_unique<const detail::SuccessiveProjection>(history, unwelded, workers);
             break;
         case Mapping::lineage:
-            impl->lineage = std::make_unique<const detail::LineageWalk>(history, workers.poll);
+            impl->lineage = std::make_unique<const detail::LineageMap>(history, workers.check_cancelled);
             break;
         case Mapping::closest:
-            impl->closest = std::make_unique<const detail::ClosestPoints>(history, workers.poll);
+            impl->closest = std::make_unique<const detail::ClosestPointMap>(history, workers.check_cancelled);
             break;
     }
     return SurfaceMap(std::move(impl));
@@ -46,7 +48,8 @@ FAQEM_INLINE SurfacePoint SurfaceMap::map(Index face, const Vec3& barycentric) c
     return impl_->lineage ? impl_->lineage->map(face, barycentric) : impl_->closest->map(face, barycentric);
 }
 
-FAQEM_INLINE SurfacePoint SurfaceMap::map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const {
+FAQEM_INLINE SurfacePoint SurfaceMap::map_near(Index face, const Vec3& barycentric,
+                                               const SurfacePoint& near) const {
     if (impl_->projection) return impl_->projection->map_near(face, barycentric, near);
     return impl_->lineage ? impl_->lineage->map(face, barycentric)
                           : impl_->closest->map_near(face, barycentric, near);

@@ -1,17 +1,17 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/error.hpp"
-#include "faqem/detail/measure/hausdorff.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
+#include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -42,21 +42,22 @@ std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& w
 inline detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
     if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
     return {.tolerance = tolerance,
-            .floor = detail::gap_floor * diagonal,
+            .absolute_tolerance = detail::min_relative_gap * diagonal,
             .max_pieces = HausdorffOptions{}.max_pieces,
             .workers = threads};
 }
 
-inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree, const CompareOptions& options,
-                   std::uint64_t seed, double tie, const detail::SearchLimits& limits) {
+inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree,
+                          const CompareOptions& options, std::uint64_t seed, double tie,
+                          const detail::SearchLimits& limits) {
     const std::vector<Sums> sums =
         sum_blocks(options.samples, options.threads, [&](Sums& sum, std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
-                const detail::SurfaceSample s = sample(from, i, options.samples, seed);
+                const detail::RandomSample s = sample(from, i, options.samples, seed);
                 const Bvh::Hit hit = query(s.point);
                 const double cosine =
-                    detail::best_cosine(tree, to.normals, s.point, hit, from.normals[s.face], tie);
+                    detail::max_normal_cosine(tree, to.normals, s.point, hit, from.normals[s.face], tie);
                 sum.max_squared = std::max(sum.max_squared, hit.distance_squared);
                 sum.distance += std::sqrt(hit.distance_squared);
                 sum.squared += hit.distance_squared;
@@ -70,9 +71,9 @@ inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tre
         total.squared += s.squared;
         total.degrees += s.degrees;
     }
-    const detail::Farthest most =
-        detail::farthest(from, to, tree, detail::nearest_of_vertices(from, to, tree, options.threads),
-                         std::sqrt(total.max_squared), limits);
+    const detail::HausdorffBounds most = detail::one_sided_hausdorff(
+        from, to, tree, detail::nearest_faces_of_vertices(from, to, tree, options.threads),
+        std::sqrt(total.max_squared), limits);
     const double n = static_cast<double>(std::max<std::uint64_t>(options.samples, 1));
     return {.max = most.value,
             .max_bound = most.bound,
@@ -84,10 +85,12 @@ inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tre
 }  // namespace detail
 
 FAQEM_INLINE Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options) {
-    const detail::Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+    const detail::Surface sa = detail::extract_nonempty_surface(a, "first mesh"),
+                          sb = detail::extract_nonempty_surface(b, "second mesh");
     Comparison result;
     result.diagonal = sa.diagonal();
-    const detail::SearchLimits limits = detail::search_limits(options.tolerance, result.diagonal, options.threads);
+    const detail::SearchLimits limits =
+        detail::search_limits(options.tolerance, result.diagonal, options.threads);
     const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
     const double tie = detail::normal_tie_tolerance * result.diagonal;
     result.a_to_b = detail::one_sided(sa, sb, tb, options, 2 * options.seed, tie, limits);
@@ -100,13 +103,14 @@ FAQEM_INLINE Comparison compare(const MeshView& a, const MeshView& b, const Comp
 }
 
 FAQEM_INLINE DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options) {
-    const detail::Surface sa = detail::make_surface(a, "first mesh"), sb = detail::make_surface(b, "second mesh");
+    const detail::Surface sa = detail::extract_nonempty_surface(a, "first mesh"),
+                          sb = detail::extract_nonempty_surface(b, "second mesh");
     detail::SearchLimits limits = detail::search_limits(options.tolerance, sa.diagonal(), options.threads);
     limits.stop_above = options.stop_above;
     limits.stop_below = options.stop_below;
     limits.max_pieces = options.max_pieces;
     const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
-    const detail::Farthest most = detail::farthest_both_ways(sa, ta, sb, tb, limits);
+    const detail::HausdorffBounds most = detail::two_sided_hausdorff(sa, ta, sb, tb, limits);
     return {most.value, most.bound, most.pieces};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/measure/hausdorff.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +22,8 @@ inline constexpr std::size_t stop_interval = 16 * vertex_block;
 /// Part of a face, with faces of the other surface that may be near all of it.
 struct Piece {
     std::array<Vector3, 3> corner;
-    std::array<Index, 3> nearest;                          ///< face nearest to the corner
-    std::array<Index, 2> near_all = {no_index, no_index};  ///< the faces that gave the bound
+    std::array<Index, 3> nearest;                                ///< face nearest to the corner
+    std::array<Index, 2> bounding_faces = {no_index, no_index};  ///< the faces that gave the bound
     double bound_squared = std::numeric_limits<double>::infinity();
 };
 
@@ -38,7 +38,7 @@ struct Candidates {
     }
     explicit Candidates(const Piece& piece) {
         for (const Index f : piece.nearest) add(f);
-        for (const Index f : piece.near_all) add(f);
+        for (const Index f : piece.bounding_faces) add(f);
     }
 };
 
@@ -56,8 +56,8 @@ inline Distances distances(const Surface& to, const Vector3& p, const Candidates
 /// Bound of a piece whose corners are nearer to f or to g: the polygon on f's side is bounded by its corners'
 /// distances to f, that on g's side by theirs to g. The cut is where parallel surfaces that meet in a
 /// straight edge would have it; any cut gives a bound.
-inline double bound_by_two(const Surface& to, const Piece& piece, Index f, Index g,
-                    const std::array<double, 3>& to_f, const std::array<double, 3>& to_g) {
+inline double bound_by_two_faces(const Surface& to, const Piece& piece, Index f, Index g,
+                                 const std::array<double, 3>& to_f, const std::array<double, 3>& to_g) {
     double bound = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         bound = std::max(bound, std::min(to_f[k], to_g[k]));
@@ -78,12 +78,12 @@ inline double bound_by_two(const Surface& to, const Piece& piece, Index f, Index
 /// \param at      the corners' distances to the candidates
 /// \param enough  a bound as low as this need not be lowered
 inline void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
-             const std::array<const Distances*, 3>& at, double enough) {
+                    const std::array<const Distances*, 3>& at, double enough) {
     for (std::size_t i = 0; i < candidates.size; ++i) {
         const double bound = std::max({(*at[0])[i], (*at[1])[i], (*at[2])[i]});
         if (!(bound < piece.bound_squared)) continue;
         piece.bound_squared = bound;
-        piece.near_all = {candidates.face[i], no_index};
+        piece.bounding_faces = {candidates.face[i], no_index};
     }
     const auto column = [&](std::size_t i) { return std::array{(*at[0])[i], (*at[1])[i], (*at[2])[i]}; };
     for (std::size_t i = 0; i < candidates.size; ++i) {
@@ -94,18 +94,18 @@ inline void tighten(const Surface& to, Piece& piece, const Candidates& candidate
             for (std::size_t k = 0; k < 3; ++k) least = std::max(least, std::min(to_f[k], to_g[k]));
             if (!(least < piece.bound_squared)) continue;
             const Index f = candidates.face[i], g = candidates.face[j];
-            const double bound = bound_by_two(to, piece, f, g, to_f, to_g);
+            const double bound = bound_by_two_faces(to, piece, f, g, to_f, to_g);
             if (!(bound < piece.bound_squared)) continue;
             piece.bound_squared = bound;
-            piece.near_all = {f, g};
+            piece.bounding_faces = {f, g};
         }
     }
 }
 
 /// Squared distance below which a bound is good enough while `value_squared` is the largest found.
 inline double enough_squared(double value_squared, const SearchLimits& limits) {
-    const double enough =
-        std::max(std::sqrt(value_squared) * (1 + limits.tolerance) + limits.floor, limits.stop_below);
+    const double enough = std::max(
+        std::sqrt(value_squared) * (1 + limits.tolerance) + limits.absolute_tolerance, limits.stop_below);
     return enough * enough;
 }
 
@@ -128,18 +128,18 @@ struct Found {
 /// \param refine  keep those whose bound is not low enough; else they are bounded as well as their corners
 ///                allow
 inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
-                 const std::vector<Nearest>& at_vertices, double enough, bool refine, std::size_t begin,
-                 std::size_t end, Poll poll, Found& found) {
+                        const std::vector<NearestFace>& at_vertices, double enough, bool refine,
+                        std::size_t begin, std::size_t end, CancellationCheck check_cancelled, Found& found) {
     CoherentQuery query(to, tree);
     for (std::size_t f = begin; f < end; ++f) {
-        poll();
+        check_cancelled();
         Piece piece;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from.triangles[f][k];
             piece.corner[k] = engine::to_eigen(from.positions[v]);
             piece.nearest[k] = at_vertices[v].face;
         }
-        piece.near_all[0] = piece.nearest[0];
+        piece.bounding_faces[0] = piece.nearest[0];
         const auto bound = [&](const Candidates& candidates) {
             std::array<Distances, 3> at;
             for (std::size_t k = 0; k < 3; ++k) at[k] = distances(to, piece.corner[k], candidates);
@@ -150,7 +150,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
             // Where the surfaces coincide the corners' faces are any around them, the centre's is the right
             // one.
             const Vector3 centre = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
-            const Bvh::Hit hit = query(engine::to_array(centre), piece.near_all[0]);
+            const Bvh::Hit hit = query(engine::to_array(centre), piece.bounding_faces[0]);
             found.value_squared = std::max(found.value_squared, hit.distance_squared);
             Candidates candidates(piece);
             candidates.add(hit.face);
@@ -172,7 +172,7 @@ inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, d
     }
     const std::size_t next = (longest + 1) % 3;
     const Vector3 middle = 0.5 * piece.corner[longest] + 0.5 * piece.corner[next];
-    const Bvh::Hit hit = query(engine::to_array(middle), piece.near_all[0]);
+    const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
     found.value_squared = std::max(found.value_squared, hit.distance_squared);
 
     Candidates candidates(piece);
@@ -234,10 +234,11 @@ private:
     std::uint64_t count_ = 0;
 };
 
-FAQEM_INLINE std::vector<Nearest> nearest_of_vertices(const Surface& from, const Surface& to, const Bvh& tree,
-                                         Workers workers, double stop_above) {
+FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& from, const Surface& to,
+                                                                const Bvh& tree, Workers workers,
+                                                                double stop_above) {
     const std::size_t size = from.positions.size();
-    std::vector<Nearest> result;
+    std::vector<NearestFace> result;
     result.reserve(size);
     const std::size_t interval = stop_above < std::numeric_limits<double>::infinity() ? stop_interval : size;
     while (result.size() < size) {
@@ -258,10 +259,11 @@ FAQEM_INLINE std::vector<Nearest> nearest_of_vertices(const Surface& from, const
     return result;
 }
 
-FAQEM_INLINE Farthest farthest(const Surface& from, const Surface& to, const Bvh& tree,
-                  const std::vector<Nearest>& at_vertices, double known, const SearchLimits& limits) {
+FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, const Bvh& tree,
+                                                 const std::vector<NearestFace>& at_vertices, double known,
+                                                 const SearchLimits& limits) {
     double value_squared = known * known, closed_squared = 0;
-    for (const Nearest& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
+    for (const NearestFace& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
 
     OpenPieces open;
     const auto join = [&](std::vector<Found>& blocks) {
@@ -269,7 +271,7 @@ FAQEM_INLINE Farthest farthest(const Surface& from, const Surface& to, const Bvh
             value_squared = std::max(value_squared, found.value_squared);
             closed_squared = std::max(closed_squared, found.closed_squared);
             for (const Piece& piece : found.open) {
-                limits.workers.poll();
+                limits.workers.check_cancelled();
                 open.push(piece);
             }
             found = {};
@@ -281,13 +283,13 @@ FAQEM_INLINE Farthest farthest(const Surface& from, const Surface& to, const Bvh
     std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
     const double enough_at_first = refine ? enough() : 0;
     parallel_blocks(from.triangles.size(), face_block, limits.workers,
-                    [&](std::size_t begin, std::size_t end, Poll poll) {
-                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end, poll,
-                                    blocks[begin / face_block]);
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
+                                    check_cancelled, blocks[begin / face_block]);
                     });
     join(blocks);
 
-    Farthest result;
+    HausdorffBounds result;
     std::vector<Piece> batch;
     const auto needs_work = [&] { return !open.empty() && open.largest_squared() > enough(); };
     while (needs_work() && result.pieces < limits.max_pieces &&
@@ -311,24 +313,24 @@ FAQEM_INLINE Farthest farthest(const Surface& from, const Surface& to, const Bvh
     return result;
 }
 
-FAQEM_INLINE Farthest farthest_both_ways(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
-                            const SearchLimits& limits) {
+FAQEM_INLINE HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b,
+                                                 const Bvh& tree_b, const SearchLimits& limits) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    const auto largest = [](const std::vector<Nearest>& nearest, double value) {
-        for (const Nearest& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
+    const auto largest = [](const std::vector<NearestFace>& nearest, double value) {
+        for (const NearestFace& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
         return value;
     };
-    const auto there = nearest_of_vertices(a, b, tree_b, limits.workers, limits.stop_above);
+    const auto there = nearest_faces_of_vertices(a, b, tree_b, limits.workers, limits.stop_above);
     double value = largest(there, 0);
     if (value > limits.stop_above) return {value, unknown, 0};
-    const auto back = nearest_of_vertices(b, a, tree_a, limits.workers, limits.stop_above);
+    const auto back = nearest_faces_of_vertices(b, a, tree_a, limits.workers, limits.stop_above);
     value = largest(back, value);
     if (value > limits.stop_above) return {value, unknown, 0};
 
     // What one direction finds, the other need not beat.
-    const Farthest first = farthest(a, b, tree_b, there, value, limits);
+    const HausdorffBounds first = one_sided_hausdorff(a, b, tree_b, there, value, limits);
     if (first.value > limits.stop_above) return {first.value, unknown, first.pieces};
-    const Farthest second = farthest(b, a, tree_a, back, first.value, limits);
+    const HausdorffBounds second = one_sided_hausdorff(b, a, tree_a, back, first.value, limits);
     return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
 }
 

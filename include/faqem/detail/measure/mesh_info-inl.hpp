@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -87,12 +87,12 @@ inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& r
 }
 
 inline std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
-    engine::DisjointSets joined(used.size());
+    engine::UnionFind joined(used.size());
     for (const Triangle& t : faces) {
-        for (const Index v : {t[1], t[2]}) joined.join(t[0], v);
+        for (const Index v : {t[1], t[2]}) joined.unite(t[0], v);
     }
     std::uint64_t count = 0;
-    for (Index v = 0; v < used.size(); ++v) count += used[v] && joined.root(v) == v;
+    for (Index v = 0; v < used.size(); ++v) count += used[v] && joined.find(v) == v;
     return count;
 }
 

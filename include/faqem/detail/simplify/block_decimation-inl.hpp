@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -11,17 +11,17 @@
 #include <thread>
 #include <utility>
 
+#include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
-#include "faqem/detail/base/parallel.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Complex;
-using engine::Poll;
+using engine::CancellationCheck;
+using engine::CollapseMesh;
 using engine::Vector3;
 
 // Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
@@ -30,19 +30,19 @@ inline constexpr double local_share = 0.8;
 
 /// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
 struct Blocks {
-    Blocks(const BlockInput& input, Poll poll)
+    Blocks(const BlockInput& input, CancellationCheck check_cancelled)
         : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
-        for_each(input, poll, [&](std::size_t block, Index) { ++begin[block + 1]; });
+        for_each(input, check_cancelled, [&](std::size_t block, Index) { ++begin[block + 1]; });
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
         faces.resize(begin.back());
         std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-        for_each(input, poll, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
+        for_each(input, check_cancelled, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
     }
 
     template <class Visit>
-    static void for_each(const BlockInput& input, Poll poll, Visit&& visit) {
+    static void for_each(const BlockInput& input, CancellationCheck check_cancelled, Visit&& visit) {
         for (Index f = 0; f < input.triangles.size(); ++f) {
-            poll();
+            check_cancelled();
             const Triangle& t = input.triangles[f];
             const std::size_t a = input.block_of(t[0]), b = input.block_of(t[1]), c = input.block_of(t[2]);
             visit(a, f);
@@ -162,21 +162,21 @@ public:
         done.patch_faces.reserve(steps * usual_patch);
     }
 
-    void collapsing(const Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
-        if (done_.steps.empty()) before_ = complex.face_count();
-        end_step(complex);
+    void before_collapse(const CollapseMesh& mesh, Index survivor, Index gone, const engine::Candidate& to) {
+        if (done_.steps.empty()) before_ = mesh.face_count();
+        end_step(mesh);
         done_.steps.push_back({block_.slot(survivor), block_.slot(gone), to.point});
         done_.costs.push_back(done_.costs.empty() ? to.cost : std::max(done_.costs.back(), to.cost));
         if (patches_ == Recording::off) return;
         done_.patch_begin.push_back(done_.patch_faces.size());
-        complex.for_each_face_around(
-            survivor, gone, [&](Index f, unsigned) { done_.patch_faces.push_back(block_.faces[f]); });
+        mesh.for_each_face_around(survivor, gone,
+                                  [&](Index f, unsigned) { done_.patch_faces.push_back(block_.faces[f]); });
     }
-    void end_step(const Complex& complex) {
+    void end_step(const CollapseMesh& mesh) {
         if (!done_.steps.empty())
-            done_.removed.push_back(static_cast<std::uint32_t>(before_ - complex.face_count()));
+            done_.removed.push_back(static_cast<std::uint32_t>(before_ - mesh.face_count()));
     }
-    void deleting(Index) {}
+    void before_deletion(Index) {}
 
 private:
     /// Faces around an edge, and some more.
@@ -195,10 +195,10 @@ public:
 
     /// \param known  what the caller had removed when it called last
     /// \throws what the poll throws, and what the callback does
-    Continue operator()(std::size_t removed, std::size_t& known, Poll poll) {
+    Continue operator()(std::size_t removed, std::size_t& known, CancellationCheck check_cancelled) {
         removed_ += removed - std::exchange(known, removed);
         if (std::this_thread::get_id() != caller_)
-            poll.now();
+            check_cancelled.now();
         else if (loop_.progress && !is_cancelled_)
             ask();
         return is_cancelled_ ? Continue::cancel : Continue::yes;
@@ -230,23 +230,23 @@ private:
 /// Of each original vertex: nonzero is looked after.
 inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
     const bool all = tracking.watched == Watched::borders_and_surface;
-    std::vector<std::uint8_t> watched(tracking.into.size(), all);
-    for (const auto& edge : tracking.original.open_edges()) {
+    std::vector<std::uint8_t> watched(tracking.vertex_map.size(), all);
+    for (const auto& edge : tracking.original.boundary_edges()) {
         for (const Index v : edge) watched[v] = 1;
     }
-    for (Index v = 0; v < watched.size(); ++v) watched[v] &= tracking.into[v] != no_index;
+    for (Index v = 0; v < watched.size(); ++v) watched[v] &= tracking.vertex_map[v] != no_index;
     return watched;
 }
 
 /// Which original vertices have gone into those of each block.
 struct Lineages {
     Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
-        : begin(blocks + 1, 0), into(tracking ? tracking->into : std::span<const Index>()) {
+        : begin(blocks + 1, 0), vertex_map(tracking ? tracking->vertex_map : std::span<const Index>()) {
         if (!tracking) return;
         const std::vector<std::uint8_t> watched = watched_vertices(*tracking);
         const auto for_each = [&](auto&& visit) {
-            for (Index v = 0; v < into.size(); ++v) {
-                if (watched[v]) visit(input.block_of(into[v]), v);
+            for (Index v = 0; v < vertex_map.size(); ++v) {
+                if (watched[v]) visit(input.block_of(vertex_map[v]), v);
             }
         };
         for_each([&](std::size_t b, Index) { ++begin[b + 1]; });
@@ -256,39 +256,40 @@ struct Lineages {
         for_each([&](std::size_t b, Index v) { vertices[place[b]++] = v; });
     }
 
-    engine::Lineage of(std::size_t b, const Block& block) const {
-        engine::Lineage lineage;
+    engine::TrackedVertices of(std::size_t b, const Block& block) const {
+        engine::TrackedVertices tracked;
         for (std::size_t i = begin[b]; i < begin[b + 1]; ++i)
-            lineage.add(vertices[i], block.local(into[vertices[i]]));
-        return lineage;
+            tracked.add(vertices[i], block.local(vertex_map[vertices[i]]));
+        return tracked;
     }
 
     std::vector<std::size_t> begin;  ///< of each block in vertices
     std::vector<Index> vertices;
-    std::span<const Index> into;
+    std::span<const Index> vertex_map;
 };
 
 template <class Metric>
 Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
-                    Recording patches, SharedProgress& progress, Poll poll) {
+                    Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
     Done done;
-    Complex complex(block.positions, block.triangles, poll);
+    CollapseMesh mesh(block.positions, block.triangles, check_cancelled);
     block.forget_surface();
-    engine::PairTable pairs(complex, {}, poll);
+    engine::PairTable pairs(mesh, {}, check_cancelled);
     engine::Wedges wedges;
-    engine::LoopOptions options = block_options(loop, complex.face_count(), block.between, share);
-    options.first_context = block.own();
-    const std::size_t to_remove = complex.face_count() - std::min(options.target_faces, complex.face_count());
+    engine::LoopOptions options = block_options(loop, mesh.face_count(), block.between, share);
+    options.first_context_vertex = block.own();
+    const std::size_t to_remove = mesh.face_count() - std::min(options.target_faces, mesh.face_count());
     StepRecorder recorder(block, patches, to_remove, done);
     std::size_t known = 0;
     options.progress = [&](double fraction) {
-        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known, poll);
+        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known,
+                        check_cancelled);
     };
-    engine::Engine<Metric, engine::RoundQueue, StepRecorder> engine(complex, pairs, wedges, block.locked,
-                                                                    metric, recorder);
+    engine::Engine<Metric, engine::SweepQueue, StepRecorder> engine(mesh, pairs, wedges, block.locked, metric,
+                                                                    recorder);
     done.result = engine.run(options);
-    recorder.end_step(complex);
-    progress(to_remove, known, poll);
+    recorder.end_step(mesh);
+    progress(to_remove, known, check_cancelled);
     return done;
 }
 
@@ -357,22 +358,23 @@ inline void take(const Done& block, std::size_t steps, Recording patches, BlockS
 
 FAQEM_INLINE std::size_t vertices_per_block(std::size_t vertices, std::size_t few) {
     if (vertices <= few) return vertices;
-    constexpr std::size_t most = 4 * most_vertices_per_block;
+    constexpr std::size_t most = 4 * max_vertices_per_block;
     const std::size_t blocks = 4 * ((vertices + most - 1) / most);
     return (vertices + blocks - 1) / blocks;
 }
 
-FAQEM_INLINE engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
-                                  double share) {
+FAQEM_INLINE engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces,
+                                               std::size_t between, double share) {
     engine::LoopOptions options = loop;
-    options.ladder = engine::Ladder::stay;
+    options.ladder = engine::Ladder::off;
     const auto inside = static_cast<double>(faces - between);
     options.target_faces = between + static_cast<std::size_t>(local_share * share * inside);
     return options;
 }
 
-FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              const BlockTracking* tracking, Recording patches, Workers workers) {
+FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop,
+                                           std::size_t least, const BlockTracking* tracking,
+                                           Recording patches, Workers workers) {
     BlockSteps result;
     if (input.positions.size() <= 2 * input.per_block) return result;
     const std::size_t faces = input.triangles.size();
@@ -381,24 +383,26 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     const double kept_share = waiting + (1 - waiting) * share;
     if (!(kept_share < 0.75)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
-    const Blocks blocks(input, workers.poll);
+    const Blocks blocks(input, workers.check_cancelled);
     SharedProgress progress(loop, removable);
     const Lineages lineages(input, tracking, blocks.count());
     std::vector<Done> done(blocks.count());
-    parallel_blocks(blocks.count(), 1, workers, [&](std::size_t b, std::size_t, Poll poll) {
-        if (progress.is_cancelled()) return;
-        Block block(input, blocks, b);
-        const auto simplify = [&](auto metric) {
-            return simplify_block(block, std::move(metric), loop, share, patches, progress, poll);
-        };
-        if (!tracking) {
-            done[b] = simplify(engine::MemorylessMetric());
-            return;
-        }
-        const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
-        done[b] = simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block), begin_at,
-                                                 loop.distance_weight));
-    });
+    parallel_blocks(
+        blocks.count(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
+            if (progress.is_cancelled()) return;
+            Block block(input, blocks, b);
+            const auto simplify = [&](auto metric) {
+                return simplify_block(block, std::move(metric), loop, share, patches, progress,
+                                      check_cancelled);
+            };
+            if (!tracking) {
+                done[b] = simplify(engine::MemorylessMetric());
+                return;
+            }
+            const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
+            done[b] = simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block), begin_at,
+                                                     loop.distance_weight));
+        });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);
     std::size_t steps = 0, patch_faces = 0;
@@ -416,25 +420,26 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     return result;
 }
 
-FAQEM_INLINE Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, Poll poll) {
+FAQEM_INLINE CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps,
+                                       CancellationCheck check_cancelled) {
     SlotTrace trace(input.positions.size());
     std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
     for (const auto& [survivor, gone, to] : steps) {
-        poll();
-        trace.collapsing(survivor, gone, positions[survivor], positions[gone], to);
+        check_cancelled();
+        trace.before_collapse(survivor, gone, positions[survivor], positions[gone], to);
         positions[survivor] = to;
     }
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < input.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Triangle& t = input.triangles[f];
         const Triangle now = {trace.root(t[0]), trace.root(t[1]), trace.root(t[2])};
         if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
         faces.push_back(f);
         triangles.push_back(now);
     }
-    return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
+    return compacted(std::move(faces), std::move(triangles), positions, trace, check_cancelled);
 }
 
 }  // namespace detail

@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/loop.hpp"
-#include "faqem/engine/tracking/reference_surface.hpp"
-#include "faqem/engine/util/cancellation.hpp"
-#include "faqem/options.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
+#include "faqem/engine/loop.hpp"
+#include "faqem/engine/tracking/original_surface.hpp"
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
+#include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -39,13 +39,13 @@ struct BlockSteps {
     bool is_cancelled = false;
 };
 
-inline constexpr std::size_t most_vertices_per_block = 1 << 15;
+inline constexpr std::size_t max_vertices_per_block = 1 << 15;
 
 /// The size of blocks for so many vertices: all of them where they are few, else a part of four, eight,
 /// twelve ... alike, so that two or four threads end together. More blocks would leave more faces between
 /// them, which wait; fewer take more memory.
 /// \param few  up to which they are not cut
-std::size_t vertices_per_block(std::size_t vertices, std::size_t few = most_vertices_per_block);
+std::size_t vertices_per_block(std::size_t vertices, std::size_t few = max_vertices_per_block);
 
 /// What is left inside of the blocks, over the share of all faces that is wanted. It should be no coarser
 /// than the result: the faces that did not take part are denser, and will go first.
@@ -62,8 +62,9 @@ enum class Watched { borders, borders_and_surface };
 
 /// What the blocks need for it.
 struct BlockTracking {
-    const engine::Original& original;
-    std::span<const Index> into;  ///< vertex of the input that each original one has gone into, or no_index
+    const engine::OriginalSurface& original;
+    std::span<const Index>
+        vertex_map;  ///< vertex of the input that each original one has gone into, or no_index
     Watched watched = Watched::borders_and_surface;
 };
 
@@ -100,7 +101,8 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
 /// Does the steps.
 /// \throws what the poll throws.
 /// O(n)
-Reduced reduce(const BlockInput& input, std::span<const BlockStep> steps, engine::Poll poll = {});
+CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps,
+                          engine::CancellationCheck check_cancelled = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

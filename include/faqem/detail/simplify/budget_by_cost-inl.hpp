@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,45 +11,46 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves, std::span<const double> weights,
-                                         std::uint64_t goal) {
+FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
+                                                               std::span<const double> weights,
+                                                               std::uint64_t face_budget) {
     // Costs of a mesh grow with the fourth power of its size. The largest is 1: nothing overflows.
     std::vector<double> size;
     for (std::size_t m = 0; m < curves.size(); ++m)
         size.push_back(curves[m].diagonal * std::sqrt(std::sqrt(weights[m])));
     const double largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
 
-    struct Offer {
+    struct Reduction {
         double cost;
         std::uint32_t mesh;
         std::uint64_t faces;  // that the mesh has after it
     };
-    std::vector<Offer> offers;
+    std::vector<Reduction> reductions;
     std::vector<std::uint64_t> share;
     std::uint64_t sum = 0;
     for (std::size_t m = 0; m < curves.size(); ++m) {
-        const auto& [steps, least, diagonal, is_complete] = curves[m];
+        const auto& [steps, min_faces, diagonal, is_complete] = curves[m];
         const double relative = largest > 0 ? size[m] / largest : 0;
         const double unit = relative * relative * relative * relative;
-        share.push_back(steps.empty() ? least : steps.front().faces);
+        share.push_back(steps.empty() ? min_faces : steps.front().faces);
         sum += share.back();
         for (std::size_t i = 0; i < steps.size(); ++i) {
-            const std::uint64_t after = i + 1 < steps.size() ? steps[i + 1].faces : least;
-            offers.push_back({steps[i].cost * unit, static_cast<std::uint32_t>(m),
-                              std::max(after, std::min(smallest_target, share.back()))});
+            const std::uint64_t after = i + 1 < steps.size() ? steps[i + 1].faces : min_faces;
+            reductions.push_back({steps[i].cost * unit, static_cast<std::uint32_t>(m),
+                                  std::max(after, std::min(min_target_faces, share.back()))});
         }
     }
-    std::stable_sort(offers.begin(), offers.end(),
-                     [](const Offer& a, const Offer& b) { return a.cost < b.cost; });
-    for (const Offer& offer : offers) {
-        if (sum <= goal) break;
-        std::uint64_t& faces = share[offer.mesh];
-        sum -= faces - offer.faces;
-        faces = offer.faces;
+    std::stable_sort(reductions.begin(), reductions.end(),
+                     [](const Reduction& a, const Reduction& b) { return a.cost < b.cost; });
+    for (const Reduction& reduction : reductions) {
+        if (sum <= face_budget) break;
+        std::uint64_t& faces = share[reduction.mesh];
+        sum -= faces - reduction.faces;
+        faces = reduction.faces;
         // The last step may take more than was to go: what is left over is its mesh's.
-        if (sum < goal) {
-            faces += goal - sum;
-            sum = goal;
+        if (sum < face_budget) {
+            faces += face_budget - sum;
+            sum = face_budget;
         }
     }
     return share;

@@ -20,10 +20,10 @@ struct CostCurve {
         /// Largest cost of a collapse so far, on a model of diagonal 1: an area times a squared distance.
         double cost;
     };
-    std::vector<Step> steps;  ///< faces descend, costs ascend
-    std::uint64_t least = 0;  ///< faces after the last step
-    double diagonal = 0;      ///< of the mesh, model units
-    bool is_complete = true;  ///< false: the progress callback cancelled
+    std::vector<Step> steps;      ///< faces descend, costs ascend
+    std::uint64_t min_faces = 0;  ///< faces after the last step
+    double diagonal = 0;          ///< of the mesh, model units
+    bool is_complete = true;      ///< false: the progress callback cancelled
 };
 
 /// Collapses a copy of the mesh as far as its locks and seams let it, with preset fast. Weights, target and
@@ -32,13 +32,14 @@ struct CostCurve {
 /// O(n log n)
 FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
-/// How many faces each mesh keeps so that all have `goal` at most, the dearest being kept.
+/// How many faces each mesh keeps so that all have `face_budget` at most, the dearest being kept.
 /// \param curves   of the meshes
 /// \param weights  how much a squared distance times an area in model units counts, per mesh, > 0
-/// \return per mesh; their sum is above `goal` only where no curve goes lower.
+/// \return per mesh; their sum is above `face_budget` only where no curve goes lower.
 /// O(n log n)
-FAQEM_EXPORT std::vector<std::uint64_t> share_by_cost(std::span<const CostCurve> curves,
-                                                      std::span<const double> weights, std::uint64_t goal);
+FAQEM_EXPORT std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
+                                                               std::span<const double> weights,
+                                                               std::uint64_t face_budget);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

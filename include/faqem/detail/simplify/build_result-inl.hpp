@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
+#include "faqem/export.hpp"
 
 #include <numeric>
 #include <string>
@@ -10,33 +10,37 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE std::vector<Index> collect(const MeshView& mesh, const Prepared& prepared, const Arranged& now,
-                           const engine::Complex& complex, const engine::Wedges& wedges,
-                           std::span<const Index> places, engine::Poll poll, SimplifyResult& result) {
+FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const PreprocessedMesh& prepared,
+                                             const ReorderedMesh& reordered,
+                                             const engine::CollapseMesh& collapse_mesh,
+                                             const engine::Wedges& wedges,
+                                             std::span<const Index> source_vertices,
+                                             engine::CancellationCheck check_cancelled,
+                                             SimplifyResult& result) {
     std::vector<Index> slots;
-    std::vector<Vec3> position(complex.vertex_slots());
+    std::vector<Vec3> position(collapse_mesh.vertex_slots());
     for (Index v = 0; v < position.size(); ++v) {
-        poll();
-        const Index at = places[v];
-        position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(complex.position(v));
+        check_cancelled();
+        const Index at = source_vertices[v];
+        position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(collapse_mesh.position(v));
     }
     std::vector<Index> slot_of_face(mesh.triangles.size(), no_index);
     std::vector<Index> slot_of_vertex(prepared.positions.size(), no_index);
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        poll();
-        if (!complex.alive(f)) continue;
-        const Triangle& t = complex.triangle(f);
+    for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
+        check_cancelled();
+        if (!collapse_mesh.is_alive(f)) continue;
+        const Triangle& t = collapse_mesh.triangle(f);
         if (has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
             ++result.report.faces_dropped;
             continue;
         }
-        for (const Index v : t) slot_of_vertex[now.vertex[v]] = v;
-        slot_of_face[now.face[f]] = f;
+        for (const Index v : t) slot_of_vertex[reordered.vertex[v]] = v;
+        slot_of_face[reordered.face[f]] = f;
     }
     TriangleMesh& out = result.mesh;
-    std::vector<Index> vertex(complex.vertex_slots(), no_index);
+    std::vector<Index> vertex(collapse_mesh.vertex_slots(), no_index);
     for (Index v = 0; v < slot_of_vertex.size(); ++v) {
-        poll();
+        check_cancelled();
         const Index slot = slot_of_vertex[v];
         if (slot == no_index) continue;
         vertex[slot] = static_cast<Index>(out.positions.size());
@@ -45,10 +49,10 @@ FAQEM_INLINE std::vector<Index> collect(const MeshView& mesh, const Prepared& pr
         slots.push_back(slot);
     }
     for (Index f = 0; f < slot_of_face.size(); ++f) {
-        poll();
+        check_cancelled();
         const Index slot = slot_of_face[f];
         if (slot == no_index) continue;
-        const Triangle& t = complex.triangle(slot);
+        const Triangle& t = collapse_mesh.triangle(slot);
         result.face_origin.push_back(f);
         out.triangles.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
         if (!mesh.face_groups.empty()) out.face_groups.push_back(mesh.face_groups[f]);
@@ -61,16 +65,17 @@ FAQEM_INLINE std::vector<Index> collect(const MeshView& mesh, const Prepared& pr
     return slots;
 }
 
-// What has the place of an original vertex to the last bit has it in model units, too: as collect() says, and
+// What has the place of an original vertex to the last bit has it in model units, too: as build_result() says, and
 // whichever level of a chain comes first to ask.
-FAQEM_INLINE void to_model_units(const Prepared& prepared, engine::Poll poll, std::vector<Collapse>& collapses) {
-    std::vector<engine::Vector3> at = prepared.engine_positions(poll);
+FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled,
+                                 std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions(check_cancelled);
     std::vector<Index> place(at.size());
     std::iota(place.begin(), place.end(), Index{0});
     at.reserve(at.size() + collapses.size());
     place.reserve(at.capacity());
     for (Collapse& collapse : collapses) {
-        poll();
+        check_cancelled();
         const engine::Vector3 to = engine::to_eigen(collapse.position);
         Index original = no_index;
         if (to == at[collapse.first])
@@ -83,8 +88,8 @@ FAQEM_INLINE void to_model_units(const Prepared& prepared, engine::Poll poll, st
     }
 }
 
-FAQEM_INLINE void finish_history(const MeshView& mesh, const Pruned& pruned, std::vector<Vec3> positions,
-                    std::vector<Triangle> triangles, SimplifyResult& result) {
+FAQEM_INLINE void finish_history(const MeshView& mesh, const PruneResult& pruned, std::vector<Vec3> positions,
+                                 std::vector<Triangle> triangles, SimplifyResult& result) {
     CollapseHistory& history = result.history;
     history.positions = std::move(positions);
     history.triangles = std::move(triangles);
@@ -99,7 +104,8 @@ FAQEM_INLINE void finish_history(const MeshView& mesh, const Pruned& pruned, std
     history.kept_faces = result.face_origin;
 }
 
-FAQEM_INLINE bool keep_area(std::span<const Vec3> before, std::span<const Triangle> triangles, std::vector<Vec3>& now) {
+FAQEM_INLINE bool revert_degenerate_faces(std::span<const Vec3> before, std::span<const Triangle> triangles,
+                                          std::vector<Vec3>& now) {
     while (true) {
         bool is_good = true, is_changed = false;
         for (const Triangle& t : triangles) {
@@ -114,27 +120,27 @@ FAQEM_INLINE bool keep_area(std::span<const Vec3> before, std::span<const Triang
     }
 }
 
-FAQEM_INLINE void add_relaxed(std::span<const EdgeSwap> swaps, SimplifyResult& result) {
+FAQEM_INLINE void record_fitting(std::span<const EdgeFlip> flips, SimplifyResult& result) {
     CollapseHistory& history = result.history;
-    if (result.report.vertices_relaxed > 0) history.kept_positions = result.mesh.positions;
-    for (const auto& [s, t] : swaps) {
+    if (result.report.vertices_fitted > 0) history.kept_positions = result.mesh.positions;
+    for (const auto& [s, t] : flips) {
         history.patch_faces.insert(history.patch_faces.end(), {history.kept_faces[s], history.kept_faces[t]});
         history.patch_begin.push_back(history.patch_faces.size());
     }
 }
 
-FAQEM_INLINE void count(const engine::LoopResult& looped, Report& report) {
-    report.collapses += looped.collapses;
-    for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += looped.refusals[i];
-    for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += looped.rungs[i];
-    report.components_deleted += looped.components_deleted;
+FAQEM_INLINE void add_counts(const engine::LoopResult& loop_result, Report& report) {
+    report.collapses += loop_result.collapses;
+    for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += loop_result.refusals[i];
+    for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += loop_result.rungs[i];
+    report.components_deleted += loop_result.components_deleted;
 }
 
-FAQEM_INLINE void finish_report(const Options& options, const Settings& settings, const Prepared& prepared,
-                   SimplifyResult& result) {
+FAQEM_INLINE void finish_report(const Options& options, const Settings& settings,
+                                const PreprocessedMesh& prepared, SimplifyResult& result) {
     Report& report = result.report;
     const Weights& w = options.weights;
-    if (settings.carry != Settings::Carry::memory &&
+    if (settings.quadric_policy != Settings::QuadricPolicy::memory &&
         (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
         report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
                                   std::string(name(options.preset)) + " has none of their terms");

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
+#include "faqem/export.hpp"
 
 #include <numeric>
 #include <utility>
@@ -13,7 +13,7 @@ using engine::Vector3;
 
 FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots) : next_(slots) {
     std::iota(next_.begin(), next_.end(), Index{0});
-    places_ = next_;
+    source_slots_ = next_;
 }
 
 FAQEM_INLINE Index SlotTrace::root(Index slot) {
@@ -23,48 +23,50 @@ FAQEM_INLINE Index SlotTrace::root(Index slot) {
     return end;
 }
 
-FAQEM_INLINE Reduced reduced(std::vector<Index> faces, std::vector<Triangle> triangles, std::span<const Vector3> positions,
-                SlotTrace& trace, engine::Poll poll) {
-    Reduced out;
+FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangles,
+                                     std::span<const Vector3> positions, SlotTrace& trace,
+                                     engine::CancellationCheck check_cancelled) {
+    CompactedMesh out;
     out.faces = std::move(faces);
     out.triangles = std::move(triangles);
     std::vector<Index> number(positions.size(), no_index);
     for (const Triangle& t : out.triangles) {
-        poll();
+        check_cancelled();
         for (const Index v : t) number[v] = 0;
     }
     for (Index v = 0; v < number.size(); ++v) {
-        poll();
+        check_cancelled();
         if (number[v] == no_index) continue;
         number[v] = static_cast<Index>(out.vertices.size());
         out.vertices.push_back(v);
-        out.places.push_back(trace.places()[v]);
+        out.source_slots.push_back(trace.source_slots()[v]);
         out.positions.push_back(positions[v]);
     }
     for (Triangle& t : out.triangles) {
         for (Index& v : t) v = number[v];
     }
-    out.into.reserve(number.size());
+    out.vertex_map.reserve(number.size());
     for (Index v = 0; v < number.size(); ++v) {
-        poll();
-        out.into.push_back(number[trace.root(v)]);
+        check_cancelled();
+        out.vertex_map.push_back(number[trace.root(v)]);
     }
     return out;
 }
 
-FAQEM_INLINE Reduced reduced(const engine::Complex& complex, SlotTrace& trace, engine::Poll poll) {
+FAQEM_INLINE CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace,
+                                     engine::CancellationCheck check_cancelled) {
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
-    for (Index f = 0; f < complex.face_slots(); ++f) {
-        poll();
-        if (!complex.alive(f)) continue;
+    for (Index f = 0; f < mesh.face_slots(); ++f) {
+        check_cancelled();
+        if (!mesh.is_alive(f)) continue;
         faces.push_back(f);
-        triangles.push_back(complex.triangle(f));
+        triangles.push_back(mesh.triangle(f));
     }
     std::vector<Vector3> positions;
-    positions.reserve(complex.vertex_slots());
-    for (Index v = 0; v < complex.vertex_slots(); ++v) positions.push_back(complex.position(v));
-    return reduced(std::move(faces), std::move(triangles), positions, trace, poll);
+    positions.reserve(mesh.vertex_slots());
+    for (Index v = 0; v < mesh.vertex_slots(); ++v) positions.push_back(mesh.position(v));
+    return compacted(std::move(faces), std::move(triangles), positions, trace, check_cancelled);
 }
 
 }  // namespace detail

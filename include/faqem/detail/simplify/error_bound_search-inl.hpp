@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
+#include "faqem/export.hpp"
 
 #include <limits>
 #include <string>
@@ -14,69 +14,76 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE Original::Original(const MeshView& mesh, const Options& options, Poll poll)
-    : surface_(surface_of({mesh.positions, triangles_left(mesh, options, poll)}, poll)),
-      tree_(surface_.positions, surface_.triangles, poll) {}
+FAQEM_INLINE DistanceReference::DistanceReference(const MeshView& mesh, const Options& options,
+                                                  CancellationCheck check_cancelled)
+    : surface_(extract_surface({mesh.positions, unpruned_triangles(mesh, options, check_cancelled)},
+                               check_cancelled)),
+      tree_(surface_.positions, surface_.triangles, check_cancelled) {}
 
-FAQEM_INLINE Distance Original::distance(const MeshView& result, double allowed, Look look, Workers workers) const {
+FAQEM_INLINE MeasuredDistance DistanceReference::distance(const MeshView& result, double allowed,
+                                                          MeasureMode mode, Workers workers) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (surface_.triangles.empty()) return {};
-    const Surface small = surface_of(result, workers.poll);
-    if (small.triangles.empty()) return {infinity, infinity};
-    const Bvh tree(small.positions, small.triangles, workers.poll);
-    SearchLimits limits{.floor = gap_floor * surface_.diagonal(),
+    const Surface simplified = extract_surface(result, workers.check_cancelled);
+    if (simplified.triangles.empty()) return {infinity, infinity};
+    const Bvh tree(simplified.positions, simplified.triangles, workers.check_cancelled);
+    SearchLimits limits{.absolute_tolerance = min_relative_gap * surface_.diagonal(),
                         .max_pieces = HausdorffOptions{}.max_pieces,
                         .workers = workers};
-    Distance found{0, infinity};
+    MeasuredDistance found{0, infinity};
     const auto search = [&] {
-        const Farthest most = farthest_both_ways(surface_, tree_, small, tree, limits);
+        const HausdorffBounds most = two_sided_hausdorff(surface_, tree_, simplified, tree, limits);
         found.value = std::max(found.value, most.value);
         found.bound = std::min(found.bound, most.bound);
     };
     const auto undecided = [&] { return found.value <= allowed && !found.within(allowed); };
-    if (look == Look::in_full) search();
+    if (mode == MeasureMode::full) search();
     if (undecided()) {
         limits.tolerance = 0;
         limits.stop_above = limits.stop_below = allowed;
         search();
     }
-    found.unsettled = undecided() && found.bound - found.value > limits.floor;
+    found.undecided_count = undecided() && found.bound - found.value > limits.absolute_tolerance;
     return found;
 }
 
-FAQEM_INLINE Distance distance(const Original& original, const SimplifyResult& result, double allowed, Look look,
-                  const Options& options, Poll poll) {
+FAQEM_INLINE MeasuredDistance distance(const DistanceReference& original, const SimplifyResult& result,
+                                       double allowed, MeasureMode mode, const Options& options,
+                                       CancellationCheck check_cancelled) {
     const Report& report = result.report;
     const Settings exact = settings(options);
     const bool exact_weld = exact.weld == Weld::none || exact.weld_distance == 0;
     if (exact_weld && report.collapses == 0 && report.components_deleted == 0 &&
-        report.vertices_relaxed == 0 && report.edges_swapped == 0) {
+        report.vertices_fitted == 0 && report.edges_flipped == 0) {
         return {};
     }
-    return original.distance(result.mesh.view(), allowed, look, {options.threads, poll});
+    return original.distance(result.mesh.view(), allowed, mode, {options.threads, check_cancelled});
 }
 
-FAQEM_INLINE double diagonal_of_all(const MeshView& mesh, const Options& options, const Original& original, Poll poll) {
-    return options.topology.prune ? surface_of(mesh, poll).diagonal() : original.surface().diagonal();
+FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& options,
+                                      const DistanceReference& original, CancellationCheck check_cancelled) {
+    return options.topology.prune ? extract_surface(mesh, check_cancelled).diagonal()
+                                  : original.surface().diagonal();
 }
 
-FAQEM_INLINE SimplifyResult simplify_within(const MeshView& mesh, const Options& options) try {
-    const AskMeanwhile meanwhile(options, 0);
-    const Original original(mesh, options, meanwhile.poll());
+FAQEM_INLINE SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options) try {
+    const MeasurementMonitor monitor(options, 0);
+    const DistanceReference original(mesh, options, monitor.cancellation_check());
     const MaxError& error = *options.max_error;
-    const double unit =
-        error.unit == MaxError::Unit::model ? 1 : diagonal_of_all(mesh, options, original, meanwhile.poll());
+    const double unit = error.unit == MaxError::Unit::model
+                            ? 1
+                            : unpruned_diagonal(mesh, options, original, monitor.cancellation_check());
     const double allowed = error.value * unit;
-    return run_within<SimplifyResult>(
+    return search_within_error<SimplifyResult>(
         options, mesh.triangles.size(), allowed, [&](const Options& own) { return simplify(mesh, own); },
-        [&](const SimplifyResult& result, Look look, Poll poll) {
-            return distance(original, result, allowed, look, options, poll);
+        [&](const SimplifyResult& result, MeasureMode mode, CancellationCheck check_cancelled) {
+            return distance(original, result, allowed, mode, options, check_cancelled);
         });
 } catch (const engine::Cancelled&) {
-    return cancelled<SimplifyResult>();
+    return cancelled_result<SimplifyResult>();
 }
 
-FAQEM_INLINE void finish_search(Report& report, std::uint64_t unsettled) {
+FAQEM_INLINE void report_search(Report& report, std::uint64_t undecided_count) {
     report.target_faces = report.faces_out;  // no count was asked for, so that none was missed
     if (!report.max_error->within()) {
         report.warnings.push_back(
@@ -88,8 +95,8 @@ FAQEM_INLINE void finish_search(Report& report, std::uint64_t unsettled) {
                 "no smaller mesh within max_error was found: this is the input, welded");
         }
     }
-    if (unsettled > 0) {
-        report.warnings.push_back(std::to_string(unsettled) +
+    if (undecided_count > 0) {
+        report.warnings.push_back(std::to_string(undecided_count) +
                                   " meshes of the search counted as too far from the original: the work "
                                   "allowed for measuring them did not tell");
     }

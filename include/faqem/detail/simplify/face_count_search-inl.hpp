@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/face_count_search.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,21 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-inline constexpr double first_share = 0.1;
-inline constexpr double narrow_enough = 1.02;
+inline constexpr double initial_ratio = 0.1;
+inline constexpr double bracket_tolerance = 1.02;
 
 /// A guess from one point alone goes this much beyond it, so that the next point is more often on the other
 /// side.
-inline constexpr double beyond = 1.1;
+inline constexpr double overshoot = 1.1;
 
 /// Share of the bracket that guesses stay away from its ends; more where both are measured.
 inline constexpr double margin = 0.05, measured_margin = 0.1;
 
 FAQEM_INLINE FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
-    : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{smallest_target - 1} {}
+    : allowed_(allowed), good_{static_cast<double>(faces)}, bad_{min_target_faces - 1} {}
 
-FAQEM_INLINE bool FaceCountSearch::bracketing() const {
-    return step_ == 0 && runs_ < bracket_runs && good_.faces > bad_.faces * narrow_enough &&
+FAQEM_INLINE bool FaceCountSearch::is_bracketing() const {
+    return step_ == 0 && runs_ < bracket_runs && good_.faces > bad_.faces * bracket_tolerance &&
            good_.faces - bad_.faces > 1;
 }
 
@@ -32,29 +32,29 @@ FAQEM_INLINE bool FaceCountSearch::bracketing() const {
 FAQEM_INLINE double FaceCountSearch::guess() const {
     const double low = std::log(bad_.faces), high = std::log(good_.faces);
     // How far an error is above what is allowed; perfect, infinite and unknown ones have a say too.
-    const auto excess = [&](double error) {
+    const auto log_excess = [&](double error) {
         if (error <= 0) return std::log(1e-6);
         return error <= 1e6 * allowed_ ? std::log(std::max(error / allowed_, 1e-6)) : std::log(1e6);
     };
     double at;
     if (good_.error && bad_.error) {
-        const double g = excess(*good_.error), b = excess(*bad_.error);
+        const double g = log_excess(*good_.error), b = log_excess(*bad_.error);
         double share = high - low > last_width_ / 2 ? 0.5 : g / (g - b);
         if (!(share >= measured_margin)) share = measured_margin;
         at = high + std::min(share, 1 - measured_margin) * (low - high);
     } else if (bad_.error) {
-        at = low + excess(*bad_.error) + std::log(beyond);
+        at = low + log_excess(*bad_.error) + std::log(overshoot);
     } else if (good_.error) {
-        at = high + excess(*good_.error) - std::log(beyond);
+        at = high + log_excess(*good_.error) - std::log(overshoot);
     } else {
-        at = high + std::log(first_share);
+        at = high + std::log(initial_ratio);
     }
     const double space = margin * (high - low);
     return std::exp(at > low + space ? std::min(at, high - space) : low + space);
 }
 
 FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
-    if (bracketing()) {
+    if (is_bracketing()) {
         ++runs_;
         // Between the ends: there is a whole number.
         const double count = std::clamp(std::round(guess()), bad_.faces + 1, good_.faces - 1);
@@ -62,8 +62,8 @@ FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
         target_ = static_cast<std::uint64_t>(count);
         return target_;
     }
-    while (step_ < below.size()) {
-        const double count = std::floor(below[step_++] * good_.faces);
+    while (step_ < refinement_ratios.size()) {
+        const double count = std::floor(refinement_ratios[step_++] * good_.faces);
         if (count < reachable_) continue;
         target_ = static_cast<std::uint64_t>(count);
         return target_;
@@ -71,7 +71,7 @@ FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
     return std::nullopt;
 }
 
-FAQEM_INLINE void FaceCountSearch::tell(std::uint64_t faces, double error, bool within) {
+FAQEM_INLINE void FaceCountSearch::add_result(std::uint64_t faces, double error, bool within) {
     const auto count = static_cast<double>(faces), target = static_cast<double>(target_);
     if (count > target) reachable_ = std::max(reachable_, std::min(count, good_.faces));
     if (within && count < good_.faces) {

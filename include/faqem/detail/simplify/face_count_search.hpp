@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/target.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -21,8 +21,8 @@ class FAQEM_EXPORT FaceCountSearch {
 public:
     static constexpr std::uint64_t bracket_runs = 8;
     /// Counts that are tried in the end, as shares of the smallest good one.
-    static constexpr std::array<double, 4> below = {0.6, 0.8, 0.9, 0.95};
-    static constexpr std::uint64_t most_runs = bracket_runs + below.size();
+    static constexpr std::array<double, 4> refinement_ratios = {0.6, 0.8, 0.9, 0.95};
+    static constexpr std::uint64_t max_runs = bracket_runs + refinement_ratios.size();
 
     /// \param faces    of the original, which is taken to be within
     /// \param allowed  largest error
@@ -34,7 +34,7 @@ public:
     /// What the run with the last target gave.
     /// \param error   of the result; where it is not within, a lower bound will do
     /// \param within  whether it counts
-    void tell(std::uint64_t faces, double error, bool within);
+    void add_result(std::uint64_t faces, double error, bool within);
 
 private:
     /// One end of the bracket.
@@ -43,16 +43,16 @@ private:
         std::optional<double> error = {};  ///< nothing: not measured
     };
 
-    bool bracketing() const;
+    bool is_bracketing() const;
     double guess() const;
 
     double allowed_;
     End good_, bad_;
-    double reachable_ = static_cast<double>(smallest_target);      ///< fewer faces do not come out
+    double reachable_ = static_cast<double>(min_target_faces);     ///< fewer faces do not come out
     double last_width_ = std::numeric_limits<double>::infinity();  ///< of the bracket, in logarithms
     std::uint64_t target_ = 0;
     std::uint64_t runs_ = 0;  ///< to narrow the bracket
-    std::size_t step_ = 0;    ///< into `below`
+    std::size_t step_ = 0;    ///< into `refinement_ratios`
 };
 
 }  // namespace detail

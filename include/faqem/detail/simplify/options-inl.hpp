@@ -34,11 +34,12 @@ FAQEM_INLINE void validate(const Options& options) {
     }
     if (options.max_error) {
         detail::require(options.max_error->value > 0 && std::isfinite(options.max_error->value),
-                "max_error must be finite and > 0");
+                        "max_error must be finite and > 0");
     }
-    detail::require(options.visibility == Visibility::ignored || !options.max_error ||
-                options.target.kind != Target::Kind::unset,
-            "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
+    detail::require(
+        options.visibility == Visibility::ignored || !options.max_error ||
+            options.target.kind != Target::Kind::unset,
+        "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
     detail::require_weight(options.weights.area, "area");
     detail::require_weight(options.weights.boundary, "boundary");
     detail::require_weight(options.weights.normal, "normal");
@@ -47,24 +48,26 @@ FAQEM_INLINE void validate(const Options& options) {
     const Topology& topology = options.topology;
     if (topology.weld_distance) {
         detail::require(*topology.weld_distance >= 0 && std::isfinite(*topology.weld_distance),
-                "weld_distance must be finite and >= 0");
+                        "weld_distance must be finite and >= 0");
     }
     detail::require(topology.virtual_edge_distance > 0 && topology.virtual_edge_distance <= 1,
-            "virtual_edge_distance must be in (0, 1]");
+                    "virtual_edge_distance must be in (0, 1]");
     if (topology.prune) {
         detail::require(topology.prune->value > 0 && std::isfinite(topology.prune->value),
-                "prune must be finite and > 0");
+                        "prune must be finite and > 0");
     }
     const BakeOptions& bake = options.bake;
-    detail::require(std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
-            "texture_size must be a power of two in [64, 16384]");
+    detail::require(
+        std::has_single_bit(bake.texture_size) && bake.texture_size >= 64 && bake.texture_size <= 16384,
+        "texture_size must be a power of two in [64, 16384]");
     detail::require(!bake.texel_density || (*bake.texel_density >= 0.125 && *bake.texel_density <= 8),
-            "texel_density must be in [0.125, 8]");
+                    "texel_density must be in [0.125, 8]");
     detail::require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
     detail::require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
     detail::require(bake.normals != Normals::none || bake.kind == Bake::none,
-            "normals can be left out only where nothing is baked: bake must be none");
-    detail::require(bake.crease_angle >= 0 && bake.crease_angle <= 180, "crease_angle must be in [0, 180] degrees");
+                    "normals can be left out only where nothing is baked: bake must be none");
+    detail::require(bake.crease_angle >= 0 && bake.crease_angle <= 180,
+                    "crease_angle must be in [0, 180] degrees");
 }
 
 FAQEM_NAMESPACE_END

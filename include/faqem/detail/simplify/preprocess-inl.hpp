@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Poll;
+using engine::CancellationCheck;
 using engine::Vector3;
 
 inline constexpr Triangle dropped = {no_index, no_index, no_index};
@@ -27,7 +27,7 @@ inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
     throw InputError("", element, what);
 }
 
-inline void check_sizes(const MeshView& mesh, Poll poll) {
+inline void check_sizes(const MeshView& mesh, CancellationCheck check_cancelled) {
     if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
     if (mesh.triangles.size() > engine::max_faces) {
         fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
@@ -42,7 +42,7 @@ inline void check_sizes(const MeshView& mesh, Poll poll) {
         fail("vertex_weights", "needs one entry per vertex or none");
     }
     for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
-        poll();
+        check_cancelled();
         const float weight = mesh.vertex_weights[v];
         if (!(weight >= 1e-6f && weight <= 1e6f)) {
             fail("vertex " + std::to_string(v), "weight is not in [1e-6, 1e6]");
@@ -54,17 +54,17 @@ inline void check_sizes(const MeshView& mesh, Poll poll) {
             fail("attributes", "needs width >= 1 and 3 * faces * width values");
         }
         for (std::size_t i = 0; i < a.values.size(); ++i) {
-            poll();
+            check_cancelled();
             if (!std::isfinite(a.values[i]))
                 fail("attributes, corner " + std::to_string(i / a.width), "not finite");
         }
     }
 }
 
-inline std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) {
+inline std::vector<Vec3> checked_positions(const PositionView& view, CancellationCheck check_cancelled) {
     std::vector<Vec3> positions(view.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        poll();
+        check_cancelled();
         positions[v] = view[v];
         for (const double x : positions[v]) {
             if (!std::isfinite(x)) fail("vertex " + std::to_string(v), "position is not finite");
@@ -75,36 +75,38 @@ inline std::vector<Vec3> checked_positions(const PositionView& view, Poll poll) 
 
 // Vertices that no face uses stay apart: they must not pull others to their place.
 inline std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
-                                   const Settings& settings, Poll poll) {
+                                          const Settings& settings, CancellationCheck check_cancelled) {
     std::vector<Index> result(positions.size());
     std::iota(result.begin(), result.end(), Index{0});
     if (settings.weld == Weld::none) return result;
     std::vector<std::uint8_t> is_used(positions.size(), 0);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         for (const Index v : mesh.triangles[f]) is_used[v] = 1;
     }
     std::vector<Index> used;
     std::vector<Vec3> used_positions;
     for (Index v = 0; v < positions.size(); ++v) {
-        poll();
+        check_cancelled();
         if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
     }
-    const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance, poll);
+    const std::vector<Index> welded =
+        engine::weld_within(used_positions, settings.weld_distance, check_cancelled);
     for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
     return result;
 }
 
 // A locked vertex stays where it is: what was welded to it comes to it.
-inline void keep_locked_places(const MeshView& mesh, const std::vector<Vec3>& positions, Prepared& out) {
+inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec3>& positions,
+                                     PreprocessedMesh& out) {
     for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
         if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
     }
 }
 
-inline void check_triangles(const MeshView& mesh, Poll poll) {
+inline void check_triangles(const MeshView& mesh, CancellationCheck check_cancelled) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         for (const Index v : mesh.triangles[f]) {
             if (!(v < mesh.positions.size())) {
                 fail("face " + std::to_string(f), "vertex index out of range");
@@ -114,12 +116,13 @@ inline void check_triangles(const MeshView& mesh, Poll poll) {
 }
 
 // Numbers the representatives in input order and takes the triangles to them.
-inline void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions,
-                 const std::vector<Index>& representative, Poll poll, Prepared& out) {
+inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
+                       const std::vector<Index>& representative, CancellationCheck check_cancelled,
+                       PreprocessedMesh& out) {
     std::vector<Index>& welded = out.welded;
     welded.assign(positions.size(), no_index);
     for (Index v = 0; v < positions.size(); ++v) {
-        poll();
+        check_cancelled();
         if (representative[v] != v) continue;
         welded[v] = static_cast<Index>(out.positions.size());
         out.positions.push_back(positions[v]);
@@ -128,13 +131,13 @@ inline void take_welded(const MeshView& mesh, const std::vector<Vec3>& positions
     for (Index v = 0; v < positions.size(); ++v) welded[v] = welded[representative[v]];
     out.triangles.resize(mesh.triangles.size());
     for (std::size_t f = 0; f < out.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         const Triangle t = mesh.triangles[f];
         out.triangles[f] = {welded[t[0]], welded[t[1]], welded[t[2]]};
     }
 }
 
-inline void drop_collapsed(Prepared& out) {
+inline void drop_degenerate_faces(PreprocessedMesh& out) {
     for (Triangle& t : out.triangles) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped, ++out.dropped_faces;
     }
@@ -142,32 +145,34 @@ inline void drop_collapsed(Prepared& out) {
 
 // A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
 // back stay.
-inline void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out) {
-    struct Rest {
-        Index second, third, group, face;               // of a face whose smallest corner is known
-        auto operator<=>(const Rest&) const = default;  // NOLINT(modernize-use-nullptr)
+inline void drop_duplicate_faces(std::span<const Index> groups, CancellationCheck check_cancelled,
+                                 PreprocessedMesh& out) {
+    struct FaceKey {
+        Index second, third, group, face;                  // of a face whose smallest corner is known
+        auto operator<=>(const FaceKey&) const = default;  // NOLINT(modernize-use-nullptr)
     };
-    std::vector<std::size_t> place(out.positions.size() + 1, 0);
+    std::vector<std::size_t> offset(out.positions.size() + 1, 0);
     const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
     for (const Triangle& t : out.triangles) {
-        if (!is_dropped(t)) ++place[smallest(t) + 1];
+        if (!is_dropped(t)) ++offset[smallest(t) + 1];
     }
-    std::partial_sum(place.begin(), place.end(), place.begin());
-    std::vector<Rest> faces(place.back());
+    std::partial_sum(offset.begin(), offset.end(), offset.begin());
+    std::vector<FaceKey> faces(offset.back());
     for (Index f = 0; f < out.triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         Triangle t = out.triangles[f];
         if (is_dropped(t)) continue;
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        faces[place[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
+        faces[offset[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
     }
     std::size_t begin = 0;
-    for (const std::size_t end : place) {  // each place is where the next vertex begins now
+    for (const std::size_t end : offset) {  // each place is where the next vertex begins now
         std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
-                  faces.begin() + static_cast<std::ptrdiff_t>(end), engine::polled_less(poll));
-        poll();
+                  faces.begin() + static_cast<std::ptrdiff_t>(end),
+                  engine::cancellable_less(check_cancelled));
+        check_cancelled();
         for (std::size_t i = begin + 1; i < end; ++i) {
-            const Rest &a = faces[i - 1], &b = faces[i];
+            const FaceKey &a = faces[i - 1], &b = faces[i];
             if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
             out.triangles[b.face] = dropped;
             ++out.dropped_faces;
@@ -178,12 +183,12 @@ inline void drop_doubles(std::span<const Index> groups, Poll poll, Prepared& out
 
 // Box of the used vertices; quarters are taken first, so that not even the diagonal of the largest box
 // overflows.
-inline void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
+inline void find_scale(double wanted_diagonal, CancellationCheck check_cancelled, PreprocessedMesh& out) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (const Triangle& t : out.triangles) {
-        poll();
+        check_cancelled();
         if (is_dropped(t)) continue;
         for (const Index v : t) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -203,42 +208,46 @@ inline void find_scale(double wanted_diagonal, Poll poll, Prepared& out) {
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
 
-FAQEM_INLINE std::vector<Vector3> Prepared::engine_positions(Poll poll) const {
+FAQEM_INLINE std::vector<Vector3> PreprocessedMesh::engine_positions(
+    CancellationCheck check_cancelled) const {
     std::vector<Vector3> result;
     result.reserve(positions.size());
     const Vector3 c = engine::to_eigen(centre);
     for (const Vec3& p : positions) {
-        poll();
+        check_cancelled();
         result.push_back((engine::to_eigen(p) - c) * scale);
     }
     return result;
 }
 
-FAQEM_INLINE Vec3 Prepared::to_model(const Vector3& p) const {
+FAQEM_INLINE Vec3 PreprocessedMesh::to_model(const Vector3& p) const {
     return engine::to_array(Vector3(p / scale + engine::to_eigen(centre)));
 }
 
-FAQEM_INLINE Prepared prepare(const MeshView& mesh, const Settings& settings, Poll poll) {
-    check_sizes(mesh, poll);
-    check_triangles(mesh, poll);
-    const std::vector<Vec3> positions = checked_positions(mesh.positions, poll);
-    Prepared out;
-    take_welded(mesh, positions, representatives(mesh, positions, settings, poll), poll, out);
-    keep_locked_places(mesh, positions, out);
-    drop_collapsed(out);
-    drop_doubles(mesh.face_groups, poll, out);
-    find_scale(settings.diagonal, poll, out);
+FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
+                                         CancellationCheck check_cancelled) {
+    check_sizes(mesh, check_cancelled);
+    check_triangles(mesh, check_cancelled);
+    const std::vector<Vec3> positions = checked_positions(mesh.positions, check_cancelled);
+    PreprocessedMesh out;
+    apply_weld(mesh, positions, representatives(mesh, positions, settings, check_cancelled), check_cancelled,
+               out);
+    restore_locked_positions(mesh, positions, out);
+    drop_degenerate_faces(out);
+    drop_duplicate_faces(mesh.face_groups, check_cancelled, out);
+    find_scale(settings.diagonal, check_cancelled, out);
     if (settings.prune) {
-        out.pruned = prune(out.positions, locks_of_welded(mesh, out.welded, out.positions.size()),
-                           *settings.prune, out.triangles, poll);
+        out.pruned = prune(out.positions, welded_locks(mesh, out.welded, out.positions.size()),
+                           *settings.prune, out.triangles, check_cancelled);
     }
     return out;
 }
 
-FAQEM_INLINE std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, Poll poll) {
+FAQEM_INLINE std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
+                                                      CancellationCheck check_cancelled) {
     std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
     if (options.topology.prune) {
-        for (const PrunedFace& pruned : prepare(mesh, settings(options), poll).pruned.faces)
+        for (const PrunedFace& pruned : preprocess(mesh, settings(options), check_cancelled).pruned.faces)
             is_pruned[pruned.face] = 1;
     }
     std::vector<Triangle> left;
@@ -248,8 +257,8 @@ FAQEM_INLINE std::vector<Triangle> triangles_left(const MeshView& mesh, const Op
     return left;
 }
 
-FAQEM_INLINE std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
-                                          std::size_t vertices) {
+FAQEM_INLINE std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
+                                                    std::size_t vertices) {
     std::vector<std::uint8_t> locked(vertices, 0);
     for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
         if (mesh.vertex_locks[v]) locked[welded[v]] = 1;

@@ -5,46 +5,48 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/mesh/triangle_soup.hpp"
-#include "faqem/export.hpp"
-#include "faqem/mesh.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/export.hpp"
+#include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// A mesh made ready for the engine. Vertices are the welded ones, faces keep their input index.
-struct Prepared {
+struct PreprocessedMesh {
     std::vector<Vec3> positions;       ///< welded vertices, model units
     std::vector<Index> vertex_origin;  ///< welded vertex -> first input vertex there
     std::vector<Index> welded;         ///< input vertex -> welded vertex
     std::vector<Triangle> triangles;   ///< per input face; three no_index where dropped
     std::uint64_t dropped_faces = 0;   ///< with two equal corners, or doubles of an earlier face
-    Pruned pruned;                     ///< dropped because their component is small
+    PruneResult pruned;                ///< dropped because their component is small
     Vec3 centre = {0, 0, 0};           ///< of the box of the used vertices, pruned too
     double scale = 1;                  ///< model units to engine units
 
     /// Engine units: (p - centre) * scale.
-    std::vector<engine::Vector3> engine_positions(engine::Poll poll = {}) const;
+    std::vector<engine::Vector3> engine_positions(engine::CancellationCheck check_cancelled = {}) const;
     /// Back to model units.
     Vec3 to_model(const engine::Vector3& p) const;
 
     /// Give back the memory of what is not needed any more. O(1)
-    void forget_triangles() { std::vector<Triangle>().swap(triangles); }
-    void forget_welded() { std::vector<Index>().swap(welded); }
+    void release_triangles() { std::vector<Triangle>().swap(triangles); }
+    void release_welded() { std::vector<Index>().swap(welded); }
 };
 
 /// \throws InputError  see simplify(); and what the poll throws
-Prepared prepare(const MeshView& mesh, const Settings& settings, engine::Poll poll = {});
+PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
+                            engine::CancellationCheck check_cancelled = {});
 
 /// The input's faces less those that are pruned.
 /// \throws as prepare()
-std::vector<Triangle> triangles_left(const MeshView& mesh, const Options& options, engine::Poll poll = {});
+std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
+                                         engine::CancellationCheck check_cancelled = {});
 
 /// One per welded vertex: nonzero where a locked vertex went into it.
-std::vector<std::uint8_t> locks_of_welded(const MeshView& mesh, std::span<const Index> welded,
-                                          std::size_t vertices);
+std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
+                                       std::size_t vertices);
 
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 FAQEM_EXPORT bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/presets.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -43,22 +43,22 @@ inline Settings stmw() {
 // veto is stricter than the paper's.
 inline Settings fast() {
     Settings s;
-    s.carry = Settings::Carry::memoryless;
+    s.quadric_policy = Settings::QuadricPolicy::memoryless;
     s.link = LinkCondition::by_size;
-    s.least_turn = 0.3;
-    s.least_fold = -0.9;
+    s.min_normal_cosine = 0.3;
+    s.min_fold_cosine = -0.9;
     return s;
 }
 
 inline Settings balanced() {
     Settings s = fast();
-    s.carry = Settings::Carry::tracked;
+    s.quadric_policy = Settings::QuadricPolicy::tracked;
     return s;
 }
 
 inline Settings best() {
     Settings s = balanced();
-    s.relax = true;
+    s.fit_vertices = true;
     return s;
 }
 
@@ -93,12 +93,13 @@ FAQEM_INLINE Settings settings(const Options& options) {
     s.weights.seam = w.uv.value_or(s.weights.seam);
     if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
     // Costs that sum up a history are in no unit that a size could be compared with.
-    if (s.link == LinkCondition::by_size && s.carry == Settings::Carry::memory) s.link = LinkCondition::on;
+    if (s.link == LinkCondition::by_size && s.quadric_policy == Settings::QuadricPolicy::memory)
+        s.link = LinkCondition::on;
     s.weld = options.topology.weld;
     s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
     s.prune = options.topology.prune;
     // 1/A stays finite on faces that are thinner than any real one.
-    s.weights.least_area = 1e-12 * s.diagonal * s.diagonal;
+    s.weights.min_area = 1e-12 * s.diagonal * s.diagonal;
     return s;
 }
 

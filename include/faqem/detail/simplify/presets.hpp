@@ -2,8 +2,8 @@
 /// \file
 /// The table of presets: what each name stands for.
 
-#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -13,14 +13,15 @@ namespace detail {
 struct Settings {
     /// Memory: quadrics are summed up along the collapses. Memoryless: they belong to the surface as it is.
     /// Tracked: memoryless, and the distance to the original is watched.
-    enum class Carry { memory, memoryless, tracked };
-    Carry carry = Carry::memory;
+    enum class QuadricPolicy { memory, memoryless, tracked };
+    QuadricPolicy quadric_policy = QuadricPolicy::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;
-    bool relax = false;      ///< move the vertices closer to the original in the end
-    double least_fold = -1;  ///< edges whose faces have a smaller cosine are folds; -1: as many as may come
-    double least_turn = 0;   ///< flip veto: smallest cosine between old and new normal
-    double diagonal = 1;     ///< the model is scaled to this diagonal: the paper's terms have different units
+    bool fit_vertices = false;  ///< move the vertices closer to the original in the end
+    double min_fold_cosine =
+        -1;  ///< edges whose faces have a smaller cosine are folds; -1: as many as may come
+    double min_normal_cosine = 0;  ///< flip veto: smallest cosine between old and new normal
+    double diagonal = 1;  ///< the model is scaled to this diagonal: the paper's terms have different units
     Weld weld = Weld::by_position;
     double weld_distance = 0;  ///< model units
     std::optional<Length> prune = {};

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
+#include "faqem/export.hpp"
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -14,47 +14,50 @@ inline constexpr Triangle no_face = {no_index, no_index, no_index};
 using AlignedBox = Eigen::AlignedBox3d;
 
 // Halves are taken first, so that 1e308 does not overflow. \pre not empty
-inline double half_diagonal(const AlignedBox& box) { return (0.5 * box.max() - 0.5 * box.min()).stableNorm(); }
+inline double half_diagonal(const AlignedBox& box) {
+    return (0.5 * box.max() - 0.5 * box.min()).stableNorm();
+}
 
-FAQEM_INLINE Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
-             std::vector<Triangle>& triangles, engine::Poll poll) {
-    engine::DisjointSets joined(positions.size());
+FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked,
+                               const Length& size, std::vector<Triangle>& triangles,
+                               engine::CancellationCheck check_cancelled) {
+    engine::UnionFind joined(positions.size());
     AlignedBox all;
     for (const Triangle& t : triangles) {
-        poll();
+        check_cancelled();
         if (t == no_face) continue;
-        joined.join(t[0], t[1]);
-        joined.join(t[0], t[2]);
+        joined.unite(t[0], t[1]);
+        joined.unite(t[0], t[2]);
         for (const Index v : t) all.extend(engine::to_eigen(positions[v]));
     }
     // By root, those that have faces.
     std::vector<AlignedBox> box(positions.size());
-    std::vector<std::uint8_t> stays(positions.size(), 0);
+    std::vector<std::uint8_t> is_kept(positions.size(), 0);
     for (const Triangle& t : triangles) {
-        poll();
+        check_cancelled();
         if (t == no_face) continue;
-        const Index root = joined.root(t[0]);
+        const Index root = joined.find(t[0]);
         for (const Index v : t) {
             box[root].extend(engine::to_eigen(positions[v]));
-            if (!locked.empty() && locked[v]) stays[root] = 1;
+            if (!locked.empty() && locked[v]) is_kept[root] = 1;
         }
     }
     const double unit = size.unit == Length::Unit::model ? 0.5 : half_diagonal(all);
     const double least = size.value * unit;
     Index largest = no_index;
     for (const Triangle& t : triangles) {
-        poll();
+        check_cancelled();
         if (t == no_face) continue;
-        const Index root = joined.root(t[0]);
+        const Index root = joined.find(t[0]);
         if (largest == no_index || half_diagonal(box[root]) > half_diagonal(box[largest])) largest = root;
     }
-    Pruned pruned;
+    PruneResult pruned;
     std::vector<std::uint8_t> counted(positions.size(), 0);
     for (Index f = 0; f < triangles.size(); ++f) {
-        poll();
+        check_cancelled();
         if (triangles[f] == no_face) continue;
-        const Index root = joined.root(triangles[f][0]);
-        if (root == largest || stays[root] || !(half_diagonal(box[root]) < least)) continue;
+        const Index root = joined.find(triangles[f][0]);
+        if (root == largest || is_kept[root] || !(half_diagonal(box[root]) < least)) continue;
         pruned.faces.push_back({f, triangles[f]});
         triangles[f] = no_face;
         pruned.components += counted[root] == 0;

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 
@@ -21,7 +21,7 @@ struct PrunedFace {
 };
 
 /// What prune() took.
-struct Pruned {
+struct PruneResult {
     std::vector<PrunedFace> faces;  ///< ascending
     std::uint64_t components = 0;
 };
@@ -33,8 +33,8 @@ struct Pruned {
 /// \param triangles  three no_index: no face, which is also what those become that are taken
 /// \param size       finite and > 0; a share is one of the diagonal of all faces' box
 /// \throws what the poll throws
-Pruned prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
-             std::vector<Triangle>& triangles, engine::Poll poll = {});
+PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
+                  std::vector<Triangle>& triangles, engine::CancellationCheck check_cancelled = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
-#include "faqem/engine/quadric/placement.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/quadric/placement.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -24,11 +24,12 @@ public:
     /// \param inner  borrowed
     TracingRecorder(Recorder& inner, std::size_t slots) : inner_(inner), trace_(slots) {}
 
-    void collapsing(const engine::Complex& complex, Index survivor, Index gone, const engine::Candidate& to) {
-        inner_.collapsing(complex, survivor, gone, to);
-        trace_.collapsing(survivor, gone, complex.position(survivor), complex.position(gone), to.point);
+    void before_collapse(const engine::CollapseMesh& mesh, Index survivor, Index removed,
+                         const engine::Candidate& to) {
+        inner_.before_collapse(mesh, survivor, removed, to);
+        trace_.before_collapse(survivor, removed, mesh.position(survivor), mesh.position(removed), to.point);
     }
-    void deleting(Index face) { inner_.deleting(face); }
+    void before_deletion(Index face) { inner_.before_deletion(face); }
 
     SlotTrace& trace() { return trace_; }
 
@@ -40,12 +41,12 @@ private:
 /// Records what every collapse cost.
 class CostRecorder {
 public:
-    void collapsing(const engine::Complex& complex, Index, Index, const engine::Candidate& to) {
+    void before_collapse(const engine::CollapseMesh& mesh, Index, Index, const engine::Candidate& to) {
         cost_ = std::max(cost_, to.cost);
-        steps_.push_back({complex.face_count(), cost_});
+        steps_.push_back({mesh.face_count(), cost_});
     }
     // What takes whole components is the last resort.
-    void deleting(Index) { cost_ = std::numeric_limits<double>::infinity(); }
+    void before_deletion(Index) { cost_ = std::numeric_limits<double>::infinity(); }
     std::vector<CostCurve::Step> take() { return std::move(steps_); }
 
 private:

@@ -15,20 +15,26 @@ namespace detail {
 
 // Names by enumerator; the order is the enums'.
 inline constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
-                                                                           "fast", "balanced", "best"};
+                                                                                  "fast", "balanced", "best"};
 inline constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
-                                                        "reached_max_error", "cancelled"};
+                                                               "reached_max_error", "cancelled"};
 inline constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
 inline constexpr std::array<std::string_view, rung_kinds> rung_names = {
-    "reseed",    "double_faces", "tiny_components", "without_link", "fold",
-    "flip_zero", "flip_half",    "flip_any",        "any_component"};
+    "reseed",    "duplicate_faces", "tiny_components", "without_link", "fold",
+    "flip_zero", "flip_half",       "flip_any",        "any_component"};
 
 }  // namespace detail
 
-FAQEM_INLINE std::string_view name(Preset preset) { return detail::preset_names[static_cast<std::size_t>(preset)]; }
-FAQEM_INLINE std::string_view name(StopReason reason) { return detail::stop_names[static_cast<std::size_t>(reason)]; }
-FAQEM_INLINE std::string_view name(Refusal refusal) { return detail::refusal_names[static_cast<std::size_t>(refusal)]; }
+FAQEM_INLINE std::string_view name(Preset preset) {
+    return detail::preset_names[static_cast<std::size_t>(preset)];
+}
+FAQEM_INLINE std::string_view name(StopReason reason) {
+    return detail::stop_names[static_cast<std::size_t>(reason)];
+}
+FAQEM_INLINE std::string_view name(Refusal refusal) {
+    return detail::refusal_names[static_cast<std::size_t>(refusal)];
+}
 FAQEM_INLINE std::string_view name(Rung rung) { return detail::rung_names[static_cast<std::size_t>(rung)]; }
 
 FAQEM_INLINE Preset preset_named(std::string_view text) {
@@ -36,7 +42,8 @@ FAQEM_INLINE Preset preset_named(std::string_view text) {
         if (name(preset) == text) return preset;
     }
     std::string known;
-    for (const std::string_view one : detail::preset_names) known += (known.empty() ? "" : ", ") + std::string(one);
+    for (const std::string_view one : detail::preset_names)
+        known += (known.empty() ? "" : ", ") + std::string(one);
     throw OptionError("unknown preset '" + std::string(text) + "' (known: " + known + ")");
 }
 

@@ -53,8 +53,8 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["components_pruned"] = report.components_pruned;
     json["faces_pruned"] = report.faces_pruned;
     json["vertices_hidden"] = report.vertices_hidden;
-    json["vertices_relaxed"] = report.vertices_relaxed;
-    json["edges_swapped"] = report.edges_swapped;
+    json["vertices_fitted"] = report.vertices_fitted;
+    json["edges_flipped"] = report.edges_flipped;
     json["virtual_edges"] = report.virtual_edges;
     json["pages"] = nlohmann::ordered_json::array();
     for (const BakedPage& page : report.pages) {
@@ -65,12 +65,12 @@ FAQEM_INLINE std::string to_json(const Report& report) {
              {"height", page.height},
              {"faces", page.faces},
              {"charts", page.charts},
-             {"faces_alone", page.faces_alone},
+             {"faces_outside_charts", page.faces_outside_charts},
              {"fill", page.fill},
              {"density", page.density},
              {"stretch", page.stretch},
              {"samples",
-              {{"history", page.samples[0]}, {"relaxed", page.samples[1]}, {"closest", page.samples[2]}}},
+              {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
              {"uncertain_texels", page.uncertain_texels}});
     }
     json["warnings"] = report.warnings;

@@ -22,8 +22,9 @@ namespace detail {
 ///         missing
 /// \throws as simplify().
 /// O(n log n) for all of them together
-FAQEM_EXPORT std::vector<SimplifyResult> run_to(const MeshView& mesh, std::span<const std::uint64_t> targets,
-                                                const Options& options);
+FAQEM_EXPORT std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
+                                                        std::span<const std::uint64_t> targets,
+                                                        const Options& options);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/export.hpp"
 
 #include <cassert>
 #include <utility>
@@ -11,46 +11,52 @@ namespace detail {
 
 // Of some slots; no_index where there is none.
 template <class T>
-std::vector<T> taken(const std::vector<T>& of, const std::vector<Index>& slots) {
+std::vector<T> gather(const std::vector<T>& of, const std::vector<Index>& slots) {
     std::vector<T> result;
     result.reserve(slots.size());
     for (const Index slot : slots) result.push_back(slot == no_index ? static_cast<T>(no_index) : of[slot]);
     return result;
 }
 
-FAQEM_INLINE Ground::Ground(const Prepared& prepared, const std::vector<std::uint8_t>& locked, Border border,
-               engine::Poll poll)
-    : now_(arrange(prepared, poll)), places_(now_.vertex), locked_(taken(locked, now_.vertex)) {
-    if (border != Border::locked) return;
-    for (const auto& [a, b] : engine::find_open_edges(now_.triangles, now_.positions.size(), poll))
+FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked,
+                                Boundary boundary, engine::CancellationCheck check_cancelled)
+    : mesh_(reorder(prepared, check_cancelled)),
+      source_vertices_(mesh_.vertex),
+      locked_(gather(locked, mesh_.vertex)) {
+    if (boundary != Boundary::locked) return;
+    for (const auto& [a, b] :
+         engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size(), check_cancelled))
         locked_[a] = locked_[b] = 1;
 }
 
-FAQEM_INLINE void Ground::take(Reduced&& reduced) {
-    places_ = taken(places_, reduced.places);
-    into_ = taken(reduced.into, into_);
-    locked_ = taken(locked_, reduced.vertices);
-    Arranged less{taken(now_.vertex, reduced.vertices), taken(now_.face, reduced.faces),
-                  std::move(reduced.positions), std::move(reduced.triangles)};
-    std::swap(now_, less);
-    if (!keeps_whole_ || !whole_positions_.empty()) return;
-    whole_positions_ = std::move(less.positions);
-    whole_triangles_ = std::move(less.triangles);
+FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
+    source_vertices_ = gather(source_vertices_, compacted.source_slots);
+    vertex_map_ = gather(compacted.vertex_map, vertex_map_);
+    locked_ = gather(locked_, compacted.vertices);
+    ReorderedMesh less{gather(mesh_.vertex, compacted.vertices), gather(mesh_.face, compacted.faces),
+                       std::move(compacted.positions), std::move(compacted.triangles)};
+    std::swap(mesh_, less);
+    if (!keeps_initial_surface_ || !initial_positions_.empty()) return;
+    initial_positions_ = std::move(less.positions);
+    initial_triangles_ = std::move(less.triangles);
 }
 
-FAQEM_INLINE std::vector<Index> Ground::places_of(const std::vector<Index>& slots) const { return taken(places_, slots); }
-
-FAQEM_INLINE Patchwork Ground::whole() const {
-    assert(keeps_whole_);
-    if (whole_positions_.empty()) return {now_.positions, now_.triangles};
-    return {whole_positions_, whole_triangles_};
+FAQEM_INLINE std::vector<Index> RunState::source_vertices_of(const std::vector<Index>& slots) const {
+    return gather(source_vertices_, slots);
 }
 
-FAQEM_INLINE double Ground::area() const {
+FAQEM_INLINE MeshRef RunState::initial_surface() const {
+    assert(keeps_initial_surface_);
+    if (initial_positions_.empty()) return {mesh_.positions, mesh_.triangles};
+    return {initial_positions_, initial_triangles_};
+}
+
+FAQEM_INLINE double RunState::area() const {
     double sum = 0;
-    for (const Triangle& t : now_.triangles)
-        sum += 0.5 *
-               engine::area_vector(now_.positions[t[0]], now_.positions[t[1]], now_.positions[t[2]]).norm();
+    for (const Triangle& t : mesh_.triangles)
+        sum +=
+            0.5 *
+            engine::area_vector(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]).norm();
     return sum;
 }
 

@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// The used vertices and living faces of a prepared mesh along a space-filling curve, in engine units. The
 /// engine waits for memory more than for anything else: on shuffled input this makes it three times as fast.
-struct Arranged {
+struct ReorderedMesh {
     std::vector<Index> vertex;  ///< slot -> vertex of the prepared mesh
     std::vector<Index> face;    ///< slot -> input face
     std::vector<engine::Vector3> positions;
@@ -36,7 +36,7 @@ struct Arranged {
 
 /// Vertices in Morton order of their places (ties by index), faces by their first vertex in it. O(n log n)
 /// \throws what the poll throws
-Arranged arrange(const Prepared& prepared, engine::Poll poll = {});
+ReorderedMesh reorder(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/detail/simplify/virtual_edges.hpp"
+#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,17 +16,17 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Complex;
+using engine::CollapseMesh;
 using engine::Vector3;
 
 // What nanoflann wants to know of the used vertices.
 struct Points {
-    const Complex& complex;
+    const CollapseMesh& mesh;
     std::vector<Index> vertices;
 
     std::size_t kdtree_get_point_count() const { return vertices.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return complex.position(vertices[i])[static_cast<Eigen::Index>(axis)];
+        return mesh.position(vertices[i])[static_cast<Eigen::Index>(axis)];
     }
     template <class Box>
     bool kdtree_get_bbox(Box&) const {
@@ -39,7 +39,7 @@ using Tree =
                                         Points, 3, std::size_t>;
 
 // The nearest vertices of other components within a radius; ties by index.
-class NearestElsewhere {
+class NearestInOtherComponents {
 public:
     struct Hit {
         double distance;
@@ -50,7 +50,7 @@ public:
     };
     using DistanceType = double;
 
-    NearestElsewhere(const std::vector<Index>& component_of, Index own, double radius)
+    NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius)
         : component_of_(component_of), own_(own), radius_(radius) {}
 
     bool full() const { return true; }
@@ -85,31 +85,33 @@ private:
 };
 
 // Do two vertices belong together: a face of each in one group, and their mean normals agree?
-inline bool compatible(const Complex& complex, std::span<const Index> groups, Index u, Index v) {
+inline bool are_compatible(const CollapseMesh& mesh, std::span<const Index> groups, Index u, Index v) {
     const auto normal = [&](Index w) {
         Vector3 n = Vector3::Zero();
-        complex.for_each_face(w, [&](Index f, unsigned) { n += complex.area_vector(f); });
+        mesh.for_each_face(w, [&](Index f, unsigned) { n += mesh.area_vector(f); });
         return n;
     };
     if (!(normal(u).dot(normal(v)) > 0)) return false;
     if (groups.empty()) return true;
-    return !complex.all_faces(u, [&](Index f, unsigned) {
-        return complex.all_faces(v, [&](Index g, unsigned) { return groups[f] != groups[g]; });
+    return !mesh.all_of_faces(u, [&](Index f, unsigned) {
+        return mesh.all_of_faces(v, [&](Index g, unsigned) { return groups[f] != groups[g]; });
     });
 }
 
-FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const Complex& complex, std::span<const Index> face_groups,
-                                                   double distance, double least, engine::Poll poll) {
-    const std::vector<engine::Component> parts = engine::components(complex, poll);
+FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& mesh,
+                                                                std::span<const Index> face_groups,
+                                                                double distance, double min_length,
+                                                                engine::CancellationCheck check_cancelled) {
+    const std::vector<engine::Component> parts = engine::components(mesh, check_cancelled);
     if (parts.size() < 2) return {};
-    const engine::PairTable surface(complex, {}, poll);
-    Points points{complex, {}};
+    const engine::PairTable surface(mesh, {}, check_cancelled);
+    Points points{mesh, {}};
     std::vector<Index> component_of;
-    std::vector<std::uint8_t> seen(complex.vertex_slots(), 0);
+    std::vector<std::uint8_t> seen(mesh.vertex_slots(), 0);
     for (Index part = 0; part < parts.size(); ++part) {
         for (const Index f : parts[part].faces) {
-            poll();
-            for (const Index v : complex.triangle(f)) {
+            check_cancelled();
+            for (const Index v : mesh.triangle(f)) {
                 if (std::exchange(seen[v], std::uint8_t{1})) continue;
                 points.vertices.push_back(v);
                 component_of.push_back(part);
@@ -127,19 +129,19 @@ FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const Complex& c
     };
     std::vector<Edge> edges;
     for (std::size_t i = 0; i < points.vertices.size(); ++i) {
-        poll();
-        NearestElsewhere nearest(component_of, component_of[i], distance * distance);
+        check_cancelled();
+        NearestInOtherComponents nearest(component_of, component_of[i], distance * distance);
         const Index v = points.vertices[i];
         if (surface.boundary_degree(v) == 0) continue;
-        tree.findNeighbors(nearest, complex.position(v).data(), nanoflann::SearchParams());
+        tree.findNeighbors(nearest, mesh.position(v).data(), nanoflann::SearchParams());
         for (const auto& hit : nearest.hits()) {
             const Index w = points.vertices[hit.point];
-            if (!(hit.distance >= least * least) || surface.boundary_degree(w) == 0) continue;
-            if (!compatible(complex, face_groups, v, w)) continue;
+            if (!(hit.distance >= min_length * min_length) || surface.boundary_degree(w) == 0) continue;
+            if (!are_compatible(mesh, face_groups, v, w)) continue;
             edges.push_back({hit.distance, std::min(v, w), std::max(v, w)});
         }
     }
-    std::sort(edges.begin(), edges.end(), engine::polled_less(poll));
+    std::sort(edges.begin(), edges.end(), engine::cancellable_less(check_cancelled));
     edges.erase(std::unique(edges.begin(), edges.end(),
                             [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; }),
                 edges.end());

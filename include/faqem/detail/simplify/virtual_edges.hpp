@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -17,17 +17,18 @@ namespace detail {
 /// borders whose surfaces face the same way and belong to the same group; the shortest ones, at most as many
 /// as there are vertices. The paper joins closed parts as well: where they touch, that costs nothing and
 /// pinches both, which no later collapse undoes.
-/// \param complex      the surface
+/// \param mesh      the surface
 /// \param face_groups  empty, or one per face slot
 /// \param distance     largest length, engine units, > 0
-/// \param least        shorter pairs are left out: they would be degenerate (paper: 1e-8 of the diagonal)
+/// \param min_length        shorter pairs are left out: they would be degenerate (paper: 1e-8 of the diagonal)
 /// \return distinct pairs, smaller vertex first, ordered by both
 /// \throws what the poll throws
 ///
 /// Complexity: O(n log n) expected.
-std::vector<std::pair<Index, Index>> virtual_edges(const engine::Complex& complex,
+std::vector<std::pair<Index, Index>> virtual_edges(const engine::CollapseMesh& mesh,
                                                    std::span<const Index> face_groups, double distance,
-                                                   double least, engine::Poll poll = {});
+                                                   double min_length,
+                                                   engine::CancellationCheck check_cancelled = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

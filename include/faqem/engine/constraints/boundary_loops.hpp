@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
-#include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -22,72 +22,75 @@ namespace engine {
 /// Where a small hole closes the surface hardly moves, but its border is gone: what stood there is as far
 /// from a border as the next one is. Borders are connected sets of open edges; one lives as long as it has an
 /// edge.
-class BorderLoops {
+class BoundaryLoops {
 public:
-    /// \param first_context  vertices from here on, and the edges between them, are not looked at
+    /// \param first_context_vertex  vertices from here on, and the edges between them, are not looked at
     /// \throws what the poll throws
     /// O(vertices + n log n), where n vertices are on borders
-    BorderLoops(const Complex& complex, const PairTable& pairs, Index first_context = no_index,
-                Poll poll = {}) {
-        for (Index v = 0; v < complex.vertex_slots(); ++v) {
-            poll();
-            if (complex.degree(v) > 0) box_.extend(complex.position(v));
-            if (pairs.boundary_degree(v) > 0 && v < first_context)
-                points_.push_back({complex.position(v), v});
+    BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs, Index first_context_vertex = no_index,
+                  CancellationCheck check_cancelled = {}) {
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+            check_cancelled();
+            if (mesh.degree(v) > 0) box_.extend(mesh.position(v));
+            if (pairs.boundary_degree(v) > 0 && v < first_context_vertex)
+                points_.push_back({mesh.position(v), v});
         }
-        find_borders(complex.vertex_slots(), pairs, first_context, poll);
-        arrange(0, points_.size(), 0, poll);
+        find_boundaries(mesh.vertex_slots(), pairs, first_context_vertex, check_cancelled);
+        build_kd_tree(0, points_.size(), 0, check_cancelled);
     }
 
     /// What the collapse of (u, v) would do to borders, as a squared distance: where one ends, that to the
     /// nearest other one that lives, as it was at the start; where one begins, that to the nearest border of
     /// the start; that over the whole mesh where there is none; else 0.
     /// O(valence) at borders longer than their part at u and v; O(log n) typically where one ends
-    double squared_distance(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair) {
+    double squared_distance(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v, Index pair) {
         const std::uint32_t at_u = pairs.boundary_degree(u), at_v = pairs.boundary_degree(v);
-        if (at_u + at_v == 0) return begins(complex, pairs, u, v) ? to_start(complex.position(u)) : 0;
+        if (at_u + at_v == 0)
+            return starts_boundary(mesh, pairs, u, v) ? squared_distance_to_initial(mesh.position(u)) : 0;
         const std::uint32_t both = at_u + at_v - (pairs.face_count(pair) == 1);
-        const bool are_one = at_u > 0 && at_v > 0 && border(u) == border(v);
-        const bool u_may_end = at_u > 0 && borders_[border(u)].edges <= (are_one ? both : at_u);
-        const bool v_may_end = at_v > 0 && !are_one && borders_[border(v)].edges <= at_v;
+        const bool are_same = at_u > 0 && at_v > 0 && boundary_of(u) == boundary_of(v);
+        const bool u_may_end = at_u > 0 && boundaries_[boundary_of(u)].edges <= (are_same ? both : at_u);
+        const bool v_may_end = at_v > 0 && !are_same && boundaries_[boundary_of(v)].edges <= at_v;
         if (!u_may_end && !v_may_end) return 0;
         bool u_lives = false, v_lives = false;
-        for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge& edge) {
-            u_lives |= edge.with_u == 1 || (are_one && edge.with_v == 1);
+        for_each_boundary_edge_after(mesh, pairs, u, v, [&](const BoundaryEdge& edge) {
+            u_lives |= edge.with_u == 1 || (are_same && edge.with_v == 1);
             v_lives |= edge.with_v == 1;
         });
         double farthest = 0;
-        if (u_may_end && !u_lives) farthest = to_next(complex.position(u), border(u));
-        if (v_may_end && !v_lives) farthest = std::max(farthest, to_next(complex.position(v), border(v)));
+        if (u_may_end && !u_lives) farthest = squared_distance_to_next(mesh.position(u), boundary_of(u));
+        if (v_may_end && !v_lives)
+            farthest = std::max(farthest, squared_distance_to_next(mesh.position(v), boundary_of(v)));
         return farthest;
     }
 
     /// u and v are about to become u.
-    void collapsing(const PairTable& pairs, Index u, Index v, Index pair) {
+    void before_collapse(const PairTable& pairs, Index u, Index v, Index pair) {
         const std::uint32_t at_u = pairs.boundary_degree(u), at_v = pairs.boundary_degree(v);
         edges_before_ = at_u + at_v;
         if (edges_before_ == 0) return;
         edges_before_ -= pairs.face_count(pair) == 1;
-        if (at_u == 0) border_[u] = border_[v];
-        if (at_u > 0 && at_v > 0) join(border(u), border(v));
+        if (at_u == 0) boundary_of_vertex_[u] = boundary_of_vertex_[v];
+        if (at_u > 0 && at_v > 0) merge_boundaries(boundary_of(u), boundary_of(v));
     }
 
     /// They have. O(valence)
-    void collapsed(const Complex& complex, const PairTable& pairs, Index u) {
+    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index u) {
         if (edges_before_ + pairs.boundary_degree(u) == 0) return;
-        if (edges_before_ == 0) border_[u] = add_border();
+        if (edges_before_ == 0) boundary_of_vertex_[u] = add_boundary();
         pairs.for_each_pair(u, [&](Neighbour n) {
             if (pairs.face_count(n.pair) != 1) return;
-            if (border_[n.vertex] == no_index) border_[n.vertex] = border_[u];
-            join(border(u), border(n.vertex));
+            if (boundary_of_vertex_[n.vertex] == no_index)
+                boundary_of_vertex_[n.vertex] = boundary_of_vertex_[u];
+            merge_boundaries(boundary_of(u), boundary_of(n.vertex));
         });
-        Border& own = borders_[border(u)];
+        Boundary& own = boundaries_[boundary_of(u)];
         own.edges += pairs.boundary_degree(u);
         own.edges -= std::min(edges_before_, own.edges);
         if (own.edges > 0) return;
-        const double reach = std::sqrt(to_next(complex.position(u), border(u)));
+        const double reach = std::sqrt(squared_distance_to_next(mesh.position(u), boundary_of(u)));
         if (own.next == no_index) return;
-        Border& next = borders_[border(own.next)];
+        Boundary& next = boundaries_[boundary_of(own.next)];
         next.reach = std::max(next.reach, reach);
     }
 
@@ -96,62 +99,65 @@ private:
         Vector3 position;
         Index vertex;
     };
-    struct Border {
+    struct Boundary {
         std::uint32_t edges = 0;      ///< living ones
         Index next = no_index;        ///< vertex of the nearest other border, where that was asked for
         double squared_distance = 0;  ///< to it
         double reach = 0;             ///< distance of ended borders to which this one was the next
     };
 
-    void find_borders(std::size_t vertices, const PairTable& pairs, Index first_context, Poll poll) {
-        border_.assign(vertices, no_index);
+    void find_boundaries(std::size_t vertices, const PairTable& pairs, Index first_context_vertex,
+                         CancellationCheck check_cancelled) {
+        boundary_of_vertex_.assign(vertices, no_index);
         if (points_.empty()) return;
         const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
         const auto is_open = [&](Index pair) {
-            return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context;
+            return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context_vertex;
         };
-        DisjointSets joined(vertices);
+        UnionFind joined(vertices);
         for (Index pair = 0; pair < pairs.size(); ++pair) {
-            poll();
-            if (is_open(pair)) joined.join(pairs.first(pair), pairs.second(pair));
+            check_cancelled();
+            if (is_open(pair)) joined.unite(pairs.first(pair), pairs.second(pair));
         }
         for (const auto& [position, v] : points_) {  // the smallest vertex of a set comes first
-            if (joined.root(v) == v) border_[v] = add_border();
-            border_[v] = border_[joined.root(v)];
+            if (joined.find(v) == v) boundary_of_vertex_[v] = add_boundary();
+            boundary_of_vertex_[v] = boundary_of_vertex_[joined.find(v)];
         }
         for (Index pair = 0; pair < pairs.size(); ++pair) {
-            if (is_open(pair)) ++borders_[border_[smaller_end(pair)]].edges;
+            if (is_open(pair)) ++boundaries_[boundary_of_vertex_[smaller_end(pair)]].edges;
         }
     }
 
-    Index add_border() {
-        borders_.emplace_back();
+    Index add_boundary() {
+        boundaries_.emplace_back();
         return sets_.add();
     }
 
     // \pre v is or was on a border
-    Index border(Index v) { return sets_.root(border_[v]); }
+    Index boundary_of(Index v) { return sets_.find(boundary_of_vertex_[v]); }
 
-    void join(Index a, Index b) {
+    void merge_boundaries(Index a, Index b) {
         if (a == b) return;
-        sets_.join(a, b);
-        Border& kept = borders_[sets_.root(a)];
-        const Border& other = borders_[sets_.root(a) == a ? b : a];
+        sets_.unite(a, b);
+        Boundary& kept = boundaries_[sets_.find(a)];
+        const Boundary& other = boundaries_[sets_.find(a) == a ? b : a];
         kept.edges += other.edges;
         kept.reach = std::max(kept.reach, other.reach);
     }
 
-    static bool begins(const Complex& complex, const PairTable& pairs, Index u, Index v) {
+    static bool starts_boundary(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
         bool any = false;
         if (pairs.nonmanifold_degree(u) + pairs.nonmanifold_degree(v) > 0)
-            for_each_open_edge_after(complex, pairs, u, v, [&](const OpenEdge&) { any = true; });
+            for_each_boundary_edge_after(mesh, pairs, u, v, [&](const BoundaryEdge&) { any = true; });
         return any;
     }
 
-    bool is_other(Index v, Index own) { return border(v) != own && borders_[border(v)].edges > 0; }
+    bool is_other_boundary(Index v, Index own) {
+        return boundary_of(v) != own && boundaries_[boundary_of(v)].edges > 0;
+    }
 
-    double to_start(const Vector3& p) {
-        Border nearest;
+    double squared_distance_to_initial(const Vector3& p) {
+        Boundary nearest;
         nearest.squared_distance = box_.isEmpty() ? 0 : box_.diagonal().squaredNorm();
         search(
             0, points_.size(), 0, p, [](Index) { return true; }, nearest);
@@ -159,34 +165,34 @@ private:
     }
 
     // From border `own` at p, and from those that have ended and went to it.
-    double to_next(const Vector3& p, Index own) {
-        Border& border = borders_[own];
-        if (border.next == no_index || !is_other(border.next, own)) {
-            border.next = no_index;
-            border.squared_distance = box_.diagonal().squaredNorm();
+    double squared_distance_to_next(const Vector3& p, Index own) {
+        Boundary& boundary = boundaries_[own];
+        if (boundary.next == no_index || !is_other_boundary(boundary.next, own)) {
+            boundary.next = no_index;
+            boundary.squared_distance = box_.diagonal().squaredNorm();
             search(
-                0, points_.size(), 0, p, [&](Index v) { return is_other(v, own); }, border);
+                0, points_.size(), 0, p, [&](Index v) { return is_other_boundary(v, own); }, boundary);
         }
-        const double distance = std::sqrt(border.squared_distance) + border.reach;
+        const double distance = std::sqrt(boundary.squared_distance) + boundary.reach;
         return distance * distance;
     }
 
     // A k-d tree: the middle of a range splits it.
-    void arrange(std::size_t begin, std::size_t end, int axis, Poll poll) {
+    void build_kd_tree(std::size_t begin, std::size_t end, int axis, CancellationCheck check_cancelled) {
         if (end - begin < 2) return;
-        poll(end - begin);
+        check_cancelled(end - begin);
         const std::size_t middle = begin + (end - begin) / 2;
         const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
         std::nth_element(at(begin), at(middle), at(end), [axis](const Point& a, const Point& b) {
             return std::pair(a.position[axis], a.vertex) < std::pair(b.position[axis], b.vertex);
         });
-        arrange(begin, middle, (axis + 1) % 3, poll);
-        arrange(middle + 1, end, (axis + 1) % 3, poll);
+        build_kd_tree(begin, middle, (axis + 1) % 3, check_cancelled);
+        build_kd_tree(middle + 1, end, (axis + 1) % 3, check_cancelled);
     }
 
     template <class Filter>
     void search(std::size_t begin, std::size_t end, int axis, const Vector3& p, const Filter& filter,
-                Border& nearest) {
+                Boundary& nearest) {
         if (begin == end) return;
         const std::size_t middle = begin + (end - begin) / 2;
         const auto& [position, v] = points_[middle];
@@ -203,12 +209,12 @@ private:
             search(halves[1].first, halves[1].second, (axis + 1) % 3, p, filter, nearest);
     }
 
-    Eigen::AlignedBox3d box_;         // of the surface
-    std::vector<Point> points_;       // on its borders
-    std::vector<Index> border_;       // of each vertex; no_index where it was never on one
-    std::vector<Border> borders_;     // by the smallest member of each set
-    DisjointSets sets_;               // of borders that have met
-    std::uint32_t edges_before_ = 0;  // open ones of the pair that is being collapsed
+    Eigen::AlignedBox3d box_;                // of the surface
+    std::vector<Point> points_;              // on its borders
+    std::vector<Index> boundary_of_vertex_;  // of each vertex; no_index where it was never on one
+    std::vector<Boundary> boundaries_;       // by the smallest member of each set
+    UnionFind sets_;                         // of borders that have met
+    std::uint32_t edges_before_ = 0;         // open ones of the pair that is being collapsed
 };
 
 }  // namespace engine

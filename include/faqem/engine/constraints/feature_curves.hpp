@@ -11,31 +11,33 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/engine/util/hash.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// Which vertices are on a curve, and what may be done to them. Empty (no memory, no rule) where none is to
 /// be kept.
-class GroupCurves {
+class FeatureCurves {
 public:
-    GroupCurves() = default;
+    FeatureCurves() = default;
 
     /// \param groups  empty, or one per face slot; borrowed, must outlive this
     /// \throws what the poll throws
-    GroupCurves(const Complex& complex, std::span<const Index> groups, Poll poll = {}) : groups_(groups) {
+    FeatureCurves(const CollapseMesh& mesh, std::span<const Index> groups,
+                  CancellationCheck check_cancelled = {})
+        : groups_(groups) {
         if (groups.empty()) return;
-        is_on_curve_.assign(complex.vertex_slots(), 0);
-        mark_.assign(complex.vertex_slots(), 0);
-        for (Index v = 0; v < complex.vertex_slots(); ++v) {
-            poll();
+        is_on_curve_.assign(mesh.vertex_slots(), 0);
+        mark_.assign(mesh.vertex_slots(), 0);
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+            check_cancelled();
             Index first = no_index;
-            is_on_curve_[v] = !complex.all_faces(v, [&](Index f, unsigned) {
+            is_on_curve_[v] = !mesh.all_of_faces(v, [&](Index f, unsigned) {
                 if (first == no_index) first = f;
                 return groups_[f] == groups_[first];
             });
@@ -45,19 +47,19 @@ public:
 
     bool empty() const { return groups_.empty(); }
     /// Is v on a curve, or was it? Never, when empty.
-    bool has(Index v) const { return !is_on_curve_.empty() && is_on_curve_[v]; }
+    bool has_vertex(Index v) const { return !is_on_curve_.empty() && is_on_curve_[v]; }
     /// Are two faces of different groups? Never, when empty.
-    bool differ(Index f, Index g) const { return !groups_.empty() && groups_[f] != groups_[g]; }
+    bool are_different_groups(Index f, Index g) const { return !groups_.empty() && groups_[f] != groups_[g]; }
 
     /// Calls visit(face, neighbour) for each face on an edge (v, neighbour) where groups meet.
     /// O(valence squared)
     template <class Visit>
-    void for_each_edge(const Complex& complex, Index v, Visit&& visit) const {
-        complex.for_each_face(v, [&](Index f, unsigned corner) {
+    void for_each_curve_edge(const CollapseMesh& mesh, Index v, Visit&& visit) const {
+        mesh.for_each_face(v, [&](Index f, unsigned corner) {
             for (unsigned k = 1; k < 3; ++k) {
-                End end{complex.triangle(f)[(corner + k) % 3], groups_[f]};
-                complex.for_each_face(v, [&](Index g, unsigned) {
-                    if (complex.has_corner(g, end.vertex)) end.add(groups_[g]);
+                IncidentEdge end{mesh.triangle(f)[(corner + k) % 3], groups_[f]};
+                mesh.for_each_face(v, [&](Index g, unsigned) {
+                    if (mesh.has_corner(g, end.vertex)) end.add(groups_[g]);
                 });
                 if (end.is_on_curve()) visit(f, end.vertex);
             }
@@ -65,105 +67,110 @@ public:
     }
 
     /// Where the pair (u, v) may go. O(valence) next to curves, else O(1).
-    Freedom freedom(const Complex& complex, const PairTable& pairs, Index u, Index v) {
-        if (empty()) return Freedom::anywhere;
+    AllowedPosition allowed_position(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
+        if (empty()) return AllowedPosition::anywhere;
         // Without curves an edge has one group on all sides; the ends of a virtual pair may have two.
-        if (!has(u) && !has(v)) return same_group(complex, u, v) ? Freedom::anywhere : Freedom::nowhere;
-        shared_.clear();
-        complex.for_each_face(u, [&](Index f, unsigned) {
-            if (complex.has_corner(f, v)) shared_.push_back(groups_[f]);
+        if (!has_vertex(u) && !has_vertex(v))
+            return are_same_group(mesh, u, v) ? AllowedPosition::anywhere : AllowedPosition::nowhere;
+        shared_groups_.clear();
+        mesh.for_each_face(u, [&](Index f, unsigned) {
+            if (mesh.has_corner(f, v)) shared_groups_.push_back(groups_[f]);
         });
-        if (shared_.empty()) return Freedom::nowhere;
-        const bool u_stays = has(u) && (is_node(complex, pairs, u) || has_other_group(complex, u));
-        const bool v_stays = has(v) && (is_node(complex, pairs, v) || has_other_group(complex, v));
-        if (u_stays && v_stays) return Freedom::nowhere;
-        if (closes_a_loop(complex, u, v)) return Freedom::nowhere;
-        return u_stays ? Freedom::at_first : v_stays ? Freedom::at_second : Freedom::anywhere;
+        if (shared_groups_.empty()) return AllowedPosition::nowhere;
+        const bool u_stays = has_vertex(u) && (is_node(mesh, pairs, u) || has_other_group(mesh, u));
+        const bool v_stays = has_vertex(v) && (is_node(mesh, pairs, v) || has_other_group(mesh, v));
+        if (u_stays && v_stays) return AllowedPosition::nowhere;
+        if (closes_loop(mesh, u, v)) return AllowedPosition::nowhere;
+        return u_stays   ? AllowedPosition::at_first
+               : v_stays ? AllowedPosition::at_second
+                         : AllowedPosition::anywhere;
     }
 
     /// u and v are about to become u.
-    void collapsing(Index u, Index v) {
+    void before_collapse(Index u, Index v) {
         if (!empty()) is_on_curve_[u] |= is_on_curve_[v];
     }
 
 private:
     /// An edge from the vertex in hand.
-    struct End {
-        Index vertex, group;       ///< the group of one of its faces
-        std::uint32_t faces = 0;   ///< it has
-        bool has_others = false;   ///< groups
-        std::uint64_t parity = 0;  ///< 0 where each group has an even number of faces, and else but by chance
+    struct IncidentEdge {
+        Index vertex, group;              ///< the group of one of its faces
+        std::uint32_t faces = 0;          ///< it has
+        bool has_several_groups = false;  ///< groups
+        std::uint64_t group_parity =
+            0;  ///< 0 where each group has an even number of faces, and else but by chance
         void add(Index other) {
             ++faces;
-            has_others |= other != group;
-            parity ^= scrambled((std::uint64_t{other} + 1) * 0x9e3779b97f4a7c15u);
+            has_several_groups |= other != group;
+            group_parity ^= splitmix64((std::uint64_t{other} + 1) * 0x9e3779b97f4a7c15u);
         }
         /// Where all groups go on, as in sheets that lie back to back, none has a border.
-        bool is_on_curve() const { return has_others && parity != 0; }
+        bool is_on_curve() const { return has_several_groups && group_parity != 0; }
         bool is_in_graph() const { return faces == 1 || is_on_curve(); }
     };
 
-    bool same_group(const Complex& complex, Index u, Index v) const {
+    bool are_same_group(const CollapseMesh& mesh, Index u, Index v) const {
         const auto group = [&](Index w) {
             Index first = no_index;
-            complex.all_faces(w, [&](Index f, unsigned) { return first = f, false; });
+            mesh.all_of_faces(w, [&](Index f, unsigned) { return first = f, false; });
             return groups_[first];
         };
         return group(u) == group(v);
     }
 
-    bool has_other_group(const Complex& complex, Index v) const {
-        return !complex.all_faces(v, [&](Index f, unsigned) {
-            return std::find(shared_.begin(), shared_.end(), groups_[f]) != shared_.end();
+    bool has_other_group(const CollapseMesh& mesh, Index v) const {
+        return !mesh.all_of_faces(v, [&](Index f, unsigned) {
+            return std::find(shared_groups_.begin(), shared_groups_.end(), groups_[f]) !=
+                   shared_groups_.end();
         });
     }
 
     // Does the graph do anything else at v than go by or through?
-    bool is_node(const Complex& complex, const PairTable& pairs, Index v) {
-        look_around(complex, v);
-        const auto degree =
-            std::count_if(ring_.begin(), ring_.end(), [](const End& end) { return end.is_on_curve(); });
+    bool is_node(const CollapseMesh& mesh, const PairTable& pairs, Index v) {
+        find_incident_edges(mesh, v);
+        const auto degree = std::count_if(incident_edges_.begin(), incident_edges_.end(),
+                                          [](const IncidentEdge& end) { return end.is_on_curve(); });
         return degree > 0 && (degree != 2 || pairs.boundary_degree(v) > 0);
     }
 
     // Do edges of the graph from u and from v meet at a third vertex? The collapse would make one of two, and
     // what they enclose would go.
-    bool closes_a_loop(const Complex& complex, Index u, Index v) {
-        look_around(complex, u);
-        std::swap(ring_, around_u_);
-        look_around(complex, v);
-        for (Index i = 0; i < ring_.size(); ++i) mark_[ring_[i].vertex] = i + 1;
-        const bool closes = std::any_of(around_u_.begin(), around_u_.end(), [&](const End& end) {
+    bool closes_loop(const CollapseMesh& mesh, Index u, Index v) {
+        find_incident_edges(mesh, u);
+        std::swap(incident_edges_, edges_at_u_);
+        find_incident_edges(mesh, v);
+        for (Index i = 0; i < incident_edges_.size(); ++i) mark_[incident_edges_[i].vertex] = i + 1;
+        const bool closes = std::any_of(edges_at_u_.begin(), edges_at_u_.end(), [&](const IncidentEdge& end) {
             const Index at = mark_[end.vertex];
-            if (at == 0 || !end.is_in_graph() || !ring_[at - 1].is_in_graph()) return false;
-            return end.is_on_curve() || ring_[at - 1].is_on_curve();
+            if (at == 0 || !end.is_in_graph() || !incident_edges_[at - 1].is_in_graph()) return false;
+            return end.is_on_curve() || incident_edges_[at - 1].is_on_curve();
         });
-        for (const End& end : ring_) mark_[end.vertex] = 0;
+        for (const IncidentEdge& end : incident_edges_) mark_[end.vertex] = 0;
         return closes;
     }
 
     // Fills ring_ with the edges at v.
-    void look_around(const Complex& complex, Index v) {
-        ring_.clear();
-        complex.for_each_face(v, [&](Index f, unsigned corner) {
-            const Triangle& t = complex.triangle(f);
+    void find_incident_edges(const CollapseMesh& mesh, Index v) {
+        incident_edges_.clear();
+        mesh.for_each_face(v, [&](Index f, unsigned corner) {
+            const Triangle& t = mesh.triangle(f);
             for (unsigned k = 1; k < 3; ++k) {
                 Index& at = mark_[t[(corner + k) % 3]];
                 if (at == 0) {
-                    ring_.push_back({t[(corner + k) % 3], groups_[f]});
-                    at = static_cast<Index>(ring_.size());
+                    incident_edges_.push_back({t[(corner + k) % 3], groups_[f]});
+                    at = static_cast<Index>(incident_edges_.size());
                 }
-                ring_[at - 1].add(groups_[f]);
+                incident_edges_[at - 1].add(groups_[f]);
             }
         });
-        for (const End& end : ring_) mark_[end.vertex] = 0;
+        for (const IncidentEdge& end : incident_edges_) mark_[end.vertex] = 0;
     }
 
     std::span<const Index> groups_;
     std::vector<std::uint8_t> is_on_curve_;
-    std::vector<Index> shared_;         // groups of the pair in hand
-    std::vector<End> ring_, around_u_;  // edges of the vertex in hand
-    std::vector<Index> mark_;           // 1 + place in a ring, while looking around; else 0
+    std::vector<Index> shared_groups_;                       // groups of the pair in hand
+    std::vector<IncidentEdge> incident_edges_, edges_at_u_;  // edges of the vertex in hand
+    std::vector<Index> mark_;  // 1 + place in a ring, while looking around; else 0
 };
 
 }  // namespace engine

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
-#include "faqem/engine/mesh/degenerate.hpp"
 #include "faqem/engine/constraints/fold_test.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/mesh/degenerate.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -21,30 +21,30 @@ namespace engine {
 struct Rules {
     LinkCondition link = LinkCondition::off;  ///< not as_preset; by_size is `on` until the engine lifts it
     /// A face may not turn so far that the cosine between its old and new normal is below this; -1: no test.
-    double least_turn = 0;
+    double min_normal_cosine = 0;
     /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
-    double least_length = 0;
+    double min_pair_length = 0;
     /// Edges whose faces have a cosine below this are folds, of which there may not be more; -1: no test.
-    double least_fold = -1;
+    double min_fold_cosine = -1;
 };
 
 /// Tests collapses; holds scratch memory only.
 class Legality {
 public:
-    explicit Legality(const Complex& complex) : folds_(complex), mark_(complex.vertex_slots(), 0) {}
+    explicit Legality(const CollapseMesh& mesh) : folds_(mesh), mark_(mesh.vertex_slots(), 0) {}
 
     /// \pre u != v, both alive
     /// \return why (u, v) may not become one vertex at p, or nothing.
     /// O(valence of u and v)
-    std::optional<Refusal> check(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
-                                 const Vector3& p, const Rules& rules) {
-        turned_.clear();
-        if (const auto refusal = check_faces(complex, u, v, p, rules.least_turn)) return refusal;
-        if (const auto refusal = check_faces(complex, v, u, p, rules.least_turn)) return refusal;
-        if (rules.link != LinkCondition::off && !link_condition(complex, pairs, u, v, pair, rules.link)) {
+    std::optional<Refusal> check(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                                 Index pair, const Vector3& p, const Rules& rules) {
+        moved_faces_.clear();
+        if (const auto refusal = check_faces(mesh, u, v, p, rules.min_normal_cosine)) return refusal;
+        if (const auto refusal = check_faces(mesh, v, u, p, rules.min_normal_cosine)) return refusal;
+        if (rules.link != LinkCondition::off && !link_condition(mesh, pairs, u, v, pair, rules.link)) {
             return Refusal::link;
         }
-        if (rules.least_fold > -1 && folds_.adds(complex, u, v, turned_, rules.least_fold))
+        if (rules.min_fold_cosine > -1 && folds_.adds_folds(mesh, u, v, moved_faces_, rules.min_fold_cosine))
             return Refusal::fold;
         return std::nullopt;
     }
@@ -52,24 +52,24 @@ public:
 private:
     // Faces of `moved` without `partner`: none may turn over or lose its area (paper, Sec. 3.3). A face that
     // was degenerate before has no normal to turn and no area to lose.
-    std::optional<Refusal> check_faces(const Complex& complex, Index moved, Index partner, const Vector3& p,
-                                       double least_turn) {
+    std::optional<Refusal> check_faces(const CollapseMesh& mesh, Index moved, Index partner, const Vector3& p,
+                                       double min_normal_cosine) {
         std::optional<Refusal> refusal;
-        complex.all_faces(moved, [&](Index f, unsigned corner) {
-            if (complex.has_corner(f, partner)) return true;
-            const Triangle& t = complex.triangle(f);
+        mesh.all_of_faces(moved, [&](Index f, unsigned corner) {
+            if (mesh.has_corner(f, partner)) return true;
+            const Triangle& t = mesh.triangle(f);
             const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            const Vector3 to_a = complex.position(a) - p, to_b = complex.position(b) - p;
+            const Vector3 to_a = mesh.position(a) - p, to_b = mesh.position(b) - p;
             const Vector3 area_vector = to_a.cross(to_b);
             const double length = area_vector.norm();
-            const double along = complex.normal(f).dot(area_vector);
-            if (least_turn > -1 && complex.area(f) > 0 && !(along >= least_turn * length)) {
+            const double along = mesh.normal(f).dot(area_vector);
+            if (min_normal_cosine > -1 && mesh.area(f) > 0 && !(along >= min_normal_cosine * length)) {
                 refusal = Refusal::flip;
-            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(complex, f)) {
+            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(mesh, f)) {
                 refusal = Refusal::degenerate;
             }
             const double scale = length > 0 ? 1 / length : 0;
-            turned_.push_back({f, a, b, scale * area_vector, scale * along});
+            moved_faces_.push_back({f, a, b, scale * area_vector, scale * along});
             return !refusal;
         });
         return refusal;
@@ -78,7 +78,7 @@ private:
     // Where (u, v) is an edge and all edges at u and v have at most two faces: the link condition for
     // surfaces with border (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double
     // faces, and no edge gets more faces than the fuller one of the two that merge into it.
-    bool link_condition(const Complex& complex, const PairTable& pairs, Index u, Index v, Index pair,
+    bool link_condition(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v, Index pair,
                         LinkCondition link) {
         const std::uint32_t shared = pairs.face_count(pair);
         bool manifold = shared >= 1 && shared <= 2 && is_manifold(pairs, u) && is_manifold(pairs, v);
@@ -93,14 +93,14 @@ private:
             ++common;
             if (manifold && shared == 1 && at_u == 1 && at_v == 1)
                 legal = false;  // last triangle or its hole
-            if (!manifold && at_u + at_v - 2 * complex.faces_with(v, u, n.vertex) > std::max(at_u, at_v))
+            if (!manifold && at_u + at_v - 2 * mesh.count_faces_with(v, u, n.vertex) > std::max(at_u, at_v))
                 legal = false;
         });
         if (manifold) {
             if (common != shared) legal = false;
             if (shared != 1 && pairs.boundary_degree(u) > 0 && pairs.boundary_degree(v) > 0) legal = false;
         }
-        if (legal && common > 1) legal = !makes_double_face(complex, u, v);
+        if (legal && common > 1) legal = !makes_duplicate_face(mesh, u, v);
         pairs.for_each_pair(u, [&](Neighbour n) { mark_[n.vertex] = 0; });
         return legal;
     }
@@ -115,20 +115,19 @@ private:
     }
 
     // Is there a face (v, x, y) beside a face (u, x, y)? Only edges marked at u can be such.
-    bool makes_double_face(const Complex& complex, Index u, Index v) const {
-        return !complex.all_faces(v, [&](Index f, unsigned corner) {
-            const Index x = complex.triangle(f)[(corner + 1) % 3];
-            const Index y = complex.triangle(f)[(corner + 2) % 3];
+    bool makes_duplicate_face(const CollapseMesh& mesh, Index u, Index v) const {
+        return !mesh.all_of_faces(v, [&](Index f, unsigned corner) {
+            const Index x = mesh.triangle(f)[(corner + 1) % 3];
+            const Index y = mesh.triangle(f)[(corner + 2) % 3];
             if (x == u || y == u || mark_[x] == 0 || mark_[y] == 0) return true;
-            return complex.all_faces(u, [&](Index g, unsigned) {
-                return !(complex.has_corner(g, x) && complex.has_corner(g, y));
-            });
+            return mesh.all_of_faces(
+                u, [&](Index g, unsigned) { return !(mesh.has_corner(g, x) && mesh.has_corner(g, y)); });
         });
     }
 
-    Folds folds_;
-    std::vector<TurnedFace> turned_;   // those that the collapse in hand leaves
-    std::vector<std::uint32_t> mark_;  // faces of the edge from u, while checking
+    FoldTest folds_;
+    std::vector<MovedFace> moved_faces_;  // those that the collapse in hand leaves
+    std::vector<std::uint32_t> mark_;     // faces of the edge from u, while checking
 };
 
 }  // namespace engine

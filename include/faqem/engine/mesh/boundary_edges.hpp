@@ -9,58 +9,59 @@
 #include <span>
 #include <vector>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// An edge with one face, from the vertex that a pair (u, v) would become.
-struct OpenEdge {
+struct BoundaryEdge {
     Index vertex;                  ///< its other end
     std::uint32_t with_u, with_v;  ///< faces that the other end has with u and with v until then
 };
 
-namespace open_edges {
+namespace boundary_edges {
 
-inline std::uint32_t faces_of_edge(const Complex& complex, const PairTable& pairs, Index v, Index other) {
+inline std::uint32_t edge_face_count(const CollapseMesh& mesh, const PairTable& pairs, Index v, Index other) {
     std::uint32_t count = 0;
-    const auto [few, many] = complex.by_degree(v, other);
-    pairs.for_each_pair(few, [&, end = many](Neighbour n) {
+    const auto [lower, higher] = mesh.lower_degree_first(v, other);
+    pairs.for_each_pair(lower, [&, end = higher](Neighbour n) {
         if (n.vertex == end) count = pairs.face_count(n.pair);
     });
     return count;
 }
 
-}  // namespace open_edges
+}  // namespace boundary_edges
 
 /// The edges with one face, each by its smaller end first, in order.
 /// \param triangles  of different corners
 /// \param vertices   more than any corner
 /// \throws what the poll throws
 /// O(triangles) for bounded valence; 12 bytes per triangle
-inline std::vector<std::array<Index, 2>> find_open_edges(std::span<const Triangle> triangles,
-                                                         std::size_t vertices, Poll poll = {}) {
-    std::vector<std::size_t> place(vertices + 1, 0);
+inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Triangle> triangles,
+                                                             std::size_t vertices,
+                                                             CancellationCheck check_cancelled = {}) {
+    std::vector<std::size_t> offsets(vertices + 1, 0);
     const auto for_each_edge = [&](auto&& visit) {
         for (const Triangle& t : triangles) {
-            poll();
+            check_cancelled();
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 visit(std::min(a, b), std::max(a, b));
             }
         }
     };
-    for_each_edge([&](Index a, Index) { ++place[a + 1]; });
-    std::partial_sum(place.begin(), place.end(), place.begin());
-    std::vector<Index> larger(place.back());
-    for_each_edge([&](Index a, Index b) { larger[place[a]++] = b; });
+    for_each_edge([&](Index a, Index) { ++offsets[a + 1]; });
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    std::vector<Index> larger(offsets.back());
+    for_each_edge([&](Index a, Index b) { larger[offsets[a]++] = b; });
     std::vector<std::array<Index, 2>> open;
     std::size_t begin = 0;
     for (Index a = 0; a < vertices; ++a) {  // each place is where the next vertex begins now
-        poll();
-        const std::size_t end = place[a];
+        check_cancelled();
+        const std::size_t end = offsets[a];
         std::sort(larger.begin() + static_cast<std::ptrdiff_t>(begin),
                   larger.begin() + static_cast<std::ptrdiff_t>(end));
         for (std::size_t i = begin; i < end;) {
@@ -74,22 +75,22 @@ inline std::vector<std::array<Index, 2>> find_open_edges(std::span<const Triangl
     return open;
 }
 
-/// Calls visit(OpenEdge) for each open edge there would be at the vertex that u and v become. O(valence
+/// Calls visit(BoundaryEdge) for each open edge there would be at the vertex that u and v become. O(valence
 /// squared)
 template <class Visit>
-void for_each_open_edge_after(const Complex& complex, const PairTable& pairs, Index u, Index v,
-                              Visit&& visit) {
-    using namespace open_edges;
+void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                                  Visit&& visit) {
+    using namespace boundary_edges;
     pairs.for_each_pair(u, [&](Neighbour n) {
         const std::uint32_t with_u = pairs.face_count(n.pair);
         if (n.vertex == v || with_u == 0) return;
-        const std::uint32_t with_v = faces_of_edge(complex, pairs, v, n.vertex);
-        const std::uint32_t gone = with_v > 0 ? 2 * complex.faces_with(u, v, n.vertex) : 0;
-        if (with_u + with_v - gone == 1) visit(OpenEdge{n.vertex, with_u, with_v});
+        const std::uint32_t with_v = edge_face_count(mesh, pairs, v, n.vertex);
+        const std::uint32_t removed = with_v > 0 ? 2 * mesh.count_faces_with(u, v, n.vertex) : 0;
+        if (with_u + with_v - removed == 1) visit(BoundaryEdge{n.vertex, with_u, with_v});
     });
     pairs.for_each_pair(v, [&](Neighbour n) {
         if (n.vertex == u || pairs.face_count(n.pair) != 1) return;
-        if (faces_of_edge(complex, pairs, u, n.vertex) == 0) visit(OpenEdge{n.vertex, 0, 1});
+        if (edge_face_count(mesh, pairs, u, n.vertex) == 0) visit(BoundaryEdge{n.vertex, 0, 1});
     });
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -26,10 +26,10 @@ inline bool is_degenerate(double doubled_area, const Vector3& to_a, const Vector
 }
 
 /// \pre f is alive
-inline bool is_degenerate(const Complex& complex, Index f) {
-    const auto [a, b, c] = complex.triangle(f);
-    const Vector3& p = complex.position(a);
-    return is_degenerate(2 * complex.area(f), complex.position(b) - p, complex.position(c) - p);
+inline bool is_degenerate(const CollapseMesh& mesh, Index f) {
+    const auto [a, b, c] = mesh.triangle(f);
+    const Vector3& p = mesh.position(a);
+    return is_degenerate(2 * mesh.area(f), mesh.position(b) - p, mesh.position(c) - p);
 }
 
 /// Knows how many degenerate faces there are at most. No legal collapse makes one (see Legality), so that
@@ -39,44 +39,45 @@ public:
     DegenerateFaces() = default;
     /// O(faces)
     /// \throws what the poll throws
-    explicit DegenerateFaces(const Complex& complex, Poll poll = {}) : most_(count(complex, poll)) {}
+    explicit DegenerateFaces(const CollapseMesh& mesh, CancellationCheck check_cancelled = {})
+        : max_count_(count(mesh, check_cancelled)) {}
 
     /// Do the faces of this pair hold all the area there is? Where nothing has an area: are they all there
     /// are? O(the smaller valence of the pair); O(faces) where nearly all are degenerate
-    bool are_all_others(const Complex& complex, const PairTable& pairs, Index pair, Poll poll = {}) {
-        if (pairs.face_count(pair) + most_ < complex.face_count()) return false;
-        const std::size_t with_area = pairs.face_count(pair) - count_of(complex, pairs, pair);
-        if (with_area == 0) return pairs.face_count(pair) >= complex.face_count();
-        if (with_area + most_ < complex.face_count()) return false;
-        most_ = count(complex, poll);
-        return with_area + most_ >= complex.face_count();
+    bool are_last_faces(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
+                        CancellationCheck check_cancelled = {}) {
+        if (pairs.face_count(pair) + max_count_ < mesh.face_count()) return false;
+        const std::size_t with_area = pairs.face_count(pair) - count_at_pair(mesh, pairs, pair);
+        if (with_area == 0) return pairs.face_count(pair) >= mesh.face_count();
+        if (with_area + max_count_ < mesh.face_count()) return false;
+        max_count_ = count(mesh, check_cancelled);
+        return with_area + max_count_ >= mesh.face_count();
     }
 
     /// To be told before the pair is collapsed. O(the smaller valence of the pair); O(1) if none is degenerate
-    void collapsing(const Complex& complex, const PairTable& pairs, Index pair) {
-        if (most_ > 0) most_ -= std::min(most_, count_of(complex, pairs, pair));
+    void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
+        if (max_count_ > 0) max_count_ -= std::min(max_count_, count_at_pair(mesh, pairs, pair));
     }
 
 private:
-    static std::size_t count(const Complex& complex, Poll poll) {
+    static std::size_t count(const CollapseMesh& mesh, CancellationCheck check_cancelled) {
         std::size_t count = 0;
-        for (Index f = 0; f < complex.face_slots(); ++f) {
-            poll();
-            count += complex.alive(f) && is_degenerate(complex, f);
+        for (Index f = 0; f < mesh.face_slots(); ++f) {
+            check_cancelled();
+            count += mesh.is_alive(f) && is_degenerate(mesh, f);
         }
         return count;
     }
 
-    static std::size_t count_of(const Complex& complex, const PairTable& pairs, Index pair) {
+    static std::size_t count_at_pair(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
         std::size_t count = 0;
-        const auto [u, v] = complex.by_degree(pairs.first(pair), pairs.second(pair));
-        complex.for_each_face(u, [&, v = v](Index f, unsigned) {
-            count += complex.has_corner(f, v) && is_degenerate(complex, f);
-        });
+        const auto [u, v] = mesh.lower_degree_first(pairs.first(pair), pairs.second(pair));
+        mesh.for_each_face(
+            u, [&, v = v](Index f, unsigned) { count += mesh.has_corner(f, v) && is_degenerate(mesh, f); });
         return count;
     }
 
-    std::size_t most_ = 0;
+    std::size_t max_count_ = 0;
 };
 
 }  // namespace engine

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
-#include "faqem/engine/mesh/triangle_soup.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -29,21 +29,22 @@ public:
     /// the virtual pairs follow. O(faces)
     /// \param virtual_pairs  distinct pairs that are no edges
     /// \throws what the poll throws
-    PairTable(const Complex& complex, std::span<const std::pair<Index, Index>> virtual_pairs, Poll poll = {})
-        : vertices_(complex.vertex_slots()) {
+    PairTable(const CollapseMesh& mesh, std::span<const std::pair<Index, Index>> virtual_pairs,
+              CancellationCheck check_cancelled = {})
+        : vertices_(mesh.vertex_slots()) {
         // Three for two faces, and half a pair more for each open edge: to grow would take twice the memory.
-        const std::size_t few_open = complex.face_count() / 64;
-        pairs_.reserve(complex.face_count() / 2 * 3 + few_open + virtual_pairs.size());
-        for (Index v = 0; v < complex.vertex_slots(); ++v) {
-            poll();
-            add_edges_above(complex, v);
+        const std::size_t extra_boundary_pairs = mesh.face_count() / 64;
+        pairs_.reserve(mesh.face_count() / 2 * 3 + extra_boundary_pairs + virtual_pairs.size());
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+            check_cancelled();
+            add_edges_to_larger(mesh, v);
         }
         for (const auto& [a, b] : virtual_pairs) pairs_[add(a, b)].is_virtual = true;
-        list_pairs(poll);
+        build_pair_lists(check_cancelled);
     }
 
     std::size_t size() const { return pairs_.size(); }
-    bool alive(Index pair) const { return first(pair) != no_index; }
+    bool is_alive(Index pair) const { return first(pair) != no_index; }
     Index first(Index pair) const { return pairs_[pair].ends[0]; }
     Index second(Index pair) const { return pairs_[pair].ends[1]; }
     /// Number of faces with this edge; 0 for a virtual pair.
@@ -72,21 +73,21 @@ public:
     /// Follows complex.collapse(survivor, gone, ...), which must have been done.
     /// \param killed   pairs that ceased to live are appended here
     /// \param changes  becomes the survivor's living pairs, and the vertices that lost their open edge to it
-    void merge(const Complex& complex, Index survivor, Index gone, std::vector<Index>& killed,
+    void merge(const CollapseMesh& mesh, Index survivor, Index removed, std::vector<Index>& killed,
                std::vector<Change>& changes) {
         changes.clear();
-        gather(survivor, survivor, gone, killed, changes);
-        gather(gone, survivor, survivor, killed, changes);
-        vertices_[gone].slots.size = 0;
+        take_over(survivor, survivor, removed, killed, changes);
+        take_over(removed, survivor, survivor, killed, changes);
+        vertices_[removed].slots.size = 0;
         kept_.clear();
-        find_faces_around(complex, survivor, changes);
+        recount_faces_around(mesh, survivor, changes);
         std::size_t kept = 0;
         for (const Change& change : changes) {
             const Index pair = change.neighbour.pair;
             vertices_[change.neighbour.vertex].mark = no_index;
             const bool lives =
-                face_count(pair) > 0 || (pairs_[pair].is_virtual && complex.degree(survivor) > 0 &&
-                                         complex.degree(change.neighbour.vertex) > 0);
+                face_count(pair) > 0 || (pairs_[pair].is_virtual && mesh.degree(survivor) > 0 &&
+                                         mesh.degree(change.neighbour.vertex) > 0);
             if (lives) {
                 kept_.push_back(2 * pair + (second(pair) == survivor ? 1 : 0));
                 changes[kept++] = change;
@@ -94,18 +95,18 @@ public:
                 kill(pair, killed);
                 if (change.boundary_changed) changes[kept++] = {{change.neighbour.vertex, no_index}, true};
             }
-            if (complex.degree(change.neighbour.vertex) == 0) kill_all(change.neighbour.vertex, killed);
+            if (mesh.degree(change.neighbour.vertex) == 0) kill_all(change.neighbour.vertex, killed);
         }
         changes.resize(kept);
         slots_.assign(vertices_[survivor].slots, kept_);
     }
 
     /// A face of the complex is gone; each of its edges has others.
-    void face_removed(const Complex& complex, const Triangle& corners) {
+    void after_face_removal(const CollapseMesh& mesh, const Triangle& corners) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = corners[k], n = corners[(k + 1) % 3];
             for_each_pair(v, [&](Neighbour to) {
-                if (to.vertex == n) find_faces(complex, to.pair);
+                if (to.vertex == n) recount_faces(mesh, to.pair);
             });
         }
     }
@@ -118,7 +119,7 @@ public:
 
 private:
     struct Vertex {
-        List slots;  ///< 2 * pair + end; some have died or moved since
+        IndexList slots;  ///< 2 * pair + end; some have died or moved since
         std::uint32_t boundary_degree = 0, nonmanifold_degree = 0;
         Index mark = no_index;  ///< scratch: pair to the vertex, while gathering
     };
@@ -146,23 +147,23 @@ private:
     }
 
     // \pre the sizes of the lists are what they will be
-    void list_pairs(Poll poll) {
+    void build_pair_lists(CancellationCheck check_cancelled) {
         slots_.reserve(2 * pairs_.size(), vertices_.size());
         for (Vertex& vertex : vertices_) {
-            poll();
-            if (vertex.slots.size > 0) vertex.slots = slots_.make_room(vertex.slots.size);
+            check_cancelled();
+            if (vertex.slots.size > 0) vertex.slots = slots_.allocate(vertex.slots.size);
         }
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
-            poll();
+            check_cancelled();
             slots_.push_back(vertices_[first(pair)].slots, 2 * pair);
             slots_.push_back(vertices_[second(pair)].slots, 2 * pair + 1);
         }
     }
 
-    void add_edges_above(const Complex& complex, Index v) {
+    void add_edges_to_larger(const CollapseMesh& mesh, Index v) {
         const auto begin = static_cast<Index>(size());
-        complex.for_each_face(v, [&](Index f, unsigned corner) {
-            const Triangle& t = complex.triangle(f);
+        mesh.for_each_face(v, [&](Index f, unsigned corner) {
+            const Triangle& t = mesh.triangle(f);
             for (unsigned k = 1; k < 3; ++k) {
                 const Index n = t[(corner + k) % 3];
                 if (n < v) continue;
@@ -173,13 +174,13 @@ private:
         });
         for (Index pair = begin; pair < size(); ++pair) {
             vertices_[second(pair)].mark = no_index;
-            count_again(pair, 0);
+            apply_face_count(pair, 0);
         }
     }
 
     // Takes the pairs of `v` to `survivor`: the collapsed pair (v, partner) and doubles die.
-    void gather(Index v, Index survivor, Index partner, std::vector<Index>& killed,
-                std::vector<Change>& changes) {
+    void take_over(Index v, Index survivor, Index partner, std::vector<Index>& killed,
+                   std::vector<Change>& changes) {
         for (const Index s : slots_[vertices_[v].slots]) {
             if (end(s) != v) continue;
             const Index pair = s / 2;
@@ -189,7 +190,7 @@ private:
                 kill(pair, killed);
             } else if (kept != no_index) {
                 if (face_count(pair) == 1)
-                    set_face_count(kept, 1);  // tells find_faces_around() that it was open
+                    set_face_count(kept, 1);  // tells recount_faces_around() that it was open
                 pairs_[kept].is_virtual = pairs_[kept].is_virtual && pairs_[pair].is_virtual;
                 kill(pair, killed);
             } else {
@@ -218,39 +219,39 @@ private:
     }
 
     // \pre each neighbour is marked with its pair
-    void find_faces_around(const Complex& complex, Index survivor, std::vector<Change>& changes) {
+    void recount_faces_around(const CollapseMesh& mesh, Index survivor, std::vector<Change>& changes) {
         counts_.clear();
         for (Change& change : changes) {
             Pair& pair = pairs_[change.neighbour.pair];
             change.boundary_changed = pair.face_count == 1;
             counts_.push_back(std::exchange(pair.face_count, 0));
         }
-        complex.for_each_face(survivor, [&](Index f, unsigned corner) {
-            const Triangle& t = complex.triangle(f);
+        mesh.for_each_face(survivor, [&](Index f, unsigned corner) {
+            const Triangle& t = mesh.triangle(f);
             for (unsigned k = 1; k < 3; ++k) pairs_[vertices_[t[(corner + k) % 3]].mark].add_face(f);
         });
         for (std::size_t i = 0; i < changes.size(); ++i) {
-            count_again(changes[i].neighbour.pair, counts_[i]);
+            apply_face_count(changes[i].neighbour.pair, counts_[i]);
             changes[i].boundary_changed |= face_count(changes[i].neighbour.pair) == 1;
         }
     }
 
-    void find_faces(const Complex& complex, Index pair) {
+    void recount_faces(const CollapseMesh& mesh, Index pair) {
         const std::uint32_t before = std::exchange(pairs_[pair].face_count, 0);
-        const auto [few, many] = complex.by_degree(first(pair), second(pair));
-        complex.for_each_face(few, [&, other = many](Index f, unsigned) {
-            if (complex.has_corner(f, other)) pairs_[pair].add_face(f);
+        const auto [lower, higher] = mesh.lower_degree_first(first(pair), second(pair));
+        mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
+            if (mesh.has_corner(f, other)) pairs_[pair].add_face(f);
         });
-        count_again(pair, before);
+        apply_face_count(pair, before);
     }
 
     // \param before  number of its faces that the degrees of its ends know of
-    void count_again(Index pair, std::uint32_t before) {
+    void apply_face_count(Index pair, std::uint32_t before) {
         set_face_count(pair, std::exchange(pairs_[pair].face_count, before));
     }
 
     void kill(Index pair, std::vector<Index>& killed) {
-        if (!alive(pair)) return;
+        if (!is_alive(pair)) return;
         set_face_count(pair, 0);
         pairs_[pair].ends = {no_index, no_index};
         killed.push_back(pair);
@@ -258,7 +259,7 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Pair> pairs_;
-    Lists slots_;
+    IndexLists slots_;
     std::vector<Index> kept_;            // scratch: slots of the survivor
     std::vector<std::uint32_t> counts_;  // scratch: faces that each change had
 };

@@ -14,10 +14,10 @@ FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// Disjoint sets of 0 .. size - 1, each known by its smallest member.
-class DisjointSets {
+class UnionFind {
 public:
     /// Every member is a set of its own.
-    explicit DisjointSets(std::size_t size = 0) : parent_(size) {
+    explicit UnionFind(std::size_t size = 0) : parent_(size) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
@@ -28,14 +28,14 @@ public:
     }
 
     /// The smallest member of v's set. O(log size) amortised
-    Index root(Index v) {
+    Index find(Index v) {
         while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
         return v;
     }
 
     /// The sets of a and b become one.
-    void join(Index a, Index b) {
-        a = root(a), b = root(b);
+    void unite(Index a, Index b) {
+        a = find(a), b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -28,9 +28,9 @@ inline std::uint64_t hash(const Vec3& key) {
 }
 
 /// Open-addressing table of vertices by key. Lookups only, never iterated: the hash decides no result.
-class Table {
+class VertexTable {
 public:
-    explicit Table(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), no_index) {}
+    explicit VertexTable(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), no_index) {}
 
     /// Calls match(vertex) for vertices that may have this key, until it returns true; else returns the free
     /// slot.
@@ -46,18 +46,19 @@ private:
 };
 
 // -0 and 0 are one place.
-inline Vec3 plus_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }
+inline Vec3 without_negative_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }
 
 }  // namespace weld_detail
 
 /// For each vertex the smallest index at the same position, -0 being 0. O(n) expected.
 /// \throws what the poll throws
-inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions, Poll poll = {}) {
+inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions,
+                                     CancellationCheck check_cancelled = {}) {
     std::vector<Index> representative(positions.size());
-    weld_detail::Table table(positions.size());
+    weld_detail::VertexTable table(positions.size());
     for (Index v = 0; v < positions.size(); ++v) {
-        poll();
-        Index* slot = table.find(weld_detail::plus_zero(positions[v]),
+        check_cancelled();
+        Index* slot = table.find(weld_detail::without_negative_zero(positions[v]),
                                  [&](Index w) { return positions[w] == positions[v]; });
         if (*slot == no_index) *slot = v;
         representative[v] = *slot;
@@ -69,26 +70,27 @@ inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions, Poll po
 /// O(n) expected while few vertices share a cell of size `distance`.
 /// \param distance  model units, >= 0; 0 is weld_exact
 /// \throws what the poll throws
-inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance, Poll poll = {}) {
-    std::vector<Index> representative = weld_exact(positions, poll);
+inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance,
+                                      CancellationCheck check_cancelled = {}) {
+    std::vector<Index> representative = weld_exact(positions, check_cancelled);
     if (!(distance > 0)) return representative;
     const auto cell_of = [&](const Vec3& p) -> Vec3 {
         return {std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)};
     };
-    const auto near = [&](Index a, Index b) {
+    const auto is_near = [&](Index a, Index b) {
         const Vec3 &p = positions[a], &q = positions[b];
         const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
         return x * x + y * y + z * z <= distance * distance;
     };
     // A cell holds a list of representatives, linked through `following`.
-    weld_detail::Table table(positions.size());
-    std::vector<Index> following(positions.size(), no_index);
+    weld_detail::VertexTable table(positions.size());
+    std::vector<Index> next_in_cell(positions.size(), no_index);
     const auto head_of = [&](const Vec3& cell) {
-        return table.find(weld_detail::plus_zero(cell),
+        return table.find(weld_detail::without_negative_zero(cell),
                           [&](Index w) { return cell_of(positions[w]) == cell; });
     };
     for (Index v = 0; v < positions.size(); ++v) {
-        poll();
+        check_cancelled();
         if (representative[v] != v) {
             representative[v] = representative[representative[v]];
             continue;
@@ -97,9 +99,9 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
         Index found = no_index;
         for (int i = 0; i < 27; ++i) {
             const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
-            const Vec3 beside = {cell[0] + dx, cell[1] + dy, cell[2] + dz};
-            for (Index w = *head_of(beside); w != no_index; w = following[w]) {
-                if (w < found && near(v, w)) found = w;
+            const Vec3 neighbour_cell = {cell[0] + dx, cell[1] + dy, cell[2] + dz};
+            for (Index w = *head_of(neighbour_cell); w != no_index; w = next_in_cell[w]) {
+                if (w < found && is_near(v, w)) found = w;
             }
         }
         if (found != no_index) {
@@ -110,8 +112,8 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
         if (*head == no_index) {
             *head = v;
         } else {
-            following[v] = following[*head];
-            following[*head] = v;
+            next_in_cell[v] = next_in_cell[*head];
+            next_in_cell[*head] = v;
         }
     }
     return representative;

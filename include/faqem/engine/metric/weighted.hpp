@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -19,51 +19,52 @@ namespace engine {
 /// weight that the edge, interpolated between its ends, has nearest to it.
 /// \tparam Inner  what an error costs where the weight is 1
 template <CollapseMetric Inner>
-class ImportanceMetric {
+class WeightedMetric {
 public:
     /// \param weights  one per vertex slot, finite and > 0
-    ImportanceMetric(Inner inner, std::vector<double> weights)
+    WeightedMetric(Inner inner, std::vector<double> weights)
         : inner_(std::move(inner)), weights_(std::move(weights)) {}
 
-    void initialise(const Complex& complex, const PairTable& pairs, Poll poll = {}) {
-        engine::initialise(inner_, complex, pairs, poll);
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
+                    CancellationCheck check_cancelled = {}) {
+        engine::initialise(inner_, mesh, pairs, check_cancelled);
     }
 
-    std::optional<Candidate> evaluate(const Complex& complex, const PairTable& pairs, Index pair,
-                                      Freedom freedom) const {
-        std::optional<Candidate> found = inner_.evaluate(complex, pairs, pair, freedom);
+    std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
+                                      AllowedPosition allowed_position) const {
+        std::optional<Candidate> found = inner_.evaluate(mesh, pairs, pair, allowed_position);
         if (!found) return found;
         found->cost *= weight(pairs.first(pair), pairs.second(pair));
         if (!std::isfinite(found->cost)) return std::nullopt;
         return found;
     }
 
-    double refine(const Complex& complex, const PairTable& pairs, Index u, Index v,
-                  const Candidate& candidate) requires RefiningMetric<Inner> {
+    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                      const Candidate& candidate) requires LowerBoundMetric<Inner> {
         const double w = weight(u, v);
-        const double cost = w * inner_.refine(complex, pairs, u, v, {candidate.point, candidate.cost / w});
+        const double cost = w * inner_.exact_cost(mesh, pairs, u, v, {candidate.point, candidate.cost / w});
         return std::max(candidate.cost, cost);
     }
 
-    void collapsing(const Complex& complex, const PairTable& pairs, Index survivor, Index gone,
-                    const Vector3& p) {
-        inner_.collapsing(complex, pairs, survivor, gone, p);
-        const Vector3& a = complex.position(survivor);
-        const Vector3 edge = complex.position(gone) - a;
+    void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
+                         const Vector3& p) {
+        inner_.before_collapse(mesh, pairs, survivor, removed, p);
+        const Vector3& a = mesh.position(survivor);
+        const Vector3 edge = mesh.position(removed) - a;
         const double square = edge.squaredNorm();
         const double t = square > 0 ? std::clamp((p - a).dot(edge) / square, 0.0, 1.0) : 0.5;
-        weights_[survivor] += t * (weights_[gone] - weights_[survivor]);
+        weights_[survivor] += t * (weights_[removed] - weights_[survivor]);
     }
 
-    void collapsed(const Complex& complex, const PairTable& pairs, Index survivor,
-                   std::span<const PairTable::Change> around) {
-        inner_.collapsed(complex, pairs, survivor, around);
+    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
+                        std::span<const PairTable::Change> around) {
+        inner_.after_collapse(mesh, pairs, survivor, around);
     }
 
-    Staleness staleness(const PairTable::Change& change) const { return inner_.staleness(change); }
+    Reevaluation reevaluation(const PairTable::Change& change) const { return inner_.reevaluation(change); }
 
-    void aim(std::size_t target_faces, double weight) requires AimingMetric<Inner> {
-        inner_.aim(target_faces, weight);
+    void set_target(std::size_t target_faces, double weight) requires TargetDependentMetric<Inner> {
+        inner_.set_target(target_faces, weight);
     }
 
     /// What the costs of the pair (u, v) are multiplied by.

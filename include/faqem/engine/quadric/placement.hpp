@@ -4,14 +4,14 @@
 
 #include <limits>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/quadric/quadric.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// Where the new vertex may go.
-enum class Freedom {
+enum class AllowedPosition {
     anywhere,
     at_first,   ///< only where the pair's first vertex is
     at_second,  ///< only where its second vertex is
@@ -19,9 +19,9 @@ enum class Freedom {
 };
 
 /// The two of them together. \return nowhere if they contradict each other
-inline Freedom both(Freedom a, Freedom b) {
-    if (a == Freedom::anywhere || a == b) return b;
-    return b == Freedom::anywhere ? a : Freedom::nowhere;
+inline AllowedPosition intersection(AllowedPosition a, AllowedPosition b) {
+    if (a == AllowedPosition::anywhere || a == b) return b;
+    return b == AllowedPosition::anywhere ? a : AllowedPosition::nowhere;
 }
 
 /// A collapse that may be done.
@@ -32,7 +32,7 @@ struct Candidate {
 
 /// The room for new vertices around a surface: its box, and a tenth of the diagonal on all sides. Planes that
 /// are parallel but for noise meet anywhere.
-inline Eigen::AlignedBox3d room_around(const Eigen::AlignedBox3d& box) {
+inline Eigen::AlignedBox3d placement_bounds(const Eigen::AlignedBox3d& box) {
     const Vector3 margin = Vector3::Constant(0.1 * box.diagonal().norm());
     return {box.min() - margin, box.max() + margin};
 }
@@ -40,12 +40,13 @@ inline Eigen::AlignedBox3d room_around(const Eigen::AlignedBox3d& box) {
 /// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
 /// taken (paper, Sec. 3.1).
 /// \pre freedom is not `nowhere`
-/// \param room  a minimum outside of it counts as ill conditioned; null: there is room everywhere
-inline Vector3 place(const Quadric& q, const Vector3& a, const Vector3& b, Freedom freedom,
-                     const Eigen::AlignedBox3d* room = nullptr) {
-    if (freedom == Freedom::at_first) return a;
-    if (freedom == Freedom::at_second) return b;
-    if (const auto p = q.minimum(); p && (!room || room->contains(*p))) return *p;
+/// \param bounds  a minimum outside of it counts as ill conditioned; null: there is room everywhere
+inline Vector3 optimal_position(const Quadric& q, const Vector3& a, const Vector3& b,
+                                AllowedPosition allowed_position,
+                                const Eigen::AlignedBox3d* bounds = nullptr) {
+    if (allowed_position == AllowedPosition::at_first) return a;
+    if (allowed_position == AllowedPosition::at_second) return b;
+    if (const auto p = q.minimum(); p && (!bounds || bounds->contains(*p))) return *p;
     Vector3 best = a;
     double lowest = q(a);
     for (const Vector3& p : {b, Vector3(0.5 * (a + b))}) {

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {

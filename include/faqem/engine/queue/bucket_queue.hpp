@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -24,21 +24,21 @@ public:
     BucketQueue() : buckets_(bucket_count) {}
 
     void reserve(std::size_t pairs) {
-        place_.assign(pairs, nowhere);
+        bucket_of_.assign(pairs, no_bucket);
         for (Bucket& bucket : buckets_) bucket = {};
         size_ = 0;
         lowest_ = bucket_count;
     }
 
     bool empty() const { return size_ == 0; }
-    bool contains(Index pair) const { return place_[pair] != nowhere; }
-    bool has_before(double cost) const { return lowest_ < bucket_for(cost); }
+    bool contains(Index pair) const { return bucket_of_[pair] != no_bucket; }
+    bool has_cheaper(double cost) const { return lowest_ < bucket_for(cost); }
 
     void set(Index pair, double cost) {
         const std::uint16_t bucket = bucket_for(cost);
-        if (place_[pair] == bucket) return;
-        size_ += place_[pair] == nowhere;
-        place_[pair] = bucket;
+        if (bucket_of_[pair] == bucket) return;
+        size_ += bucket_of_[pair] == no_bucket;
+        bucket_of_[pair] = bucket;
         buckets_[bucket].pairs.push_back(pair);
         lowest_ = std::min(lowest_, bucket);
         find_lowest();
@@ -46,7 +46,7 @@ public:
 
     void erase(Index pair) {
         if (!contains(pair)) return;
-        place_[pair] = nowhere;
+        bucket_of_[pair] = no_bucket;
         --size_;
         find_lowest();
     }
@@ -64,12 +64,12 @@ private:
         std::size_t first = 0;
     };
     /// The bits of a float but the sign, down to six of its fraction.
-    static constexpr std::uint16_t bucket_count = 1 << 14, nowhere = 1 << 15;
-    static constexpr double dearest = std::numeric_limits<float>::max();
+    static constexpr std::uint16_t bucket_count = 1 << 14, no_bucket = 1 << 15;
+    static constexpr double max_cost = std::numeric_limits<float>::max();
 
     static std::uint16_t bucket_for(double cost) {
         return static_cast<std::uint16_t>(
-            std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, dearest))) >> 17);
+            std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, max_cost))) >> 17);
     }
 
     /// To the first pair that is still where it was put.
@@ -77,7 +77,7 @@ private:
         if (size_ == 0) lowest_ = bucket_count;
         for (; lowest_ < bucket_count; ++lowest_) {
             Bucket& bucket = buckets_[lowest_];
-            while (bucket.first < bucket.pairs.size() && place_[bucket.pairs[bucket.first]] != lowest_)
+            while (bucket.first < bucket.pairs.size() && bucket_of_[bucket.pairs[bucket.first]] != lowest_)
                 ++bucket.first;
             if (bucket.first < bucket.pairs.size()) return;
             bucket.pairs.clear();
@@ -86,8 +86,8 @@ private:
     }
 
     std::vector<Bucket> buckets_;
-    std::uint16_t lowest_ = bucket_count;  // all buckets below are empty
-    std::vector<std::uint16_t> place_;     // the bucket of each pair
+    std::uint16_t lowest_ = bucket_count;   // all buckets below are empty
+    std::vector<std::uint16_t> bucket_of_;  // the bucket of each pair
     std::size_t size_ = 0;
 };
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -24,7 +24,7 @@ concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, doub
     { const_queue.empty() } -> std::same_as<bool>;
     { const_queue.contains(pair) } -> std::same_as<bool>;
     // Is there a pair that would come before the one just popped, were that put back with this cost?
-    { const_queue.has_before(cost) } -> std::same_as<bool>;
+    { const_queue.has_cheaper(cost) } -> std::same_as<bool>;
 };
 
 /// A queue that can do with old costs: what a collapse has made dearer, most often, is measured again when its
@@ -32,15 +32,16 @@ concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, doub
 template <class Q>
 concept LazyQueue = CollapseQueue<Q> && requires(Q queue, const Q& const_queue, Index pair) {
     // The cost of the pair has changed. False: it must be set.
-    { queue.outdate(pair) } -> std::same_as<bool>;
+    { queue.mark_stale(pair) } -> std::same_as<bool>;
     // What comes out may cost so many times as much as what is still in.
-    { const_queue.slack() } -> std::same_as<double>;
+    { const_queue.approximation_factor() } -> std::same_as<double>;
 };
 
 /// A queue that goes about it otherwise far from the end than near it.
 template <class Q>
-concept AimingQueue = CollapseQueue<Q> && requires(Q queue, std::size_t pairs, Poll poll) {
-    {queue.aim(pairs, poll)};  // so many will be left; what takes long asks the poll
+concept TargetDependentQueue = CollapseQueue<Q> &&
+    requires(Q queue, std::size_t pairs, CancellationCheck check_cancelled) {
+    {queue.set_target(pairs, check_cancelled)};  // so many will be left; what takes long asks the poll
 };
 
 /// A four-ary heap that knows where each pair is. Equal costs come out by index. set, erase and pop take
@@ -48,21 +49,21 @@ concept AimingQueue = CollapseQueue<Q> && requires(Q queue, std::size_t pairs, P
 class HeapQueue {
 public:
     void reserve(std::size_t pairs) {
-        place_.assign(pairs, no_index);
+        heap_index_.assign(pairs, no_index);
         heap_.clear();
         heap_.reserve(pairs);
     }
 
     bool empty() const { return heap_.empty(); }
-    bool contains(Index pair) const { return place_[pair] != no_index; }
-    bool has_before(double cost) const { return !heap_.empty() && heap_.front().cost < cost; }
+    bool contains(Index pair) const { return heap_index_[pair] != no_index; }
+    bool has_cheaper(double cost) const { return !heap_.empty() && heap_.front().cost < cost; }
 
     void set(Index pair, double cost) {
-        std::size_t i = place_[pair];
+        std::size_t i = heap_index_[pair];
         if (i == no_index) {
             i = heap_.size();
             heap_.push_back({cost, pair});
-            place_[pair] = static_cast<Index>(i);
+            heap_index_[pair] = static_cast<Index>(i);
         } else {
             heap_[i].cost = cost;
         }
@@ -70,9 +71,9 @@ public:
     }
 
     void erase(Index pair) {
-        const std::size_t i = place_[pair];
+        const std::size_t i = heap_index_[pair];
         if (i == no_index) return;
-        place_[pair] = no_index;
+        heap_index_[pair] = no_index;
         const Entry last = heap_.back();
         heap_.pop_back();
         if (i == heap_.size()) return;
@@ -96,7 +97,7 @@ private:
 
     void put(std::size_t i, const Entry& entry) {
         heap_[i] = entry;
-        place_[entry.pair] = static_cast<Index>(i);
+        heap_index_[entry.pair] = static_cast<Index>(i);
     }
 
     std::size_t sift_up(std::size_t i) {
@@ -128,7 +129,7 @@ private:
     }
 
     std::vector<Entry> heap_;
-    std::vector<Index> place_;  // of a pair in heap_, or no_index
+    std::vector<Index> heap_index_;  // of a pair in heap_, or no_index
 };
 
 }  // namespace engine

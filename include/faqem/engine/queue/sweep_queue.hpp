@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/queue/bucket_queue.hpp"
 #include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -26,11 +26,11 @@ namespace engine {
 ///         give out pairs up to the limit, unless an end has moved in this round
 ///         limit *= how many times more pairs there are than at the end, from 1.4 to 4
 ///
-/// set, erase and outdate take O(1); all pops of a round O(pairs).
-class RoundQueue {
+/// set, erase and mark_stale take O(1); all pops of a round O(pairs).
+class SweepQueue {
 public:
     /// \param few  so many pairs go into buckets at once: among few, each counts
-    explicit RoundQueue(std::size_t few = 0) : few_(few) {}
+    explicit SweepQueue(std::size_t few = 0) : few_(few) {}
 
     void reserve(std::size_t pairs) {
         costs_.assign(pairs, absent);
@@ -43,16 +43,16 @@ public:
     }
 
     /// \param pairs  that will be left at the end; 0, as without: there is no end in sight
-    /// \param poll   for pop(), which may walk along all pairs
-    void aim(std::size_t pairs, Poll poll = {}) {
+    /// \param check_cancelled   for pop(), which may walk along all pairs
+    void set_target(std::size_t pairs, CancellationCheck check_cancelled = {}) {
         end_ = static_cast<double>(pairs);
-        poll_ = poll;
+        check_cancelled_ = check_cancelled;
     }
 
     bool empty() const { return is_over_ ? buckets_.empty() : size_ == 0; }
     bool contains(Index pair) const { return is_over_ ? buckets_.contains(pair) : costs_[pair] != absent; }
-    bool has_before(double cost) const {
-        return is_over_ ? buckets_.has_before(cost) : size_ > 0 && as_float(cost) > limit_;
+    bool has_cheaper(double cost) const {
+        return is_over_ ? buckets_.has_cheaper(cost) : size_ > 0 && as_float(cost) > limit_;
     }
 
     void set(Index pair, double cost) {
@@ -67,19 +67,19 @@ public:
         costs_[pair] = absent;
     }
 
-    bool outdate(Index pair) {
+    bool mark_stale(Index pair) {
         if (is_over_) return false;
         rounds_[pair] = round_;
         return costs_[pair] != absent;
     }
 
-    double slack() const { return is_over_ ? 1 : most_growth; }
+    double approximation_factor() const { return is_over_ ? 1 : most_growth; }
 
     Index pop() {
         for (;;) {
             if (is_over_) return buckets_.pop();
             for (; at_ < costs_.size(); ++at_) {
-                if (at_ % polled == 0) poll_(operations);
+                if (at_ % polled == 0) check_cancelled_(operations);
                 const float cost = costs_[at_];
                 if (cost <= limit_ && rounds_[at_] != round_) {
                     const auto pair = static_cast<Index>(at_++);
@@ -94,14 +94,14 @@ public:
 
 private:
     static constexpr float absent = std::numeric_limits<float>::infinity();
-    static constexpr float dearest = std::numeric_limits<float>::max();
+    static constexpr float max_cost = std::numeric_limits<float>::max();
     /// The share of all pairs that may go in any order, where nearly all will go; of more, the error would grow.
     static constexpr double first_share = 0.3;
     static constexpr double most_growth = 4, least_growth = 1.41421356;
     /// Times as many pairs as at the end are near it.
     static constexpr double near = 1.25;
 
-    static float as_float(double cost) { return static_cast<float>(std::min<double>(cost, dearest)); }
+    static float as_float(double cost) { return static_cast<float>(std::min<double>(cost, max_cost)); }
 
     double left() const {
         return end_ > 0 ? static_cast<double>(size_) / end_ : std::numeric_limits<double>::infinity();
@@ -127,7 +127,7 @@ private:
         const auto place =
             static_cast<std::ptrdiff_t>(first_share * going * going * static_cast<double>(some.size()));
         std::nth_element(some.begin(), some.begin() + place, some.end());
-        return std::min(some[static_cast<std::size_t>(place)], dearest);
+        return std::min(some[static_cast<std::size_t>(place)], max_cost);
     }
 
     float next_limit(double times) const {
@@ -139,7 +139,7 @@ private:
         is_over_ = true;
         buckets_.reserve(costs_.size());
         for (std::size_t i = 0; i < costs_.size(); ++i) {
-            poll_();
+            check_cancelled_();
             if (costs_[i] != absent) buckets_.set(static_cast<Index>(i), static_cast<double>(costs_[i]));
         }
         std::vector<float>().swap(costs_);
@@ -158,11 +158,11 @@ private:
     float lowest_ = -1;  // of what this round has passed over
     std::uint8_t round_ = 0;
     bool is_over_ = false;
-    Poll poll_;
+    CancellationCheck check_cancelled_;
     BucketQueue buckets_;
 };
 
-static_assert(LazyQueue<RoundQueue> && AimingQueue<RoundQueue>);
+static_assert(LazyQueue<SweepQueue> && TargetDependentQueue<SweepQueue>);
 
 }  // namespace engine
 FAQEM_NAMESPACE_END

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/export.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -20,40 +20,42 @@ public:
         : a_(a), ab_(b - a), ac_(c - a), bc_(c - b) {
         ab2_ = ab_.squaredNorm(), ac2_ = ac_.squaredNorm(), ab_ac_ = ab_.dot(ac_);
         const double det = ab2_ * ac2_ - ab_ac_ * ab_ac_;
-        if (det > least_sine_squared * ab2_ * ac2_) per_det_ = 1 / det;
-        per_ab2_ = inverse(ab2_), per_ac2_ = inverse(ac2_), per_bc2_ = inverse(bc_.squaredNorm());
+        if (det > min_sine_squared * ab2_ * ac2_) inv_det_ = 1 / det;
+        inv_ab2_ = inverse(ab2_), inv_ac2_ = inverse(ac2_), inv_bc2_ = inverse(bc_.squaredNorm());
     }
 
     /// Squared distance of p. O(1)
     double operator()(const Vector3& p) const {
         const Vector3 from_a = p - a_, from_b = from_a - ab_;
         const double along_ab = ab_.dot(from_a), along_ac = ac_.dot(from_a);
-        const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * per_det_;
-        const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * per_det_;
-        if (per_det_ > 0 && v >= 0 && w >= 0 && v + w <= 1) return (from_a - v * ab_ - w * ac_).squaredNorm();
+        const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * inv_det_;
+        const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * inv_det_;
+        if (inv_det_ > 0 && v >= 0 && w >= 0 && v + w <= 1) return (from_a - v * ab_ - w * ac_).squaredNorm();
         // The closest point is on a side that p is beyond; where rounding may have decided, on others too.
-        const bool any = !(per_det_ > 0);
+        const bool is_sliver = !(inv_det_ > 0);
         double nearest = std::numeric_limits<double>::infinity();
-        if (any || !(w >= doubt)) nearest = (from_a - unit(along_ab * per_ab2_) * ab_).squaredNorm();
-        if (any || !(v >= doubt))
-            nearest = std::min(nearest, (from_a - unit(along_ac * per_ac2_) * ac_).squaredNorm());
-        if (any || !(v + w <= 1 - doubt))
-            nearest = std::min(nearest, (from_b - unit(bc_.dot(from_b) * per_bc2_) * bc_).squaredNorm());
+        if (is_sliver || !(w >= barycentric_tolerance))
+            nearest = (from_a - clamp_to_unit(along_ab * inv_ab2_) * ab_).squaredNorm();
+        if (is_sliver || !(v >= barycentric_tolerance))
+            nearest = std::min(nearest, (from_a - clamp_to_unit(along_ac * inv_ac2_) * ac_).squaredNorm());
+        if (is_sliver || !(v + w <= 1 - barycentric_tolerance))
+            nearest =
+                std::min(nearest, (from_b - clamp_to_unit(bc_.dot(from_b) * inv_bc2_) * bc_).squaredNorm());
         return nearest;
     }
 
 private:
     /// Below it the inside of a triangle says no more than its sides do.
-    static constexpr double least_sine_squared = 1e-14;
+    static constexpr double min_sine_squared = 1e-14;
     /// More than what v and w may be off there.
-    static constexpr double doubt = 0.05;
+    static constexpr double barycentric_tolerance = 0.05;
 
     static double inverse(double x) { return x > 0 ? 1 / x : 0; }
-    static double unit(double t) { return std::clamp(t, 0.0, 1.0); }
+    static double clamp_to_unit(double t) { return std::clamp(t, 0.0, 1.0); }
 
     Vector3 a_, ab_, ac_, bc_;
     double ab2_ = 0, ac2_ = 0, ab_ac_ = 0;
-    double per_det_ = 0, per_ab2_ = 0, per_ac2_ = 0, per_bc2_ = 0;  // reciprocals; 0 where there is none
+    double inv_det_ = 0, inv_ab2_ = 0, inv_ac2_ = 0, inv_bc2_ = 0;  // reciprocals; 0 where there is none
 };
 
 /// A segment prepared for distance queries; one without length is a point.
@@ -61,23 +63,23 @@ class SegmentDistance {
 public:
     SegmentDistance(const Vector3& a, const Vector3& b) : a_(a), ab_(b - a) {
         const double square = ab_.squaredNorm();
-        if (square > 0) per_square_ = 1 / square;
+        if (square > 0) inv_square_ = 1 / square;
     }
 
     /// Squared distance of p. O(1)
     double operator()(const Vector3& p) const {
         const Vector3 from_a = p - a_;
-        return (from_a - std::clamp(ab_.dot(from_a) * per_square_, 0.0, 1.0) * ab_).squaredNorm();
+        return (from_a - std::clamp(ab_.dot(from_a) * inv_square_, 0.0, 1.0) * ab_).squaredNorm();
     }
 
 private:
     Vector3 a_, ab_;
-    double per_square_ = 0;
+    double inv_square_ = 0;
 };
 
 /// The index of the shape nearest to p, the first of several; 0 where there is none. O(n)
 template <class Shape>
-std::size_t nearest_of(const std::vector<Shape>& shapes, const Vector3& p) {
+std::size_t nearest_index(const std::vector<Shape>& shapes, const Vector3& p) {
     std::size_t at = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < shapes.size(); ++k) {

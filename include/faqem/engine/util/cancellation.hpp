@@ -16,58 +16,58 @@ namespace engine {
 struct Cancelled {};
 
 /// Counts operations, and asks after every few thousand of them.
-class Asker {
+class ProgressMonitor {
 public:
     /// Operations between two questions; each takes a microsecond or a few.
     static constexpr std::uint64_t interval = 4096;
 
-    /// \param ask  may throw; not empty
-    explicit Asker(std::function<Continue()> ask) : ask_(std::move(ask)) {}
-    Asker(const Asker&) = delete;
-    Asker& operator=(const Asker&) = delete;
+    /// \param callback  may throw; not empty
+    explicit ProgressMonitor(std::function<Continue()> callback) : callback_(std::move(callback)) {}
+    ProgressMonitor(const ProgressMonitor&) = delete;
+    ProgressMonitor& operator=(const ProgressMonitor&) = delete;
 
     /// \throws Cancelled, and what the question throws
     void count(std::uint64_t operations) {
-        counted_ += operations;
-        if (counted_ >= interval) ask();
+        operations_ += operations;
+        if (operations_ >= interval) check_now();
     }
     /// Asks at once. \throws as count()
-    void ask() {
-        counted_ = 0;
-        if (ask_() == Continue::cancel) throw Cancelled{};
+    void check_now() {
+        operations_ = 0;
+        if (callback_() == Continue::cancel) throw Cancelled{};
     }
 
 private:
-    std::function<Continue()> ask_;
-    std::uint64_t counted_ = 0;
+    std::function<Continue()> callback_;
+    std::uint64_t operations_ = 0;
 };
 
 /// What is handed down to loops; copies ask the same one. For the thread alone that it was made on.
-class Poll {
+class CancellationCheck {
 public:
     /// Never asks.
-    Poll() = default;
-    /// \param asker  borrowed
-    explicit Poll(Asker& asker) : asker_(&asker) {}
+    CancellationCheck() = default;
+    /// \param monitor  borrowed
+    explicit CancellationCheck(ProgressMonitor& monitor) : monitor_(&monitor) {}
 
-    /// So many operations are about to be done. \throws as Asker::count()
+    /// So many operations are about to be done. \throws as ProgressMonitor::count()
     void operator()(std::uint64_t operations = 1) const {
-        if (asker_) asker_->count(operations);
+        if (monitor_) monitor_->count(operations);
     }
-    /// \throws as Asker::ask()
+    /// \throws as ProgressMonitor::check_now()
     void now() const {
-        if (asker_) asker_->ask();
+        if (monitor_) monitor_->check_now();
     }
 
 private:
-    Asker* asker_ = nullptr;
+    ProgressMonitor* monitor_ = nullptr;
 };
 
 /// An order for sorting that polls. \param less  the order
 template <class Less = std::less<>>
-auto polled_less(Poll poll, Less less = {}) {
+auto cancellable_less(CancellationCheck check_cancelled, Less less = {}) {
     return [=](const auto& a, const auto& b) {
-        poll();
+        check_cancelled();
         return less(a, b);
     };
 }

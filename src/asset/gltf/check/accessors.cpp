@@ -12,32 +12,32 @@ std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " b
 void check_buffers(const GltfChecker& checker) {
     const Json& buffers = member(checker.document, "buffers");
     for (std::uint64_t i = 0; i < buffers.size(); ++i) {
-        const std::string where = step("/buffers", i);
-        if (checker.needed_number(buffers[i], where, "byteLength") == 0)
-            checker.fail(step(where, "byteLength"), "is 0");
+        const std::string where = child_path("/buffers", i);
+        if (checker.required_number(buffers[i], where, "byteLength") == 0)
+            checker.fail(child_path(where, "byteLength"), "is 0");
         const Json& uri = member(buffers[i], "uri");
-        if (!uri.is_null() && !uri.is_string()) checker.fail(step(where, "uri"), "is not a string");
+        if (!uri.is_null() && !uri.is_string()) checker.fail(child_path(where, "uri"), "is not a string");
     }
 }
 
 void check_views(const GltfChecker& checker) {
     const Json& views = member(checker.document, "bufferViews");
     for (std::uint64_t i = 0; i < views.size(); ++i) {
-        const std::string where = step("/bufferViews", i);
-        const std::uint64_t buffer = checker.needed_reference(views[i], where, "buffer", "buffers");
+        const std::string where = child_path("/bufferViews", i);
+        const std::uint64_t buffer = checker.required_reference(views[i], where, "buffer", "buffers");
         const std::uint64_t offset = checker.number(views[i], where, "byteOffset").value_or(0);
-        const std::uint64_t length = checker.needed_number(views[i], where, "byteLength");
+        const std::uint64_t length = checker.required_number(views[i], where, "byteLength");
         const std::uint64_t size =
             member(checker.document, "buffers")[buffer]["byteLength"].get<std::uint64_t>();
-        if (length == 0) checker.fail(step(where, "byteLength"), "is 0");
+        if (length == 0) checker.fail(child_path(where, "byteLength"), "is 0");
         if (offset > size || length > size - offset)
             checker.fail(where, "needs " + bytes_text(length) + " from byte " + std::to_string(offset) +
                                     ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
-        if (is_placeholder(member(checker.document, "buffers")[buffer]))
+        if (is_fallback_buffer(member(checker.document, "buffers")[buffer]))
             check_meshopt(checker, views[i], where);
         const auto stride = checker.number(views[i], where, "byteStride");
         if (stride && (*stride < 4 || *stride > max_stride || *stride % 4 != 0))
-            checker.fail(step(where, "byteStride"),
+            checker.fail(child_path(where, "byteStride"),
                          "is " + std::to_string(*stride) + ", not a multiple of 4 between 4 and 252");
     }
 }
@@ -57,31 +57,31 @@ void check_range(const GltfChecker& checker, const std::string& where, std::uint
 
 void check_sparse_layout(const GltfChecker& checker, const Json& sparse, const std::string& where,
                          std::uint64_t accessor_count, std::uint64_t size) {
-    const std::uint64_t count = checker.needed_number(sparse, where, "count");
+    const std::uint64_t count = checker.required_number(sparse, where, "count");
     if (count == 0 || count > accessor_count)
-        checker.fail(step(where, "count"), "is " + std::to_string(count) + ", the accessor has " +
-                                               std::to_string(accessor_count) + " elements");
+        checker.fail(child_path(where, "count"), "is " + std::to_string(count) + ", the accessor has " +
+                                                     std::to_string(accessor_count) + " elements");
     for (const char* key : {"indices", "values"}) {
-        const std::string at = step(where, key);
+        const std::string at = child_path(where, key);
         const Json& part = checker.object(sparse, where, key);
         if (part.is_null()) checker.fail(where, std::string("has no ") + key);
-        const std::uint64_t view = checker.needed_reference(part, at, "bufferView", "bufferViews");
+        const std::uint64_t view = checker.required_reference(part, at, "bufferView", "bufferViews");
         const std::uint64_t offset = checker.number(part, at, "byteOffset").value_or(0);
         std::uint64_t bytes = size;
         if (key == std::string("indices")) {
-            const auto type = static_cast<ComponentType>(checker.needed_number(part, at, "componentType"));
+            const auto type = static_cast<ComponentType>(checker.required_number(part, at, "componentType"));
             if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32)
-                checker.fail(step(at, "componentType"), "is not an unsigned integer type");
+                checker.fail(child_path(at, "componentType"), "is not an unsigned integer type");
             bytes = component_size(static_cast<std::uint64_t>(type));
         }
         check_range(checker, at, view, offset, count, bytes, bytes);
     }
 }
 
-std::uint64_t total_bytes(const Json& document) {
+std::uint64_t declared_buffer_size(const Json& document) {
     std::uint64_t total = 0;
     for (const Json& buffer : member(document, "buffers")) {
-        if (is_placeholder(buffer)) continue;
+        if (is_fallback_buffer(buffer)) continue;
         const auto length = buffer["byteLength"].get<std::uint64_t>();
         total = length > UINT64_MAX - total ? UINT64_MAX : total + length;
     }
@@ -90,36 +90,36 @@ std::uint64_t total_bytes(const Json& document) {
 
 void check_accessor(const GltfChecker& checker, const Json& accessor, const std::string& where,
                     std::uint64_t file_bytes) {
-    const std::uint64_t component = checker.needed_number(accessor, where, "componentType");
+    const std::uint64_t component = checker.required_number(accessor, where, "componentType");
     if (component_size(component) == 0)
-        checker.fail(step(where, "componentType"),
+        checker.fail(child_path(where, "componentType"),
                      "is " + std::to_string(component) + ", no type of glTF 2.0");
-    const std::string type = string_of(accessor, "type");
+    const std::string type = string_member(accessor, "type");
     if (component_count(type) == 0)
-        checker.fail(step(where, "type"), "'" + type + "' is no type of glTF 2.0");
+        checker.fail(child_path(where, "type"), "'" + type + "' is no type of glTF 2.0");
     const Json& normalized = member(accessor, "normalized");
     if (!normalized.is_null() && !normalized.is_boolean())
-        checker.fail(step(where, "normalized"), "is neither true nor false");
-    const std::uint64_t count = checker.needed_number(accessor, where, "count");
-    if (count == 0) checker.fail(step(where, "count"), "is 0");
+        checker.fail(child_path(where, "normalized"), "is neither true nor false");
+    const std::uint64_t count = checker.required_number(accessor, where, "count");
+    if (count == 0) checker.fail(child_path(where, "count"), "is 0");
     const std::uint64_t size = element_size(component, type);
     const std::uint64_t offset = checker.number(accessor, where, "byteOffset").value_or(0);
 
     if (const auto view = checker.reference(accessor, where, "bufferView", "bufferViews")) {
-        const Json& described = member(checker.document, "bufferViews")[*view];
-        const std::uint64_t stride = number_of(described, "byteStride", size);
+        const Json& buffer_view = member(checker.document, "bufferViews")[*view];
+        const std::uint64_t stride = unsigned_member(buffer_view, "byteStride", size);
         if (stride < size)
             checker.fail(where, "has elements of " + bytes_text(size) + ", bufferView " +
                                     std::to_string(*view) + " a stride of " + std::to_string(stride));
         check_range(checker, where, *view, offset, count, size, stride);
     } else if (count > file_bytes) {
         // All zero, so that no bytes vouch for the count.
-        checker.fail(step(where, "count"), "is " + std::to_string(count) +
-                                               " without a bufferView, all buffers have " +
-                                               bytes_text(file_bytes));
+        checker.fail(child_path(where, "count"), "is " + std::to_string(count) +
+                                                     " without a bufferView, all buffers have " +
+                                                     bytes_text(file_bytes));
     }
     const Json& sparse = checker.object(accessor, where, "sparse");
-    if (!sparse.is_null()) check_sparse_layout(checker, sparse, step(where, "sparse"), count, size);
+    if (!sparse.is_null()) check_sparse_layout(checker, sparse, child_path(where, "sparse"), count, size);
 }
 
 }  // namespace
@@ -128,12 +128,15 @@ void check_accessors(const GltfChecker& checker) {
     check_buffers(checker);
     check_views(checker);
     const Json& accessors = member(checker.document, "accessors");
-    const std::uint64_t file_bytes = total_bytes(checker.document);
-    const std::uint64_t packed =
-        always_believed + std::min(file_bytes, UINT64_MAX / most_per_byte - always_believed) * most_per_byte;
-    const std::vector<char> draco = draco_accessors(checker.document);
+    const std::uint64_t file_bytes = declared_buffer_size(checker.document);
+    const std::uint64_t max_draco_elements =
+        draco_base_element_limit +
+        std::min(file_bytes, UINT64_MAX / max_draco_elements_per_byte - draco_base_element_limit) *
+            max_draco_elements_per_byte;
+    const std::vector<char> draco = draco_accessor_flags(checker.document);
     for (std::uint64_t i = 0; i < accessors.size(); ++i)
-        check_accessor(checker, accessors[i], step("/accessors", i), draco[i] ? packed : file_bytes);
+        check_accessor(checker, accessors[i], child_path("/accessors", i),
+                       draco[i] ? max_draco_elements : file_bytes);
 }
 
 }  // namespace faqem::detail

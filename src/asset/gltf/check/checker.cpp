@@ -16,19 +16,19 @@ std::optional<std::uint64_t> GltfChecker::number(const Json& object, const std::
                                                  const char* key) const {
     const Json& value = member(object, key);
     if (value.is_null()) return std::nullopt;
-    if (!value.is_number_unsigned()) fail(step(where, key), "is not an unsigned integer");
+    if (!value.is_number_unsigned()) fail(child_path(where, key), "is not an unsigned integer");
     return value.get<std::uint64_t>();
 }
 
-std::uint64_t GltfChecker::needed_number(const Json& object, const std::string& where,
-                                         const char* key) const {
+std::uint64_t GltfChecker::required_number(const Json& object, const std::string& where,
+                                           const char* key) const {
     const auto value = number(object, where, key);
     if (!value) fail(where, std::string("has no ") + key);
     return *value;
 }
 
-std::uint64_t GltfChecker::reference_value(const Json& value, const std::string& where,
-                                           const char* array_name) const {
+std::uint64_t GltfChecker::checked_index(const Json& value, const std::string& where,
+                                         const char* array_name) const {
     const std::uint64_t size = array_size(document, array_name);
     if (!value.is_number_unsigned()) fail(where, std::string("is not an index into ") + array_name);
     const auto index = value.get<std::uint64_t>();
@@ -42,11 +42,11 @@ std::optional<std::uint64_t> GltfChecker::reference(const Json& object, const st
                                                     const char* key, const char* array_name) const {
     const Json& value = member(object, key);
     if (value.is_null()) return std::nullopt;
-    return reference_value(value, step(where, key), array_name);
+    return checked_index(value, child_path(where, key), array_name);
 }
 
-std::uint64_t GltfChecker::needed_reference(const Json& object, const std::string& where, const char* key,
-                                            const char* array_name) const {
+std::uint64_t GltfChecker::required_reference(const Json& object, const std::string& where, const char* key,
+                                              const char* array_name) const {
     const auto value = reference(object, where, key, array_name);
     if (!value) fail(where, std::string("has no ") + key);
     return *value;
@@ -54,25 +54,25 @@ std::uint64_t GltfChecker::needed_reference(const Json& object, const std::strin
 
 const Json& GltfChecker::array(const Json& parent, const std::string& where, const char* key) const {
     const Json& value = member(parent, key);
-    if (!value.is_null() && !value.is_array()) fail(step(where, key), "is not an array");
+    if (!value.is_null() && !value.is_array()) fail(child_path(where, key), "is not an array");
     return value;
 }
 
 const Json& GltfChecker::object(const Json& parent, const std::string& where, const char* key) const {
     const Json& value = member(parent, key);
-    if (!value.is_null() && !value.is_object()) fail(step(where, key), "is not an object");
+    if (!value.is_null() && !value.is_object()) fail(child_path(where, key), "is not an object");
     return value;
 }
 
-void GltfChecker::numbers(const Json& parent, const std::string& where, const char* key,
-                          std::uint64_t size) const {
+void GltfChecker::check_number_array(const Json& parent, const std::string& where, const char* key,
+                                     std::uint64_t size) const {
     const Json& values = array(parent, where, key);
     if (values.is_null()) return;
     if (values.size() != size)
-        fail(step(where, key),
+        fail(child_path(where, key),
              "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(size));
     for (const Json& value : values)
-        if (!value.is_number()) fail(step(where, key), "holds something that is not a number");
+        if (!value.is_number()) fail(child_path(where, key), "holds something that is not a number");
 }
 
 void validate_gltf(const Json& document, const std::string& file) {

@@ -21,20 +21,21 @@ struct GltfChecker {
 
     /// An unsigned integer; nothing where the key is absent.
     std::optional<std::uint64_t> number(const Json& object, const std::string& where, const char* key) const;
-    std::uint64_t needed_number(const Json& object, const std::string& where, const char* key) const;
+    std::uint64_t required_number(const Json& object, const std::string& where, const char* key) const;
     /// An index into the document's top-level array `array`.
     std::optional<std::uint64_t> reference(const Json& object, const std::string& where, const char* key,
                                            const char* array) const;
-    std::uint64_t needed_reference(const Json& object, const std::string& where, const char* key,
-                                   const char* array) const;
+    std::uint64_t required_reference(const Json& object, const std::string& where, const char* key,
+                                     const char* array) const;
     /// Same for a value at hand, e.g. an element of a list.
-    std::uint64_t reference_value(const Json& value, const std::string& where, const char* array) const;
+    std::uint64_t checked_index(const Json& value, const std::string& where, const char* array) const;
     /// An array (or nothing) under `key`.
     const Json& array(const Json& object, const std::string& where, const char* key) const;
     /// An object (or nothing) under `key`.
     const Json& object(const Json& parent, const std::string& where, const char* key) const;
     /// Array of exactly `size` numbers, if present.
-    void numbers(const Json& object, const std::string& where, const char* key, std::uint64_t size) const;
+    void check_number_array(const Json& object, const std::string& where, const char* key,
+                            std::uint64_t size) const;
 };
 
 /// Members and types of the whole document, asset.version, extensionsRequired, URIs.

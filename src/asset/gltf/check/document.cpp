@@ -14,7 +14,7 @@ constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "
                                          "scenes",    "skins",      "textures"};
 
 /// Required extensions that we read, or that only decorate what we pass through.
-constexpr std::array<std::string_view, 8> supported = {
+constexpr std::array<std::string_view, 8> supported_extensions = {
     "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",    "KHR_xmp_json_ld",
     "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp"};
 
@@ -30,32 +30,32 @@ bool starts_with(std::string_view text, std::string_view start) {
 void check_version(const GltfChecker& checker) {
     const Json& asset = checker.object(checker.document, "", "asset");
     if (asset.is_null()) checker.fail("/asset", "is missing");
-    const std::string version = string_of(asset, "version");
+    const std::string version = string_member(asset, "version");
     if (!starts_with(version, "2."))
         checker.fail_unsupported("/asset/version", "'" + version + "' is not supported, only 2.0 is");
-    const std::string minimum = string_of(asset, "minVersion");
+    const std::string minimum = string_member(asset, "minVersion");
     if (!minimum.empty() && minimum != "2.0")
         checker.fail_unsupported("/asset/minVersion", "'" + minimum + "' is not supported, only 2.0 is");
 }
 
 void check_extension_list(const GltfChecker& checker, const char* key) {
     for (const Json& name : checker.array(checker.document, "", key))
-        if (!name.is_string()) checker.fail(step("", key), "holds something that is not a string");
+        if (!name.is_string()) checker.fail(child_path("", key), "holds something that is not a string");
 }
 
 void check_required_extensions(const GltfChecker& checker) {
     const Json& required = member(checker.document, "extensionsRequired");
     for (std::uint64_t i = 0; i < required.size(); ++i) {
         const auto name = required[i].get<std::string>();
-        const std::string where = step("/extensionsRequired", i);
+        const std::string where = child_path("/extensionsRequired", i);
         if (name == draco_name || name == meshopt_name) {
-            if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder(name));
+            if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder_message(name));
             continue;
         }
         if (name == "KHR_texture_basisu")
             checker.fail_unsupported(
-                where, name + ": KTX2 images are not supported, only " + decodable_images() + " are");
-        if (!contains(supported, name) && !starts_with(name, "KHR_materials_"))
+                where, name + ": KTX2 images are not supported, only " + decodable_format_names() + " are");
+        if (!contains(supported_extensions, name) && !starts_with(name, "KHR_materials_"))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }
 }
@@ -64,12 +64,13 @@ void check_required_extensions(const GltfChecker& checker) {
 /// Recursion is bounded by max_json_depth.
 void check_extensions(const GltfChecker& checker, const Json& value, const std::string& where) {
     if (value.is_array())
-        for (std::uint64_t i = 0; i < value.size(); ++i) check_extensions(checker, value[i], step(where, i));
+        for (std::uint64_t i = 0; i < value.size(); ++i)
+            check_extensions(checker, value[i], child_path(where, i));
     if (!value.is_object()) return;
     for (const auto& [name, extension] : checker.object(value, where, "extensions").items())
         if (!extension.is_object()) checker.fail(where + "/extensions/" + name, "is not an object");
     for (const auto& [key, child] : value.items())
-        if (key != "extras") check_extensions(checker, child, step(where, key));
+        if (key != "extras") check_extensions(checker, child, child_path(where, key));
 }
 
 void check_image_lights(const GltfChecker& checker) {
@@ -77,10 +78,10 @@ void check_image_lights(const GltfChecker& checker) {
     const Json& extension = member(member(checker.document, "extensions"), "EXT_lights_image_based");
     const Json& lights = checker.array(extension, where, "lights");
     for (std::uint64_t i = 0; i < lights.size(); ++i) {
-        const std::string at = step(where + "/lights", i);
+        const std::string at = child_path(where + "/lights", i);
         for (const Json& mip : checker.array(lights[i], at, "specularImages")) {
             if (!mip.is_array()) checker.fail(at + "/specularImages", "holds something that is not an array");
-            for (const Json& image : mip) checker.reference_value(image, at + "/specularImages", "images");
+            for (const Json& image : mip) checker.checked_index(image, at + "/specularImages", "images");
         }
     }
 }
@@ -96,7 +97,7 @@ void check_document(const GltfChecker& checker) {
     for (const char* key : top_level_arrays) {
         const Json& array = checker.array(checker.document, "", key);
         for (std::uint64_t i = 0; i < array.size(); ++i)
-            if (!array[i].is_object()) checker.fail(step(step("", key), i), "is not an object");
+            if (!array[i].is_object()) checker.fail(child_path(child_path("", key), i), "is not an object");
     }
     check_extensions(checker, checker.document, "");
     check_image_lights(checker);

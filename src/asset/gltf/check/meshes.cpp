@@ -17,7 +17,7 @@ bool starts_with(std::string_view text, std::string_view start) {
 }
 
 /// The accessor type that an attribute must have; empty for attributes of an application's own.
-std::string_view needed_type(std::string_view attribute) {
+std::string_view required_type(std::string_view attribute) {
     if (attribute == "POSITION" || attribute == "NORMAL") return "VEC3";
     if (attribute == "TANGENT" || starts_with(attribute, "JOINTS_") || starts_with(attribute, "WEIGHTS_"))
         return "VEC4";
@@ -27,13 +27,13 @@ std::string_view needed_type(std::string_view attribute) {
 
 void check_attribute_format(const GltfChecker& checker, const std::string& where, const std::string& name,
                             const Json& accessor, bool in_target) {
-    const std::string type = string_of(accessor, "type");
-    const std::string_view wanted = in_target && name == "TANGENT" ? "VEC3" : needed_type(name);
+    const std::string type = string_member(accessor, "type");
+    const std::string_view wanted = in_target && name == "TANGENT" ? "VEC3" : required_type(name);
     if (!wanted.empty() && type != wanted)
         checker.fail(where, "is a " + type + ", " + name + " must be a " + std::string(wanted));
     if (starts_with(name, "COLOR_") && type != "VEC3" && type != "VEC4")
         checker.fail(where, "is a " + type + ", " + name + " must be a VEC3 or VEC4");
-    const auto component = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto component = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     const bool is_joints = starts_with(name, "JOINTS_");
     if (is_joints && component != ComponentType::u8 && component != ComponentType::u16)
         checker.fail(where, "joints must be unsigned bytes or shorts");
@@ -45,16 +45,16 @@ void check_attribute_format(const GltfChecker& checker, const std::string& where
 std::uint64_t check_attributes(const GltfChecker& checker, const Json& attributes, const std::string& where,
                                std::uint64_t count, bool in_target) {
     for (const auto& [name, value] : attributes.items()) {
-        const std::string at = step(where, name);
-        const std::uint64_t accessor = checker.reference_value(value, at, "accessors");
-        const Json& described = member(checker.document, "accessors")[accessor];
-        const std::uint64_t elements = number_of(described, "count", 0);
+        const std::string at = child_path(where, name);
+        const std::uint64_t accessor = checker.checked_index(value, at, "accessors");
+        const Json& accessor_json = member(checker.document, "accessors")[accessor];
+        const std::uint64_t elements = unsigned_member(accessor_json, "count", 0);
         if (name.empty()) checker.fail(at, "has no name");
         if (count != 0 && elements != count)
             checker.fail(at, "has " + std::to_string(elements) +
                                  " elements, other attributes of the primitive " + std::to_string(count));
         count = elements;
-        check_attribute_format(checker, at, name, described, in_target);
+        check_attribute_format(checker, at, name, accessor_json, in_target);
     }
     return count;
 }
@@ -63,11 +63,11 @@ void check_indices(const GltfChecker& checker, const Json& primitive, const std:
     const auto indices = checker.reference(primitive, where, "indices", "accessors");
     if (!indices) return;
     const Json& accessor = member(checker.document, "accessors")[*indices];
-    const auto component = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto component = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     const bool is_unsigned =
         component == ComponentType::u8 || component == ComponentType::u16 || component == ComponentType::u32;
-    if (string_of(accessor, "type") != "SCALAR" || !is_unsigned || member(accessor, "normalized") == true)
-        checker.fail(step(where, "indices"), "must be unsigned integers");
+    if (string_member(accessor, "type") != "SCALAR" || !is_unsigned || member(accessor, "normalized") == true)
+        checker.fail(child_path(where, "indices"), "must be unsigned integers");
 }
 
 void check_variants(const GltfChecker& checker, const Json& primitive, const std::string& where) {
@@ -75,22 +75,23 @@ void check_variants(const GltfChecker& checker, const Json& primitive, const std
     const std::string at = where + "/extensions/KHR_materials_variants";
     const Json& mappings = checker.array(variants, at, "mappings");
     for (std::uint64_t i = 0; i < mappings.size(); ++i)
-        checker.needed_reference(mappings[i], step(at + "/mappings", i), "material", "materials");
+        checker.required_reference(mappings[i], child_path(at + "/mappings", i), "material", "materials");
 }
 
 void check_primitive(const GltfChecker& checker, const Json& primitive, const std::string& where) {
     if (!primitive.is_object()) checker.fail(where, "is not an object");
     if (checker.number(primitive, where, "mode").value_or(4) > max_mode)
-        checker.fail(step(where, "mode"), "is no mode of glTF 2.0");
+        checker.fail(child_path(where, "mode"), "is no mode of glTF 2.0");
     checker.reference(primitive, where, "material", "materials");
     checker.object(primitive, where, "extensions");
     const Json& attributes = checker.object(primitive, where, "attributes");
     if (attributes.is_null()) checker.fail(where, "has no attributes");
-    const std::uint64_t count = check_attributes(checker, attributes, step(where, "attributes"), 0, false);
+    const std::uint64_t count =
+        check_attributes(checker, attributes, child_path(where, "attributes"), 0, false);
     check_indices(checker, primitive, where);
     const Json& targets = checker.array(primitive, where, "targets");
     for (std::uint64_t i = 0; i < targets.size(); ++i) {
-        const std::string at = step(step(where, "targets"), i);
+        const std::string at = child_path(child_path(where, "targets"), i);
         if (!targets[i].is_object()) checker.fail(at, "is not an object");
         check_attributes(checker, targets[i], at, count, true);
     }
@@ -102,14 +103,14 @@ void check_primitive(const GltfChecker& checker, const Json& primitive, const st
 
 void check_texture_info(const GltfChecker& checker, const Json& info, const std::string& where) {
     if (!info.is_object()) checker.fail(where, "is not an object");
-    checker.needed_reference(info, where, "index", "textures");
+    checker.required_reference(info, where, "index", "textures");
     const Json& transform = member(checker.object(info, where, "extensions"), "KHR_texture_transform");
     const std::string at = where + "/extensions/KHR_texture_transform";
-    checker.numbers(transform, at, "offset", 2);
-    checker.numbers(transform, at, "scale", 2);
+    checker.check_number_array(transform, at, "offset", 2);
+    checker.check_number_array(transform, at, "scale", 2);
     for (const Json* holder : {&info, &transform})
         if (checker.number(*holder, where, "texCoord").value_or(0) > max_uv_set)
-            checker.fail(step(where, "texCoord"), "is larger than " + std::to_string(max_uv_set));
+            checker.fail(child_path(where, "texCoord"), "is larger than " + std::to_string(max_uv_set));
 }
 
 bool is_core_texture(const std::string& key) {
@@ -119,13 +120,13 @@ bool is_core_texture(const std::string& key) {
 
 void check_material(const GltfChecker& checker, const Json& material, const std::string& where) {
     const Json& pbr = checker.object(material, where, "pbrMetallicRoughness");
-    checker.numbers(pbr, where + "/pbrMetallicRoughness", "baseColorFactor", 4);
-    checker.numbers(material, where, "emissiveFactor", 3);
+    checker.check_number_array(pbr, where + "/pbrMetallicRoughness", "baseColorFactor", 4);
+    checker.check_number_array(material, where, "emissiveFactor", 3);
     for (const Json* holder : {&material, &pbr}) {
         const std::string at = holder == &pbr ? where + "/pbrMetallicRoughness" : where;
         for (const auto& [key, value] : holder->items())
             if (is_core_texture(key) || is_texture_info(key, value))
-                check_texture_info(checker, value, step(at, key));
+                check_texture_info(checker, value, child_path(at, key));
     }
     for (const auto& [name, extension] : checker.object(material, where, "extensions").items())
         for (const auto& [key, value] : extension.items())
@@ -140,21 +141,22 @@ void check_texture(const GltfChecker& checker, const Json& texture, const std::s
     for (const auto& [name, extension] : extensions.items()) {
         const auto other = checker.reference(extension, where + "/extensions/" + name, "source", "images");
         if (other && !source && !(name == "EXT_texture_webp" && can_decode_image("image/webp")))
-            checker.fail_unsupported(
-                where, "its only image is in " + name + ", only " + decodable_images() + " are supported");
+            checker.fail_unsupported(where, "its only image is in " + name + ", only " +
+                                                decodable_format_names() + " are supported");
     }
 }
 
 void check_image(const GltfChecker& checker, const Json& image, const std::string& where) {
     const Json& uri = member(image, "uri");
-    if (!uri.is_null() && !uri.is_string()) checker.fail(step(where, "uri"), "is not a string");
+    if (!uri.is_null() && !uri.is_string()) checker.fail(child_path(where, "uri"), "is not a string");
     const auto view = checker.reference(image, where, "bufferView", "bufferViews");
     if (view.has_value() == uri.is_string()) checker.fail(where, "must have either a uri or a bufferView");
-    if (view &&
-        is_placeholder(member(checker.document,
-                              "buffers")[index_of(member(checker.document, "bufferViews")[*view], "buffer")]))
+    if (view && is_fallback_buffer(member(
+                    checker.document,
+                    "buffers")[index_member(member(checker.document, "bufferViews")[*view], "buffer")]))
         checker.fail(where, "lies in a buffer that has no bytes");
-    if (view && number_of(member(checker.document, "bufferViews")[*view], "byteLength", 0) > max_image_bytes)
+    if (view &&
+        unsigned_member(member(checker.document, "bufferViews")[*view], "byteLength", 0) > max_image_bytes)
         checker.fail_unsupported(where, "images of 2 GiB are not supported");
 }
 
@@ -164,7 +166,8 @@ void check_meshes_and_materials(const GltfChecker& checker) {
     const Json& document = checker.document;
     const auto each = [&](const char* key, auto check) {
         const Json& array = member(document, key);
-        for (std::uint64_t i = 0; i < array.size(); ++i) check(checker, array[i], step(step("", key), i));
+        for (std::uint64_t i = 0; i < array.size(); ++i)
+            check(checker, array[i], child_path(child_path("", key), i));
     };
     each("images", check_image);
     each("textures", check_texture);
@@ -172,7 +175,7 @@ void check_meshes_and_materials(const GltfChecker& checker) {
     each("meshes", [](const GltfChecker& c, const Json& mesh, const std::string& where) {
         const Json& primitives = c.array(mesh, where, "primitives");
         for (std::uint64_t i = 0; i < primitives.size(); ++i)
-            check_primitive(c, primitives[i], step(step(where, "primitives"), i));
+            check_primitive(c, primitives[i], child_path(child_path(where, "primitives"), i));
     });
 }
 

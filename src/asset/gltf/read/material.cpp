@@ -2,11 +2,11 @@
 #include <cmath>
 #include <map>
 
+#include "asset/formats/repair.hpp"
 #include "asset/gltf/read/read.hpp"
 #include "asset/image/image.hpp"
 #include "asset/known_textures.hpp"
 #include "asset/material_textures.hpp"
-#include "asset/formats/repair.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -30,9 +30,10 @@ Wrap wrap_of(int mode) {
 /// The plain image of a texture, else the WebP one.
 Index image_of(const SourceDocument& source, std::size_t index) {
     const Json& texture = source.document["textures"][index];
-    const Index plain = index_of(texture, "source");
-    return plain != no_index ? plain
-                             : index_of(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
+    const Index plain = index_member(texture, "source");
+    return plain != no_index
+               ? plain
+               : index_member(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
 }
 
 /// \tparam Info  one of tinygltf's three texture infos
@@ -127,21 +128,21 @@ Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
 }
 
 /// Numbers too large for a float become what they are where nothing is said. \return how many
-std::uint64_t reset_infinite(Material& material) {
-    const Material standard;
+std::uint64_t reset_non_finite(Material& material) {
+    const Material defaults;
     std::uint64_t count = 0;
     const auto reset = [&count](float& value, float fallback) {
         if (std::isfinite(value)) return;
         value = fallback;
         ++count;
     };
-    for (std::size_t i = 0; i < 4; ++i) reset(material.base_color[i], standard.base_color[i]);
-    for (std::size_t i = 0; i < 3; ++i) reset(material.emissive[i], standard.emissive[i]);
-    reset(material.metallic, standard.metallic);
-    reset(material.roughness, standard.roughness);
-    reset(material.normal_scale, standard.normal_scale);
-    reset(material.occlusion_strength, standard.occlusion_strength);
-    reset(material.alpha_cutoff, standard.alpha_cutoff);
+    for (std::size_t i = 0; i < 4; ++i) reset(material.base_color[i], defaults.base_color[i]);
+    for (std::size_t i = 0; i < 3; ++i) reset(material.emissive[i], defaults.emissive[i]);
+    reset(material.metallic, defaults.metallic);
+    reset(material.roughness, defaults.roughness);
+    reset(material.normal_scale, defaults.normal_scale);
+    reset(material.occlusion_strength, defaults.occlusion_strength);
+    reset(material.alpha_cutoff, defaults.alpha_cutoff);
     for (ExtensionTexture& texture : material.extension_textures) reset(texture.normal_scale, 1);
     for_each_texture(material, [&](TextureRef& ref) {
         for (std::size_t i = 0; i < 2; ++i) reset(ref.offset[i], 0), reset(ref.scale[i], 1);
@@ -157,12 +158,12 @@ std::vector<Material> read_materials(LoadedGltf& loaded) {
     for (const tinygltf::Material& from : loaded.model.materials) {
         Material material = read_material(loaded, from);
         material.source = static_cast<Index>(materials.size());
-        if (const std::uint64_t count = reset_infinite(material); count != 0)
-            loaded.warnings.push_back(step("/materials", materials.size()) + ": " + counted(count, "number") +
-                                      " too large for a float: reset");
+        if (const std::uint64_t count = reset_non_finite(material); count != 0)
+            loaded.warnings.push_back(child_path("/materials", materials.size()) + ": " +
+                                      pluralized(count, "number") + " too large for a float: reset");
         if (from.extensions.count("KHR_materials_pbrSpecularGlossiness") != 0)
             loaded.warnings.push_back(
-                step("/materials", materials.size()) +
+                child_path("/materials", materials.size()) +
                 ": KHR_materials_pbrSpecularGlossiness is passed through, but not understood");
         materials.push_back(std::move(material));
     }

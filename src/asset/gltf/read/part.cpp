@@ -17,7 +17,7 @@ using Attributes = std::map<std::string, int>;
 struct PartLayout {
     bool normals = false, tangents = false, colors = false, joints = false, target_normals = false;
     std::size_t uv_sets = 0, targets = 0;
-    std::set<std::string> left_out;
+    std::set<std::string> ignored_attributes;
 };
 
 /// Counts of values that were not finite.
@@ -27,11 +27,11 @@ struct Repairs {
 
 std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
 
-bool is_triangles(const tinygltf::Primitive& primitive) {
+bool is_triangle_primitive(const tinygltf::Primitive& primitive) {
     return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") != 0;
 }
 
-Index find(const Attributes& attributes, const std::string& name) {
+Index find_accessor(const Attributes& attributes, const std::string& name) {
     const auto found = attributes.find(name);
     return found == attributes.end() ? no_index : static_cast<Index>(found->second);
 }
@@ -40,7 +40,7 @@ PartLayout layout_of(const tinygltf::Mesh& mesh) {
     PartLayout layout;
     std::set<std::string> names, target_names;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
-        if (!is_triangles(primitive)) continue;
+        if (!is_triangle_primitive(primitive)) continue;
         for (const auto& [name, accessor] : primitive.attributes) names.insert(name);
         for (const Attributes& target : primitive.targets)
             for (const auto& [name, accessor] : target) target_names.insert(name);
@@ -58,8 +58,8 @@ PartLayout layout_of(const tinygltf::Mesh& mesh) {
         names.erase("WEIGHTS_0");
     }
     layout.target_normals = target_names.erase("NORMAL") != 0;
-    layout.left_out = std::move(names);
-    for (const std::string& name : target_names) layout.left_out.insert("morph target " + name);
+    layout.ignored_attributes = std::move(names);
+    for (const std::string& name : target_names) layout.ignored_attributes.insert("morph target " + name);
     return layout;
 }
 
@@ -85,7 +85,8 @@ std::uint64_t append(std::vector<std::array<float, N>>& out, const SourceDocumen
 
 void append_joints(Part& part, const SourceDocument& source, const Attributes& attributes, std::size_t count,
                    Repairs& repairs) {
-    const Index joints = find(attributes, "JOINTS_0"), weights = find(attributes, "WEIGHTS_0");
+    const Index joints = find_accessor(attributes, "JOINTS_0"),
+                weights = find_accessor(attributes, "WEIGHTS_0");
     if (joints == no_index || weights == no_index) {
         part.joints.resize(part.joints.size() + count);
         part.weights.resize(part.weights.size() + count);
@@ -108,24 +109,26 @@ std::uint64_t append_vertices(Part& part, const PartLayout& layout, const Source
                               const tinygltf::Primitive& primitive, Repairs& repairs) {
     const Attributes& from = primitive.attributes;
     const std::uint64_t first = part.positions.size();
-    const std::vector<Vec3> positions = read_vectors<double, 3>(source, find(from, "POSITION"));
+    const std::vector<Vec3> positions = read_vectors<double, 3>(source, find_accessor(from, "POSITION"));
     const std::size_t count = positions.size();
     part.positions.insert(part.positions.end(), positions.begin(), positions.end());
-    if (layout.normals) repairs.normals += append(part.normals, source, find(from, "NORMAL"), count, Vec3f{});
+    if (layout.normals)
+        repairs.normals += append(part.normals, source, find_accessor(from, "NORMAL"), count, Vec3f{});
     if (layout.tangents)
-        repairs.tangents += append(part.tangents, source, find(from, "TANGENT"), count, Vec4f{});
+        repairs.tangents += append(part.tangents, source, find_accessor(from, "TANGENT"), count, Vec4f{});
     for (std::size_t set = 0; set < layout.uv_sets; ++set)
-        repairs.uvs += append(part.uvs[set], source, find(from, uv_name(set)), count, Vec2f{});
+        repairs.uvs += append(part.uvs[set], source, find_accessor(from, uv_name(set)), count, Vec2f{});
     if (layout.colors)
-        repairs.colors += append(part.colors, source, find(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
+        repairs.colors +=
+            append(part.colors, source, find_accessor(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
     if (layout.joints) append_joints(part, source, from, count, repairs);
     for (std::size_t t = 0; t < layout.targets; ++t) {
         static const Attributes none;
         const Attributes& target = t < primitive.targets.size() ? primitive.targets[t] : none;
         MorphTarget& to = part.morph_targets[t];
-        repairs.targets += append(to.positions, source, find(target, "POSITION"), count, Vec3f{});
+        repairs.targets += append(to.positions, source, find_accessor(target, "POSITION"), count, Vec3f{});
         if (layout.target_normals)
-            repairs.targets += append(to.normals, source, find(target, "NORMAL"), count, Vec3f{});
+            repairs.targets += append(to.normals, source, find_accessor(target, "NORMAL"), count, Vec3f{});
     }
     return first;
 }
@@ -171,10 +174,10 @@ bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]
 /// Gives vertices whose position is not finite (their faces are gone) the first position that is.
 void repair_positions(Part& part, Repairs& repairs) {
     const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite);
-    const Vec3 harmless = finite == part.positions.end() ? Vec3{} : *finite;
+    const Vec3 replacement = finite == part.positions.end() ? Vec3{} : *finite;
     for (Vec3& position : part.positions)
         if (!is_finite(position)) {
-            position = harmless;
+            position = replacement;
             ++repairs.positions;
         }
 }
@@ -183,8 +186,8 @@ void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, con
     if (count != 0) loaded.warnings.push_back(where + ": " + std::to_string(count) + " " + what);
 }
 
-void report(LoadedGltf& loaded, const std::string& where, const Repairs& repairs, std::uint64_t dropped_faces,
-            std::uint64_t excess_corners, const PartLayout& layout) {
+void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& repairs,
+                  std::uint64_t dropped_faces, std::uint64_t excess_corners, const PartLayout& layout) {
     warn(loaded, where, dropped_faces, "faces with a position that is not finite were left out");
     warn(loaded, where, repairs.positions, "positions that are not finite were moved to another vertex");
     warn(loaded, where, repairs.normals, "normals that are not finite were reset");
@@ -195,7 +198,7 @@ void report(LoadedGltf& loaded, const std::string& where, const Repairs& repairs
     warn(loaded, where, repairs.targets, "morph target vectors that are not finite were reset");
     warn(loaded, where, excess_corners,
          "indices at the end of a triangle list make no triangle and were left out");
-    for (const std::string& name : layout.left_out)
+    for (const std::string& name : layout.ignored_attributes)
         loaded.warnings.push_back(where + ": the attribute " + name + " was left out");
 }
 
@@ -203,7 +206,7 @@ void report(LoadedGltf& loaded, const std::string& where, const Repairs& repairs
 
 Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_faces) {
     const tinygltf::Mesh& mesh = loaded.model.meshes[mesh_index];
-    const std::string where = step("/meshes", mesh_index);
+    const std::string where = child_path("/meshes", mesh_index);
     const PartLayout layout = layout_of(mesh);
     Part part;
     part.name = mesh.name;
@@ -216,8 +219,8 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     std::map<std::pair<Attributes, std::vector<Attributes>>, std::uint64_t> first_vertex;
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = mesh.primitives[p];
-        const std::string at = step(where + "/primitives", p);
-        if (!is_triangles(primitive)) {
+        const std::string at = child_path(where + "/primitives", p);
+        if (!is_triangle_primitive(primitive)) {
             if (primitive.mode >= TINYGLTF_MODE_TRIANGLES)
                 loaded.warnings.push_back(at + ": has no positions and was left out");
             continue;
@@ -228,7 +231,8 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         if (part.positions.size() >= no_index)
             throw InputError(loaded.file, where, "has more than 2^32 - 2 vertices");
         const Json& accessors = loaded.source->document["accessors"];
-        const std::uint64_t count = number_of(accessors[find(primitive.attributes, "POSITION")], "count", 0);
+        const std::uint64_t count =
+            unsigned_member(accessors[find_accessor(primitive.attributes, "POSITION")], "count", 0);
         const std::vector<Index> corners = corners_of(loaded, primitive, count, at);
         if (primitive.mode == TINYGLTF_MODE_TRIANGLES) excess += corners.size() % 3;
         const Index material = primitive.material < 0 ? no_index : static_cast<Index>(primitive.material);
@@ -244,7 +248,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         }
     }
     repair_positions(part, repairs);
-    report(loaded, where, repairs, dropped, excess, layout);
+    add_warnings(loaded, where, repairs, dropped, excess, layout);
     dropped_faces += dropped;
     return part;
 }

@@ -33,7 +33,7 @@ Index add_image(GltfWriter& writer, const Image& image, Json json) {
     return append(writer, "images", std::move(json));
 }
 
-Index asset_image(GltfWriter& writer, Index image) {
+Index write_asset_image(GltfWriter& writer, Index image) {
     if (writer.source_image_of[image] != no_index) return copy_image(writer, writer.source_image_of[image]);
     const auto [entry, is_new] = writer.asset_images.try_emplace(image, no_index);
     if (is_new) entry->second = add_image(writer, writer.asset.images[image], Json::object());
@@ -65,18 +65,18 @@ Index copy_texture(GltfWriter& writer, Index texture) {
     const auto [entry, is_new] = writer.source_textures.try_emplace(texture, no_index);
     if (!is_new) return entry->second;
     Json json = source_array(writer, "textures")[texture];
-    const auto copy_source = [&](Json& holder) {
-        const Index image = index_of(holder, "source");
+    const auto remap_image = [&](Json& holder) {
+        const Index image = index_member(holder, "source");
         if (image == no_index) return;
         if (writer.source.images[image].encoded.empty())
             holder.erase("source");
         else
             holder["source"] = copy_image(writer, image);
     };
-    copy_source(json);
+    remap_image(json);
     if (json.contains("extensions"))
-        for (Json& extension : json["extensions"]) copy_source(extension);
-    const Index sampler = index_of(json, "sampler");
+        for (Json& extension : json["extensions"]) remap_image(extension);
+    const Index sampler = index_member(json, "sampler");
     if (sampler != no_index) {
         const auto [copied, is_first] = writer.source_samplers.try_emplace(sampler, no_index);
         if (is_first) copied->second = append(writer, "samplers", source_array(writer, "samplers")[sampler]);
@@ -87,7 +87,7 @@ Index copy_texture(GltfWriter& writer, Index texture) {
 }
 
 Index make_texture(GltfWriter& writer, const TextureRef& ref) {
-    const Index image = asset_image(writer, ref.image);
+    const Index image = write_asset_image(writer, ref.image);
     const auto [entry, is_new] =
         writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
     if (is_new) {

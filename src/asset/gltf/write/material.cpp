@@ -10,91 +10,95 @@ namespace faqem::detail {
 namespace {
 
 template <std::size_t N>
-Json factors(const std::array<float, N>& values) {
+Json json_floats(const std::array<float, N>& values) {
     Json array = Json::array();
-    for (const float value : values) array.push_back(shortest(value));
+    for (const float value : values) array.push_back(shortest_decimal(value));
     return array;
 }
 
 /// Writes a member only where it changed, so that untouched numbers keep their digits.
 template <class T>
-void set_changed(Json& object, const char* key, const T& now, const T& was, const T& standard,
-                 const Json& value) {
-    if (now == was) return;
-    if (now == standard)
+void set_if_changed(Json& object, const char* key, const T& current, const T& original,
+                    const T& default_value, const Json& value) {
+    if (current == original) return;
+    if (current == default_value)
         object.erase(key);
     else
         object[key] = value;
 }
 
-bool same_use(const GltfWriter& writer, const TextureRef& now, const TextureRef& was) {
-    if (!now || !was) return false;
-    TextureRef in_source = now;
-    in_source.image = writer.source_image_of[now.image];
-    return in_source == was;
+bool is_same_reference(const GltfWriter& writer, const TextureRef& current, const TextureRef& original) {
+    if (!current || !original) return false;
+    TextureRef in_source = current;
+    in_source.image = writer.source_image_of[current.image];
+    return in_source == original;
 }
 
-Json fresh_texture_info(GltfWriter& writer, const TextureRef& ref) {
+Json make_texture_info(GltfWriter& writer, const TextureRef& ref) {
     Json info = {{"index", make_texture(writer, ref)}};
     if (ref.uv_set != 0) info["texCoord"] = ref.uv_set;
     Json transform = Json::object();
-    if (ref.offset != Vec2f{0, 0}) transform["offset"] = factors(ref.offset);
-    if (ref.scale != Vec2f{1, 1}) transform["scale"] = factors(ref.scale);
-    if (ref.rotation != 0) transform["rotation"] = shortest(ref.rotation);
+    if (ref.offset != Vec2f{0, 0}) transform["offset"] = json_floats(ref.offset);
+    if (ref.scale != Vec2f{1, 1}) transform["scale"] = json_floats(ref.scale);
+    if (ref.rotation != 0) transform["rotation"] = shortest_decimal(ref.rotation);
     if (!transform.empty()) info["extensions"]["KHR_texture_transform"] = std::move(transform);
     return info;
 }
 
 /// Puts the texture info under `key` right: kept where nothing changed, made anew or erased otherwise.
-void write_slot(GltfWriter& writer, Json& holder, const char* key, const TextureRef& now,
-                const TextureRef& was) {
-    if (!now) {
+void write_texture_info(GltfWriter& writer, Json& holder, const char* key, const TextureRef& current,
+                        const TextureRef& original) {
+    if (!current) {
         holder.erase(key);
-    } else if (same_use(writer, now, was)) {
-        holder[key]["index"] = copy_texture(writer, index_of(holder[key], "index"));
+    } else if (is_same_reference(writer, current, original)) {
+        holder[key]["index"] = copy_texture(writer, index_member(holder[key], "index"));
     } else {
-        holder[key] = fresh_texture_info(writer, now);
+        holder[key] = make_texture_info(writer, current);
     }
 }
 
 /// normalTexture.scale or occlusionTexture.strength.
-void write_slot_number(Json& holder, const char* key, const char* number, float now, float was) {
+void write_texture_factor(Json& holder, const char* key, const char* number, float current, float original) {
     const auto slot = holder.find(key);
-    if (slot == holder.end() || (now == was && slot->contains(number))) return;
-    if (now == 1)
+    if (slot == holder.end() || (current == original && slot->contains(number))) return;
+    if (current == 1)
         slot->erase(number);
     else
-        (*slot)[number] = shortest(now);
+        (*slot)[number] = shortest_decimal(current);
 }
 
-void write_metallic_roughness(GltfWriter& writer, Json& json, const Material& now, const Material& was) {
+void write_metallic_roughness(GltfWriter& writer, Json& json, const Material& current,
+                              const Material& original) {
     Json& pbr = json["pbrMetallicRoughness"];
     if (pbr.is_null()) pbr = Json::object();
-    set_changed(pbr, "baseColorFactor", now.base_color, was.base_color, Vec4f{1, 1, 1, 1},
-                factors(now.base_color));
-    set_changed(pbr, "metallicFactor", now.metallic, was.metallic, 1.0f, shortest(now.metallic));
-    set_changed(pbr, "roughnessFactor", now.roughness, was.roughness, 1.0f, shortest(now.roughness));
-    write_slot(writer, pbr, "baseColorTexture", now.base_color_texture, was.base_color_texture);
-    write_slot(writer, pbr, "metallicRoughnessTexture", now.metallic_roughness_texture,
-               was.metallic_roughness_texture);
+    set_if_changed(pbr, "baseColorFactor", current.base_color, original.base_color, Vec4f{1, 1, 1, 1},
+                   json_floats(current.base_color));
+    set_if_changed(pbr, "metallicFactor", current.metallic, original.metallic, 1.0f,
+                   shortest_decimal(current.metallic));
+    set_if_changed(pbr, "roughnessFactor", current.roughness, original.roughness, 1.0f,
+                   shortest_decimal(current.roughness));
+    write_texture_info(writer, pbr, "baseColorTexture", current.base_color_texture,
+                       original.base_color_texture);
+    write_texture_info(writer, pbr, "metallicRoughnessTexture", current.metallic_roughness_texture,
+                       original.metallic_roughness_texture);
     if (pbr.empty()) json.erase("pbrMetallicRoughness");
 }
 
-void write_alpha(Json& json, const Material& now, const Material& was) {
-    const char* mode = now.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
-    set_changed(json, "alphaMode", now.alpha_mode, was.alpha_mode, AlphaMode::opaque, mode);
+void write_alpha(Json& json, const Material& current, const Material& original) {
+    const char* mode = current.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
+    set_if_changed(json, "alphaMode", current.alpha_mode, original.alpha_mode, AlphaMode::opaque, mode);
     // Only valid with the mode MASK.
-    if (now.alpha_mode != AlphaMode::mask)
+    if (current.alpha_mode != AlphaMode::mask)
         json.erase("alphaCutoff");
     else
-        set_changed(json, "alphaCutoff", now.alpha_cutoff, was.alpha_cutoff, 0.5f,
-                    shortest(now.alpha_cutoff));
+        set_if_changed(json, "alphaCutoff", current.alpha_cutoff, original.alpha_cutoff, 0.5f,
+                       shortest_decimal(current.alpha_cutoff));
 }
 
 /// Texture infos in `holder`, but for those that are `known`: followed, or removed where the UVs are new.
 /// \return the names of those that were removed
-std::vector<std::string> write_other_textures(GltfWriter& writer, const Material& material, Json& holder,
-                                              std::initializer_list<std::string_view> known = {}) {
+std::vector<std::string> remap_or_remove_textures(GltfWriter& writer, const Material& material, Json& holder,
+                                                  std::initializer_list<std::string_view> known = {}) {
     std::vector<std::string> infos;
     for (const auto& [key, value] : holder.items()) {
         if (is_texture_info(key, value) && std::find(known.begin(), known.end(), key) == known.end())
@@ -104,14 +108,14 @@ std::vector<std::string> write_other_textures(GltfWriter& writer, const Material
         if (material.rebaked)
             holder.erase(key);
         else
-            holder[key]["index"] = copy_texture(writer, index_of(holder[key], "index"));
+            holder[key]["index"] = copy_texture(writer, index_member(holder[key], "index"));
     }
     return material.rebaked ? infos : std::vector<std::string>();
 }
 
 /// \param part  of it that is meant: `textures`
-void warn_of_removed(GltfWriter& writer, const Material& material, const std::string& what,
-                     const std::string& part) {
+void warn_about_removed(GltfWriter& writer, const Material& material, const std::string& what,
+                        const std::string& part) {
     writer.warnings.push_back("material '" + material.name + "': the " + part + " of " + what +
                               " do not fit the new texture coordinates and were left out");
 }
@@ -125,62 +129,63 @@ const ExtensionTexture* find_texture(const Material& material, const std::string
 
 /// Texture infos of the source's extension that the material does not have any more: erased. What was there in
 /// places must not be everywhere, so the factor of such a texture goes too. \return how many
-std::size_t erase_textures(const Material& now, const Material& was, const std::string& name,
+std::size_t erase_textures(const Material& current, const Material& original, const std::string& name,
                            Json& extension) {
-    std::vector<std::string> gone;
+    std::vector<std::string> removed;
     for (const auto& [key, value] : extension.items()) {
-        if (!is_texture_info(key, value) || find_texture(now, name, key)) continue;
-        if (now.rebaked || find_texture(was, name, key)) gone.push_back(key);
+        if (!is_texture_info(key, value) || find_texture(current, name, key)) continue;
+        if (current.rebaked || find_texture(original, name, key)) removed.push_back(key);
     }
-    for (const std::string& key : gone) {
+    for (const std::string& key : removed) {
         extension.erase(key);
         const KnownTexture* known = find_known_texture(name, key);
-        if (known && !known->switch_factor.empty()) extension.erase(std::string(known->switch_factor));
+        if (known && !known->enabling_factor.empty()) extension.erase(std::string(known->enabling_factor));
     }
-    return gone.size();
+    return removed.size();
 }
 
 /// The textures of the source's extension that are not the material's are followed.
-void follow_textures(GltfWriter& writer, const Material& now, const std::string& name, Json& extension) {
+void remap_textures(GltfWriter& writer, const Material& current, const std::string& name, Json& extension) {
     for (auto& [key, value] : extension.items()) {
-        if (is_texture_info(key, value) && !find_texture(now, name, key))
-            value["index"] = copy_texture(writer, index_of(value, "index"));
+        if (is_texture_info(key, value) && !find_texture(current, name, key))
+            value["index"] = copy_texture(writer, index_member(value, "index"));
     }
 }
 
 /// Its directions are those of the texture coordinates, with or without a texture.
 constexpr const char* anisotropy = "KHR_materials_anisotropy";
 
-void write_extensions(GltfWriter& writer, const Material& now, const Material& was, Json& json) {
+void write_extensions(GltfWriter& writer, const Material& current, const Material& original, Json& json) {
     static const ExtensionTexture none;
-    if (now.rebaked && json.contains("extensions") && json["extensions"].erase(anisotropy) != 0)
-        warn_of_removed(writer, now, anisotropy, "directions");
+    if (current.rebaked && json.contains("extensions") && json["extensions"].erase(anisotropy) != 0)
+        warn_about_removed(writer, current, anisotropy, "directions");
     if (json.contains("extensions")) {
         for (auto& [name, extension] : json["extensions"].items()) {
-            if (erase_textures(now, was, name, extension) != 0)
-                warn_of_removed(writer, now, name, "textures");
-            follow_textures(writer, now, name, extension);
+            if (erase_textures(current, original, name, extension) != 0)
+                warn_about_removed(writer, current, name, "textures");
+            remap_textures(writer, current, name, extension);
         }
     }
-    for (const ExtensionTexture& texture : now.extension_textures) {
-        const ExtensionTexture* before = find_texture(was, texture.extension, texture.name);
+    for (const ExtensionTexture& texture : current.extension_textures) {
+        const ExtensionTexture* before = find_texture(original, texture.extension, texture.name);
         Json& extension = json["extensions"][texture.extension];
         const ExtensionTexture& old = before ? *before : none;
-        write_slot(writer, extension, texture.name.c_str(), texture.texture, old.texture);
-        write_slot_number(extension, texture.name.c_str(), "scale", texture.normal_scale, old.normal_scale);
+        write_texture_info(writer, extension, texture.name.c_str(), texture.texture, old.texture);
+        write_texture_factor(extension, texture.name.c_str(), "scale", texture.normal_scale,
+                             old.normal_scale);
     }
 }
 
 /// Textures of members that glTF does not have.
-void write_foreign_textures(GltfWriter& writer, const Material& material, Json& json) {
-    std::vector<std::string> removed = write_other_textures(
+void write_unknown_textures(GltfWriter& writer, const Material& material, Json& json) {
+    std::vector<std::string> removed = remap_or_remove_textures(
         writer, material, json, {"normalTexture", "occlusionTexture", "emissiveTexture"});
     if (json.contains("pbrMetallicRoughness")) {
-        const std::vector<std::string> more = write_other_textures(
+        const std::vector<std::string> more = remap_or_remove_textures(
             writer, material, json["pbrMetallicRoughness"], {"baseColorTexture", "metallicRoughnessTexture"});
         removed.insert(removed.end(), more.begin(), more.end());
     }
-    for (const std::string& name : removed) warn_of_removed(writer, material, name, "textures");
+    for (const std::string& name : removed) warn_about_removed(writer, material, name, "textures");
 }
 
 void write_unlit(Json& json, bool unlit) {
@@ -193,24 +198,26 @@ void write_unlit(Json& json, bool unlit) {
 
 Json material_json(GltfWriter& writer, const Material& material) {
     const bool has_source = material.source < writer.source.materials.size();
-    static const Material standard;
-    const Material& was = has_source ? writer.source.materials[material.source] : standard;
+    static const Material default_value;
+    const Material& original = has_source ? writer.source.materials[material.source] : default_value;
     Json json = has_source ? source_array(writer, "materials")[material.source] : Json::object();
 
-    if (material.name != was.name) json["name"] = material.name;
-    write_metallic_roughness(writer, json, material, was);
-    write_slot(writer, json, "normalTexture", material.normal_texture, was.normal_texture);
-    write_slot_number(json, "normalTexture", "scale", material.normal_scale, was.normal_scale);
-    write_slot(writer, json, "occlusionTexture", material.occlusion_texture, was.occlusion_texture);
-    write_slot_number(json, "occlusionTexture", "strength", material.occlusion_strength,
-                      was.occlusion_strength);
-    write_slot(writer, json, "emissiveTexture", material.emissive_texture, was.emissive_texture);
-    set_changed(json, "emissiveFactor", material.emissive, was.emissive, Vec3f{0, 0, 0},
-                factors(material.emissive));
-    write_alpha(json, material, was);
-    set_changed(json, "doubleSided", material.double_sided, was.double_sided, false, material.double_sided);
-    write_foreign_textures(writer, material, json);
-    write_extensions(writer, material, was, json);
+    if (material.name != original.name) json["name"] = material.name;
+    write_metallic_roughness(writer, json, material, original);
+    write_texture_info(writer, json, "normalTexture", material.normal_texture, original.normal_texture);
+    write_texture_factor(json, "normalTexture", "scale", material.normal_scale, original.normal_scale);
+    write_texture_info(writer, json, "occlusionTexture", material.occlusion_texture,
+                       original.occlusion_texture);
+    write_texture_factor(json, "occlusionTexture", "strength", material.occlusion_strength,
+                         original.occlusion_strength);
+    write_texture_info(writer, json, "emissiveTexture", material.emissive_texture, original.emissive_texture);
+    set_if_changed(json, "emissiveFactor", material.emissive, original.emissive, Vec3f{0, 0, 0},
+                   json_floats(material.emissive));
+    write_alpha(json, material, original);
+    set_if_changed(json, "doubleSided", material.double_sided, original.double_sided, false,
+                   material.double_sided);
+    write_unknown_textures(writer, material, json);
+    write_extensions(writer, material, original, json);
     write_unlit(json, material.unlit);
     return json;
 }
@@ -235,10 +242,11 @@ Index write_source_material(GltfWriter& writer, Index material) {
     for (Json* holder :
          {&json, json.contains("pbrMetallicRoughness") ? &json["pbrMetallicRoughness"] : &json})
         for (auto& [key, value] : holder->items())
-            if (is_texture_info(key, value)) value["index"] = copy_texture(writer, index_of(value, "index"));
+            if (is_texture_info(key, value))
+                value["index"] = copy_texture(writer, index_member(value, "index"));
     if (json.contains("extensions")) {
         for (auto& [name, extension] : json["extensions"].items())
-            follow_textures(writer, {}, name, extension);
+            remap_textures(writer, {}, name, extension);
     }
     entry->second = append(writer, "materials", std::move(json));
     return entry->second;

@@ -13,35 +13,38 @@ constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants = "KHR_materials_variants";
 
 /// Primitive extensions that describe the vertices of the source, which are not there any more.
-constexpr std::array<std::string_view, 3> bound_to_vertices = {
+constexpr std::array<std::string_view, 3> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata"};
 
-bool is_triangles(const Json& primitive) { return number_of(primitive, "mode", 4) >= first_triangle_mode; }
+bool is_triangle_primitive(const Json& primitive) {
+    return unsigned_member(primitive, "mode", 4) >= first_triangle_mode;
+}
 
 void warn_mesh(GltfWriter& writer, const std::string& name, const std::string& what) {
     writer.warnings.push_back("mesh '" + name + "': " + what);
 }
 
-void follow_variants(GltfWriter& writer, Json& primitive) {
+void remap_variants(GltfWriter& writer, Json& primitive) {
     if (!member(member(primitive, "extensions"), variants).contains("mappings")) return;
     for (Json& mapping : primitive["extensions"][variants]["mappings"])
-        mapping["material"] = write_source_material(writer, index_of(mapping, "material"));
+        mapping["material"] = write_source_material(writer, index_member(mapping, "material"));
 }
 
 /// The source primitives that a part's primitive with this material is made of.
-std::vector<const Json*> origins(const GltfWriter& writer, const Part& part, const Material* material) {
+std::vector<const Json*> source_primitives(const GltfWriter& writer, const Part& part,
+                                           const Material* material) {
     std::vector<const Json*> found;
     if (part.source >= array_size(writer.source.document, "meshes")) return found;
     const bool any = material && (material->rebaked || material->source == no_index);
     const Index wanted = material ? material->source : no_index;
     for (const Json& primitive : member(source_array(writer, "meshes")[part.source], "primitives"))
-        if (is_triangles(primitive) && (any || index_of(primitive, "material") == wanted))
+        if (is_triangle_primitive(primitive) && (any || index_member(primitive, "material") == wanted))
             found.push_back(&primitive);
     return found;
 }
 
 /// object[key] of all primitives if they agree, else null.
-Json agreed(const std::vector<const Json*>& primitives, const char* key) {
+Json common_member(const std::vector<const Json*>& primitives, const char* key) {
     const Json& first = member(*primitives.front(), key);
     for (const Json* primitive : primitives)
         if (member(*primitive, key) != first) return nullptr;
@@ -54,44 +57,45 @@ bool any_has(const std::vector<const Json*>& primitives, const char* key) {
 
 /// Accessor types that only KHR_mesh_quantization allows.
 bool is_quantized(const std::string& attribute, const Json& accessor) {
-    const auto type = static_cast<ComponentType>(number_of(accessor, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     if (type == ComponentType::f32) return false;
     if (attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT") return true;
-    const bool unsigned_fraction =
+    const bool is_unsigned_normalized =
         member(accessor, "normalized") == true && (type == ComponentType::u8 || type == ComponentType::u16);
-    return attribute.compare(0, 9, "TEXCOORD_") == 0 && !unsigned_fraction;
+    return attribute.compare(0, 9, "TEXCOORD_") == 0 && !is_unsigned_normalized;
 }
 
 void copy_attributes(GltfWriter& writer, Json& attributes) {
     for (auto& [name, accessor] : attributes.items()) {
         if (is_quantized(name, source_array(writer, "accessors")[accessor.get<Index>()]))
-            writer.keeps_quantized = true;
+            writer.needs_quantization = true;
         accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::vertices);
     }
 }
 
 /// Points and lines as they were.
-Json kept_primitive(GltfWriter& writer, const Json& source, const std::string& mesh) {
+Json copy_primitive(GltfWriter& writer, const Json& source, const std::string& mesh) {
     Json primitive = source;
     copy_attributes(writer, primitive["attributes"]);
     if (primitive.contains("targets"))
         for (Json& target : primitive["targets"]) copy_attributes(writer, target);
     if (primitive.contains("indices"))
-        primitive["indices"] = copy_accessor(writer, index_of(primitive, "indices"), AccessorUse::indices);
+        primitive["indices"] =
+            copy_accessor(writer, index_member(primitive, "indices"), AccessorUse::indices);
     if (primitive.contains("material"))
-        primitive["material"] = write_source_material(writer, index_of(primitive, "material"));
+        primitive["material"] = write_source_material(writer, index_member(primitive, "material"));
     if (primitive.contains("extensions")) {
-        for (const std::string_view name : bound_to_vertices)
+        for (const std::string_view name : vertex_extensions)
             if (primitive["extensions"].erase(std::string(name)) != 0)
                 warn_mesh(writer, mesh, std::string(name) + " of points or lines was left out");
         if (primitive["extensions"].empty()) primitive.erase("extensions");
     }
-    follow_variants(writer, primitive);
+    remap_variants(writer, primitive);
     return primitive;
 }
 
 /// Marks the asset materials that came from a source material.
-void mark_origin(const GltfWriter& writer, Index source, std::vector<char>& used) {
+void mark_materials_of(const GltfWriter& writer, Index source, std::vector<char>& used) {
     for (std::size_t i = 0; i < used.size(); ++i)
         if (writer.asset.materials[i].source == source && !writer.asset.materials[i].rebaked) used[i] = 1;
 }
@@ -109,13 +113,13 @@ void write_used_materials(GltfWriter& writer) {
             for (const Json& primitive : member(mesh, "primitives"))
                 for (const Json& mapping :
                      member(member(member(primitive, "extensions"), variants), "mappings"))
-                    mark_origin(writer, index_of(mapping, "material"), used);
+                    mark_materials_of(writer, index_member(mapping, "material"), used);
     for (Index i = 0; i < used.size(); ++i)
         if (used[i]) write_material(writer, i);
 }
 
 /// Weights and names of morph targets must match their number.
-void fit_morph_targets(Json& mesh, std::uint64_t targets) {
+void update_morph_targets(Json& mesh, std::uint64_t targets) {
     if (array_size(mesh, "weights") != targets) mesh.erase("weights");
     if (targets == 0 && member(mesh, "extras").is_object()) {
         mesh["extras"].erase("targetNames");
@@ -134,17 +138,17 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         targets = std::max<std::uint64_t>(targets, part->morph_targets.size());
         if (!part->name.empty()) mesh["name"] = part->name;
     }
-    const std::string name = string_of(mesh, "name");
+    const std::string name = string_member(mesh, "name");
     for (const Json& primitive : member(source, "primitives")) {
-        if (is_triangles(primitive)) continue;
-        primitives.push_back(kept_primitive(writer, primitive, name));
+        if (is_triangle_primitive(primitive)) continue;
+        primitives.push_back(copy_primitive(writer, primitive, name));
         targets = std::max(targets, array_size(primitive, "targets"));
     }
     if (primitives.empty()) {
         warn_mesh(writer, name, "has nothing left and was left out");
         return no_index;
     }
-    fit_morph_targets(mesh, targets);
+    update_morph_targets(mesh, targets);
     mesh["primitives"] = std::move(primitives);
     return append(writer, "meshes", std::move(mesh));
 }
@@ -153,30 +157,30 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
 
 Json primitive_base(GltfWriter& writer, const Part& part, Index material_index) {
     const Material* material = material_index == no_index ? nullptr : &writer.asset.materials[material_index];
-    const std::vector<const Json*> from = origins(writer, part, material);
+    const std::vector<const Json*> from = source_primitives(writer, part, material);
     Json base = Json::object();
     if (from.empty()) return base;
     if (any_has(from, "extras")) {
-        base["extras"] = agreed(from, "extras");
+        base["extras"] = common_member(from, "extras");
         if (base["extras"].is_null()) {
             base.erase("extras");
             warn_mesh(writer, part.name, "extras of primitives that were joined differ and were left out");
         }
     }
     if (!any_has(from, "extensions")) return base;
-    Json extensions = agreed(from, "extensions");
+    Json extensions = common_member(from, "extensions");
     if (extensions.is_null()) {
         warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
         return base;
     }
-    for (const std::string_view name : bound_to_vertices)
+    for (const std::string_view name : vertex_extensions)
         if (extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
                       std::string(name) + " does not fit the new vertices and was left out");
     if (material && material->rebaked && extensions.erase(variants) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new texture and were left out");
     if (!extensions.empty()) base["extensions"] = std::move(extensions);
-    follow_variants(writer, base);
+    remap_variants(writer, base);
     return base;
 }
 

@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
+#include "asset/formats/repair.hpp"
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/attributes.hpp"
 #include "asset/gltf/write/writer.hpp"
-#include "asset/formats/repair.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -16,7 +16,7 @@ std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-Json described(ComponentType component, const char* type, std::size_t count) {
+Json accessor_description(ComponentType component, const char* type, std::size_t count) {
     return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
 }
 
@@ -42,7 +42,7 @@ Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& v
 }
 
 Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values) {
-    Json description = described(ComponentType::f32, "VEC3", values.size());
+    Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
     add_bounds(description, values);
     return add_vertices(writer, std::move(description), values);
 }
@@ -52,47 +52,50 @@ Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
     const bool in_range = std::all_of(colors.begin(), colors.end(), [](const Vec4f& color) {
         return std::all_of(color.begin(), color.end(), [](float x) { return x >= 0 && x <= 1; });
     });
-    if (!in_range) return add_vertices(writer, described(ComponentType::f32, "VEC4", colors.size()), colors);
+    if (!in_range)
+        return add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", colors.size()), colors);
     std::vector<std::array<std::uint16_t, 4>> integers(colors.size());
     for (std::size_t i = 0; i < colors.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
             integers[i][c] = static_cast<std::uint16_t>(std::lround(colors[i][c] * 65535.0));
-    Json description = described(ComponentType::u16, "VEC4", integers.size());
+    Json description = accessor_description(ComponentType::u16, "VEC4", integers.size());
     description["normalized"] = true;
     return add_vertices(writer, std::move(description), integers);
 }
 
 Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t, 4>>& joints) {
-    const bool small = std::all_of(joints.begin(), joints.end(), [](const auto& four) {
+    const bool fits_u8 = std::all_of(joints.begin(), joints.end(), [](const auto& four) {
         return std::all_of(four.begin(), four.end(), [](std::uint16_t joint) { return joint < 256; });
     });
-    if (!small) return add_vertices(writer, described(ComponentType::u16, "VEC4", joints.size()), joints);
+    if (!fits_u8)
+        return add_vertices(writer, accessor_description(ComponentType::u16, "VEC4", joints.size()), joints);
     std::vector<std::array<std::uint8_t, 4>> bytes(joints.size());
     for (std::size_t i = 0; i < joints.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c) bytes[i][c] = static_cast<std::uint8_t>(joints[i][c]);
-    return add_vertices(writer, described(ComponentType::u8, "VEC4", bytes.size()), bytes);
+    return add_vertices(writer, accessor_description(ComponentType::u8, "VEC4", bytes.size()), bytes);
 }
 
 /// Indices in 16 bits where they fit; 65535 itself would restart a strip.
 Index add_indices(GltfWriter& writer, const PrimitiveData& data) {
     if (data.vertices.size() > 65535)
-        return writer.binary.add_accessor(described(ComponentType::u32, "SCALAR", data.corners.size()),
-                                          bytes_of(data.corners), AccessorUse::indices);
-    const std::vector<std::uint16_t> small(data.corners.begin(), data.corners.end());
-    return writer.binary.add_accessor(described(ComponentType::u16, "SCALAR", small.size()), bytes_of(small),
-                                      AccessorUse::indices);
+        return writer.binary.add_accessor(
+            accessor_description(ComponentType::u32, "SCALAR", data.corners.size()), bytes_of(data.corners),
+            AccessorUse::indices);
+    const std::vector<std::uint16_t> indices(data.corners.begin(), data.corners.end());
+    return writer.binary.add_accessor(accessor_description(ComponentType::u16, "SCALAR", indices.size()),
+                                      bytes_of(indices), AccessorUse::indices);
 }
 
 /// Morph target vectors; all zero ones need no bytes.
 Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bool with_bounds) {
-    Json description = described(ComponentType::f32, "VEC3", values.size());
+    Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
     if (with_bounds) add_bounds(description, values);
     if (std::all_of(values.begin(), values.end(), [](const Vec3f& v) { return v == Vec3f{}; }))
         return writer.binary.add_accessor(std::move(description), {}, AccessorUse::vertices);
     return add_vertices(writer, std::move(description), values);
 }
 
-Json morph_targets(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
+Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
     Json targets = Json::array();
     for (const MorphTarget& target : part.morph_targets) {
         Json json = Json::object();
@@ -107,20 +110,24 @@ Json morph_targets(GltfWriter& writer, const Part& part, const PrimitiveData& da
     return targets;
 }
 
-Json attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
+Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
     const std::size_t count = data.vertices.size();
     Json json = {{"POSITION", add_positions(writer, data.positions)}};
     if (!data.normals.empty())
-        json["NORMAL"] = add_vertices(writer, described(ComponentType::f32, "VEC3", count), data.normals);
+        json["NORMAL"] =
+            add_vertices(writer, accessor_description(ComponentType::f32, "VEC3", count), data.normals);
     if (!data.tangents.empty())
-        json["TANGENT"] = add_vertices(writer, described(ComponentType::f32, "VEC4", count), data.tangents);
+        json["TANGENT"] =
+            add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count), data.tangents);
     for (std::size_t set = 0; set < part.uvs.size(); ++set)
-        json["TEXCOORD_" + std::to_string(set)] = add_vertices(
-            writer, described(ComponentType::f32, "VEC2", count), gather(part.uvs[set], data.vertices));
+        json["TEXCOORD_" + std::to_string(set)] =
+            add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", count),
+                         gather(part.uvs[set], data.vertices));
     if (!data.colors.empty()) json["COLOR_0"] = add_colors(writer, data.colors);
     if (!data.joints.empty()) {
         json["JOINTS_0"] = add_joints(writer, data.joints);
-        json["WEIGHTS_0"] = add_vertices(writer, described(ComponentType::f32, "VEC4", count), data.weights);
+        json["WEIGHTS_0"] =
+            add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count), data.weights);
     }
     return json;
 }
@@ -142,20 +149,20 @@ std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& 
 
 void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
     std::vector<Index> scratch(part.positions.size(), no_index);
-    std::size_t closed = 0;
+    std::size_t degenerate_faces = 0;
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
-        closed += data.closed;
+        degenerate_faces += data.degenerate_faces;
         Json primitive = primitive_base(writer, part, material);
-        primitive["attributes"] = attributes(writer, part, data);
+        primitive["attributes"] = write_attributes(writer, part, data);
         primitive["indices"] = add_indices(writer, data);
-        if (!part.morph_targets.empty()) primitive["targets"] = morph_targets(writer, part, data);
+        if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data);
         if (material != no_index) primitive["material"] = write_material(writer, material);
         primitives.push_back(std::move(primitive));
     }
-    if (closed > 0)
+    if (degenerate_faces > 0)
         writer.warnings.push_back("part '" + part.name + "': glTF holds positions as floats; " +
-                                  counted(closed, "face") + " closed up");
+                                  pluralized(degenerate_faces, "face") + " closed up");
 }
 
 }  // namespace faqem::detail

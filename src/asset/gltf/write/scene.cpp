@@ -13,13 +13,13 @@ namespace faqem::detail {
 namespace {
 
 /// Extensions whose references to other objects we follow, or that have none.
-constexpr std::array<std::string_view, 7> followed = {"EXT_mesh_gpu_instancing", "EXT_lights_image_based",
-                                                      "EXT_texture_webp",        "EXT_lights_ies",
-                                                      "MSFT_texture_dds",        "MSFT_lod",
-                                                      "EXT_mesh_manifold"};
+constexpr std::array<std::string_view, 7> remapped_extensions = {
+    "EXT_mesh_gpu_instancing", "EXT_lights_image_based", "EXT_texture_webp",
+    "EXT_lights_ies",          "MSFT_texture_dds",       "MSFT_lod",
+    "EXT_mesh_manifold"};
 
-Index first_targets(const GltfWriter& writer, const Json& node) {
-    const Index mesh = index_of(node, "mesh");
+Index morph_target_count(const GltfWriter& writer, const Json& node) {
+    const Index mesh = index_member(node, "mesh");
     if (mesh == no_index) return 0;
     Index targets = 0;
     for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])
@@ -39,15 +39,15 @@ bool was_skinned(const GltfWriter& writer, Index mesh) {
     return false;
 }
 
-void follow_instancing(GltfWriter& writer, Json& node) {
+void remap_instancing(GltfWriter& writer, Json& node) {
     if (!member(member(node, "extensions"), "EXT_mesh_gpu_instancing").contains("attributes")) return;
     for (Json& accessor : node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"])
         accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
 }
 
-void fit_node(GltfWriter& writer, Json& node) {
-    follow_instancing(writer, node);
-    const Index source_mesh = index_of(node, "mesh");
+void update_node(GltfWriter& writer, Json& node) {
+    remap_instancing(writer, node);
+    const Index source_mesh = index_member(node, "mesh");
     if (source_mesh == no_index) return;
     const Index mesh = writer.mesh_map[source_mesh];
     if (mesh == no_index) {
@@ -57,10 +57,10 @@ void fit_node(GltfWriter& writer, Json& node) {
     node["mesh"] = mesh;
     if (node.contains("skin") && was_skinned(writer, source_mesh) && !is_skinned(writer, mesh)) {
         node.erase("skin");
-        writer.warnings.push_back("node '" + string_of(node, "name") +
+        writer.warnings.push_back("node '" + string_member(node, "name") +
                                   "': its mesh has no joints any more; the skin was left out");
     }
-    if (node.contains("weights") && array_size(node, "weights") != first_targets(writer, node))
+    if (node.contains("weights") && array_size(node, "weights") != morph_target_count(writer, node))
         node.erase("weights");
 }
 
@@ -80,12 +80,12 @@ void add_nodes(GltfWriter& writer, const std::vector<Index>& new_meshes) {
         writer.out["scenes"] = Json::array({{{"nodes", roots}}});
         return;
     }
-    Json& nodes = writer.out["scenes"][number_of(writer.out, "scene", 0)]["nodes"];
+    Json& nodes = writer.out["scenes"][unsigned_member(writer.out, "scene", 0)]["nodes"];
     for (const Json& root : roots) nodes.push_back(root);
 }
 
 /// Puts a new index into a pointer like /materials/3/emissiveFactor. \return false if the object is gone
-bool follow_pointer(GltfWriter& writer, std::string& pointer) {
+bool remap_pointer(GltfWriter& writer, std::string& pointer) {
     const bool is_material = pointer.compare(0, 11, "/materials/") == 0;
     const bool is_mesh = pointer.compare(0, 8, "/meshes/") == 0;
     if (!is_material && !is_mesh) return true;
@@ -93,43 +93,43 @@ bool follow_pointer(GltfWriter& writer, std::string& pointer) {
     const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
     Index index = no_index;
     std::from_chars(pointer.data() + begin, pointer.data() + end, index);
-    Index now = no_index;
+    Index new_index = no_index;
     if (is_mesh) {
-        if (index < writer.mesh_map.size()) now = writer.mesh_map[index];
+        if (index < writer.mesh_map.size()) new_index = writer.mesh_map[index];
     } else {
         for (const auto& [material, written] : writer.asset_materials)
             if (writer.asset.materials[material].source == index && !writer.asset.materials[material].rebaked)
-                now = written;
+                new_index = written;
         const auto copied = writer.source_materials.find(index);
-        if (copied != writer.source_materials.end()) now = copied->second;
+        if (copied != writer.source_materials.end()) new_index = copied->second;
     }
-    if (now == no_index) return false;
-    pointer.replace(begin, end - begin, std::to_string(now));
+    if (new_index == no_index) return false;
+    pointer.replace(begin, end - begin, std::to_string(new_index));
     return true;
 }
 
-bool fit_channel(GltfWriter& writer, Json& channel) {
+bool update_channel(GltfWriter& writer, Json& channel) {
     Json& target = channel["target"];
-    const Index node = index_of(target, "node");
-    if (string_of(target, "path") == "weights" && node != no_index &&
-        first_targets(writer, writer.out["nodes"][node]) == 0)
+    const Index node = index_member(target, "node");
+    if (string_member(target, "path") == "weights" && node != no_index &&
+        morph_target_count(writer, writer.out["nodes"][node]) == 0)
         return false;
     const Json& pointer = member(member(target, "extensions"), "KHR_animation_pointer");
     if (!pointer.contains("pointer")) return true;
-    std::string text = string_of(pointer, "pointer");
-    const bool followed_it = follow_pointer(writer, text);
+    std::string text = string_member(pointer, "pointer");
+    const bool is_remapped = remap_pointer(writer, text);
     target["extensions"]["KHR_animation_pointer"]["pointer"] = text;
-    return followed_it;
+    return is_remapped;
 }
 
-void fit_animations(GltfWriter& writer) {
+void update_animations(GltfWriter& writer) {
     if (!writer.out.contains("animations")) return;
     Json kept = Json::array();
     for (Json& animation : writer.out["animations"]) {
-        const std::string name = string_of(animation, "name");
+        const std::string name = string_member(animation, "name");
         Json channels = Json::array();
         for (Json& channel : animation["channels"])
-            if (fit_channel(writer, channel))
+            if (update_channel(writer, channel))
                 channels.push_back(std::move(channel));
             else
                 writer.warnings.push_back("animation '" + name +
@@ -138,7 +138,7 @@ void fit_animations(GltfWriter& writer) {
         animation["channels"] = std::move(channels);
         for (Json& sampler : animation["samplers"])
             for (const char* key : {"input", "output"})
-                sampler[key] = copy_accessor(writer, index_of(sampler, key), AccessorUse::other);
+                sampler[key] = copy_accessor(writer, index_member(sampler, key), AccessorUse::other);
         kept.push_back(std::move(animation));
     }
     if (kept.empty())
@@ -147,7 +147,7 @@ void fit_animations(GltfWriter& writer) {
         writer.out["animations"] = std::move(kept);
 }
 
-void follow_image_lights(GltfWriter& writer) {
+void remap_image_lights(GltfWriter& writer) {
     const char* name = "EXT_lights_image_based";
     if (!member(member(writer.out, "extensions"), name).contains("lights")) return;
     for (Json& light : writer.out["extensions"][name]["lights"])
@@ -156,16 +156,18 @@ void follow_image_lights(GltfWriter& writer) {
                 for (Json& image : mip) image = copy_image(writer, image.get<Index>());
 }
 
-bool holds_number(const Json& value) {
+bool contains_number(const Json& value) {
     if (value.is_number_unsigned()) return true;
-    return value.is_structured() && std::any_of(value.begin(), value.end(), holds_number);
+    return value.is_structured() && std::any_of(value.begin(), value.end(), contains_number);
 }
 
-void warn_of_unknown(GltfWriter& writer) {
+void warn_about_unknown_extensions(GltfWriter& writer) {
     std::set<std::string> unknown;
     for_each_extension(writer.out, [&](const std::string& name, const Json& value) {
         if (name.compare(0, 4, "KHR_") != 0 &&
-            std::find(followed.begin(), followed.end(), name) == followed.end() && holds_number(value))
+            std::find(remapped_extensions.begin(), remapped_extensions.end(), name) ==
+                remapped_extensions.end() &&
+            contains_number(value))
             unknown.insert(name);
     });
     for (const std::string& name : unknown)
@@ -179,16 +181,16 @@ void warn_of_unknown(GltfWriter& writer) {
 
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
     if (writer.out.contains("nodes"))
-        for (Json& node : writer.out["nodes"]) fit_node(writer, node);
+        for (Json& node : writer.out["nodes"]) update_node(writer, node);
     add_nodes(writer, new_meshes);
     if (writer.out.contains("skins"))
         for (Json& skin : writer.out["skins"])
             if (skin.contains("inverseBindMatrices"))
                 skin["inverseBindMatrices"] =
-                    copy_accessor(writer, index_of(skin, "inverseBindMatrices"), AccessorUse::matrices);
-    fit_animations(writer);
-    follow_image_lights(writer);
-    warn_of_unknown(writer);
+                    copy_accessor(writer, index_member(skin, "inverseBindMatrices"), AccessorUse::matrices);
+    update_animations(writer);
+    remap_image_lights(writer);
+    warn_about_unknown_extensions(writer);
 }
 
 void write_extension_lists(GltfWriter& writer) {
@@ -204,7 +206,7 @@ void write_extension_lists(GltfWriter& writer) {
     }
     std::set<std::string> used;
     for_each_extension(writer.out, [&](const std::string& name, const Json&) { used.insert(name); });
-    if (writer.keeps_quantized) used.insert("KHR_mesh_quantization");
+    if (writer.needs_quantization) used.insert("KHR_mesh_quantization");
     Json required = Json::array();
     for (const Json& name : source_array(writer, "extensionsRequired"))
         if (used.count(name.get<std::string>()) != 0) required.push_back(name);

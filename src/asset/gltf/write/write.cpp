@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "asset/file.hpp"
-#include "asset/gltf/gltf.hpp"
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/attributes.hpp"
 #include "asset/gltf/framing.hpp"
+#include "asset/gltf/gltf.hpp"
 #include "asset/gltf/levels.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
@@ -21,14 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Arrays that are built anew.
-constexpr std::array<std::string_view, 8> rebuilt = {"accessors", "bufferViews", "buffers",  "images",
-                                                     "materials", "meshes",      "samplers", "textures"};
+constexpr std::array<std::string_view, 8> rebuilt_arrays = {
+    "accessors", "bufferViews", "buffers", "images", "materials", "meshes", "samplers", "textures"};
 
 Json start_document(const Json& source) {
     Json out = Json::object();
     if (source.is_object())
         for (const auto& [key, value] : source.items())
-            if (std::find(rebuilt.begin(), rebuilt.end(), key) == rebuilt.end()) out[key] = value;
+            if (std::find(rebuilt_arrays.begin(), rebuilt_arrays.end(), key) == rebuilt_arrays.end())
+                out[key] = value;
     out["asset"]["version"] = "2.0";
     out["asset"]["generator"] = "faqem " FAQEM_VERSION;
     return out;
@@ -36,9 +37,9 @@ Json start_document(const Json& source) {
 
 /// Animation times and positions must have bounds; files exist that lack them.
 void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dense) {
-    const auto type = static_cast<ComponentType>(number_of(description, "componentType", 0));
+    const auto type = static_cast<ComponentType>(unsigned_member(description, "componentType", 0));
     if (description.contains("min") || description.contains("max") || type != ComponentType::f32) return;
-    const std::size_t components = component_count(string_of(description, "type"));
+    const std::size_t components = component_count(string_member(description, "type"));
     std::vector<float> values(dense.size() / sizeof(float));
     if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
     if (values.empty() ||
@@ -84,9 +85,9 @@ std::string percent_encoded(const std::string& name) {
     return uri;
 }
 
-bool is_json_name(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    return ending.size() == 5 && (ending[1] | 0x20) == 'g' && (ending[4] | 0x20) == 'f';
+bool has_gltf_extension(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    return extension.size() == 5 && (extension[1] | 0x20) == 'g' && (extension[4] | 0x20) == 'f';
 }
 
 void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
@@ -99,7 +100,7 @@ void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite o
     std::vector<FileContent> files;
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
-        const std::string name = stem + "_" + std::to_string(i) + file_ending(image.mime_type);
+        const std::string name = stem + "_" + std::to_string(i) + file_extension(image.mime_type);
         writer.out["images"][i]["uri"] = percent_encoded(name);
         if (!image.mime_type.empty()) writer.out["images"][i]["mimeType"] = image.mime_type;
         files.push_back({file.parent_path() / name, image.encoded});
@@ -114,22 +115,23 @@ void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite o
     write_files(files, overwrite);
 }
 
-void finish(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+void write_output(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     write_extension_lists(writer);
-    if (is_json_name(file))
+    if (has_gltf_extension(file))
         write_json_with_files(writer, file, overwrite);
     else
         write_glb(writer, file, overwrite);
 }
 
 /// Positions of a document stay as they are: its nodes, skins and animations fit them.
-GltfWriter writer_of(const Asset& asset) {
+GltfWriter make_writer(const Asset& asset) {
     static const SourceDocument none;
     const SourceDocument& source = asset.source ? *asset.source : none;
-    return {asset, source, start_document(source.document), asset.source ? Vec3{} : origin_of(asset.parts)};
+    return {asset, source, start_document(source.document),
+            asset.source ? Vec3{} : local_origin(asset.parts)};
 }
 
-void write_all(GltfWriter& writer) {
+void write_meshes_and_scene(GltfWriter& writer) {
     find_source_images(writer);
     std::vector<Index> new_meshes;
     write_meshes(writer, new_meshes);
@@ -155,22 +157,22 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
     for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
     // Zeros without a bufferView, too: of the result's bytes there may be too few to vouch for the count.
     const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
-    if (use == AccessorUse::vertices || string_of(description, "type") == "SCALAR")
+    if (use == AccessorUse::vertices || string_member(description, "type") == "SCALAR")
         add_missing_bounds(description, dense);
     entry->second = writer.binary.add_accessor(std::move(description), dense, use);
     return entry->second;
 }
 
 std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Overwrite overwrite) {
-    GltfWriter writer = writer_of(asset);
-    write_all(writer);
-    finish(writer, file, overwrite);
+    GltfWriter writer = make_writer(asset);
+    write_meshes_and_scene(writer);
+    write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }
 
-std::vector<std::uint8_t> glb_of(const Asset& asset) {
-    GltfWriter writer = writer_of(asset);
-    write_all(writer);
+std::vector<std::uint8_t> encode_glb(const Asset& asset) {
+    GltfWriter writer = make_writer(asset);
+    write_meshes_and_scene(writer);
     write_extension_lists(writer);
     return glb_bytes(writer, "the model in memory");
 }
@@ -178,7 +180,7 @@ std::vector<std::uint8_t> glb_of(const Asset& asset) {
 std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,
                                            Overwrite overwrite) {
     const Asset& asset = leveled.asset;
-    GltfWriter writer = writer_of(asset);
+    GltfWriter writer = make_writer(asset);
     find_source_images(writer);
     std::vector<Index> new_meshes, mesh;
     write_meshes(writer, new_meshes);
@@ -186,11 +188,12 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     for (const Part& part : asset.parts)
         mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
     // Only the first level is in the scene.
-    const std::size_t of_others = asset.parts.size() - std::min(asset.parts.size(), leveled.parts);
-    new_meshes.resize(new_meshes.size() - of_others);
+    const std::size_t other_part_count =
+        asset.parts.size() - std::min(asset.parts.size(), leveled.parts_per_level);
+    new_meshes.resize(new_meshes.size() - other_part_count);
     write_scene(writer, new_meshes);
     attach_levels(writer, leveled, mesh);
-    finish(writer, file, overwrite);
+    write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }
 

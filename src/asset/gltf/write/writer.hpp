@@ -18,7 +18,7 @@ struct GltfWriter {
     const SourceDocument& source;  ///< an empty one where the asset has none
     Json out;                      ///< the document under construction
     Vec3 origin = {0, 0, 0};       ///< of all positions; the nodes of new meshes put it back
-    GltfBinary binary = {};
+    GltfBufferBuilder binary = {};
     std::vector<std::string> warnings = {};
 
     std::map<Index, Index> accessors = {};         ///< source accessor to output accessor
@@ -34,7 +34,7 @@ struct GltfWriter {
     std::vector<Index> source_image_of =
         {};                            ///< per asset image: the source image of equal bytes, or no_index
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh, no_index: left out
-    bool keeps_quantized = false;      ///< a primitive that is passed through needs KHR_mesh_quantization
+    bool needs_quantization = false;   ///< a primitive that is passed through needs KHR_mesh_quantization
 };
 
 /// The source's array `key`, or null.

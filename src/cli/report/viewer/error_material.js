@@ -3,11 +3,11 @@ import { DataTexture, DoubleSide, LinearFilter, ShaderMaterial } from 'three';
 
 const vertexShader = `
   varying float error;
-  varying vec3 place;
+  varying vec3 viewPosition;
   void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     error = uv.x;
-    place = seen.xyz;
+    viewPosition = seen.xyz;
     gl_Position = projectionMatrix * seen;
   }`;
 
@@ -15,11 +15,11 @@ const fragmentShader = `
   uniform sampler2D ramp;
   uniform float stops, limit;
   varying float error;
-  varying vec3 place;
+  varying vec3 viewPosition;
   void main() {
     float share = limit > 0.0 ? clamp(error / limit, 0.0, 1.0) : 0.0;
     vec3 colour = texture2D(ramp, vec2((share * (stops - 1.0) + 0.5) / stops, 0.5)).rgb;
-    vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+    vec3 normal = normalize(cross(dFdx(viewPosition), dFdy(viewPosition)));
     gl_FragColor = vec4(colour * (0.65 + 0.35 * abs(normal.z)), 1.0);
   }`;
 

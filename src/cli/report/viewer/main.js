@@ -11,7 +11,7 @@ function connectControls(stage, errorMaterial, view) {
   const show = () => stage.show({ wireframe: wireframe.checked, error: error.checked });
   const colour = () => {
     // A share of the largest distance, squared: most distances are far smaller than the largest.
-    const value = view.most * limit.value ** 2;
+    const value = view.max_distance * limit.value ** 2;
     errorMaterial.uniforms.limit.value = value;
     byId('limit-value').textContent = `${(value * view.unit).toPrecision(3)} (${(100 * value).toPrecision(2)}%)`;
     stage.draw();
@@ -23,7 +23,7 @@ function connectControls(stage, errorMaterial, view) {
   });
   limit.addEventListener('input', colour);
   byId('reset').addEventListener('click', stage.reset);
-  limit.value = view.most > 0 ? Math.sqrt(view.limit / view.most) : 1;
+  limit.value = view.max_distance > 0 ? Math.sqrt(view.limit / view.max_distance) : 1;
   byId('scale').hidden = !error.checked; // a browser may remember the boxes
   colour();
   show();
@@ -34,7 +34,7 @@ async function start() {
   const errorMaterial = makeErrorMaterial(view.ramp);
   const stage = makeStage(byId('canvas'), [byId('frame-a'), byId('frame-b')]);
   const models = ['model-a', 'model-b'].map((id) => readModel(byId(id), errorMaterial));
-  stage.place(await Promise.all(models));
+  stage.setModels(await Promise.all(models));
   connectControls(stage, errorMaterial, view);
   byId('view-status').textContent = '';
   byId('controls').disabled = false;

@@ -6,8 +6,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 
 const fieldOfView = 30; // degrees
-const firstLook = new Vector3(0.34, 0.16, 0.93).normalize(); // as the first picture of the page
-const reach = 1.5; // the models' diagonal is about 1: what is farther from the target is cut off
+const initialDirection = new Vector3(0.34, 0.16, 0.93).normalize(); // as the first picture of the page
+const clipDistance = 1.5; // the models' diagonal is about 1: what is farther from the target is cut off
 
 function moveByKeys(canvas, controls) {
   const turn = Math.PI / 36, zoom = 0.9;
@@ -36,7 +36,7 @@ export function makeStage(canvas, frames) {
   const scenes = frames.map(() => Object.assign(new Scene(), { environment }));
   const camera = new PerspectiveCamera(fieldOfView);
   const controls = new OrbitControls(camera, canvas);
-  let models = [], asked = false;
+  let models = [], isDrawScheduled = false;
 
   function drawFrame(frame, scene) {
     const outer = canvas.getBoundingClientRect(), inner = frame.getBoundingClientRect();
@@ -48,22 +48,22 @@ export function makeStage(canvas, frames) {
     renderer.render(scene, camera);
   }
   function drawNow() {
-    asked = false;
+    isDrawScheduled = false;
     const { clientWidth, clientHeight } = canvas;
     if (!clientWidth || !clientHeight) return;
     renderer.setPixelRatio(window.devicePixelRatio);
     renderer.setSize(clientWidth, clientHeight, false);
     const distance = camera.position.distanceTo(controls.target);
-    camera.near = Math.max(distance - reach, distance / 500);
-    camera.far = distance + reach;
+    camera.near = Math.max(distance - clipDistance, distance / 500);
+    camera.far = distance + clipDistance;
     frames.forEach((frame, i) => drawFrame(frame, scenes[i]));
   }
   function draw() {
-    if (!asked) requestAnimationFrame(drawNow);
-    asked = true;
+    if (!isDrawScheduled) requestAnimationFrame(drawNow);
+    isDrawScheduled = true;
   }
-  function place(placed) {
-    models = placed;
+  function setModels(newModels) {
+    models = newModels;
     models.forEach(({ look, error, edges }, i) => scenes[i].add(look, error, edges));
     draw();
   }
@@ -78,11 +78,11 @@ export function makeStage(canvas, frames) {
 
   const shape = frames[0].getBoundingClientRect();
   const narrow = Math.min(1, shape.width / shape.height);
-  camera.position.copy(firstLook).multiplyScalar(0.47 / Math.sin((fieldOfView / 360) * Math.PI) / narrow);
+  camera.position.copy(initialDirection).multiplyScalar(0.47 / Math.sin((fieldOfView / 360) * Math.PI) / narrow);
   controls.update();
   controls.saveState();
   controls.addEventListener('change', draw);
   moveByKeys(canvas, controls);
   new ResizeObserver(draw).observe(canvas);
-  return { place, show, draw, reset: () => controls.reset() };
+  return { setModels, show, draw, reset: () => controls.reset() };
 }

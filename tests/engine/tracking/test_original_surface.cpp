@@ -1,4 +1,4 @@
-#include "faqem/engine/tracking/reference_surface.hpp"
+#include "faqem/engine/tracking/original_surface.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,18 +10,18 @@ using namespace faqem::engine;
 TEST_CASE("original: distances around a vertex are those to its faces and no others") {
     // A fan of six triangles about vertex 0 in the plane z = 0: vertex 1 has two of them.
     const test::OriginalOf original(test::fan(6));
-    CHECK(original.surface.squared_distance_around(0, {0.1, 0.1, 2}, 100) == Approx(4));
-    CHECK(original.surface.squared_distance_around(0, {0.1, 0.1, 2}, 1) == 1);
+    CHECK(original.surface.squared_distance_to_ring(0, {0.1, 0.1, 2}, 100) == Approx(4));
+    CHECK(original.surface.squared_distance_to_ring(0, {0.1, 0.1, 2}, 1) == 1);
     const Vector3 beyond = -original.positions[1];  // a corner opposite to vertex 1, at distance 1 from 0
-    CHECK(original.surface.squared_distance_around(0, beyond, 100) == Approx(0).margin(1e-12));
-    CHECK(original.surface.squared_distance_around(1, beyond, 100) > 0.5);
-    CHECK(original.surface.open_edges().size() == 6);
+    CHECK(original.surface.squared_distance_to_ring(0, beyond, 100) == Approx(0).margin(1e-12));
+    CHECK(original.surface.squared_distance_to_ring(1, beyond, 100) > 0.5);
+    CHECK(original.surface.boundary_edges().size() == 6);
 }
 
 TEST_CASE("original: the open ends of a vertex are in order, and there are none on a closed surface") {
     const test::OriginalOf fan(test::fan(6));
     const auto ends = [&](Index v) {
-        const auto all = fan.surface.open_ends(v);
+        const auto all = fan.surface.boundary_neighbours(v);
         return std::vector<Index>(all.begin(), all.end());
     };
     CHECK(ends(0).empty());
@@ -29,11 +29,11 @@ TEST_CASE("original: the open ends of a vertex are in order, and there are none 
     CHECK(ends(3) == std::vector<Index>{2, 4});
     CHECK(ends(6) == std::vector<Index>{1, 5});
     const test::OriginalOf closed(test::cube());
-    for (Index v = 0; v < 8; ++v) CHECK(closed.surface.open_ends(v).empty());
+    for (Index v = 0; v < 8; ++v) CHECK(closed.surface.boundary_neighbours(v).empty());
 }
 
 TEST_CASE("original: a lineage leaves out what has gone into nothing") {
-    const Lineage lineage(std::vector<Index>{4, no_index, 2});
-    CHECK(lineage.original == std::vector<Index>{0, 2});
-    CHECK(lineage.today == std::vector<Index>{4, 2});
+    const TrackedVertices tracked(std::vector<Index>{4, no_index, 2});
+    CHECK(tracked.original == std::vector<Index>{0, 2});
+    CHECK(tracked.current == std::vector<Index>{4, 2});
 }

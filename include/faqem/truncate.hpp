@@ -18,7 +18,7 @@ FAQEM_NAMESPACE_BEGIN
 struct HistoryLevel {
     std::uint64_t collapses = 0;              ///< how many came before
     std::uint64_t deleted = 0;                ///< how many of CollapseHistory::deleted_faces came before
-    std::vector<std::array<Index, 2>> swaps;  ///< faces of edges that were swapped then, in this level alone
+    std::vector<std::array<Index, 2>> flips;  ///< faces of edges that were flipped then, in this level alone
     std::vector<Index> kept_versions;         ///< as those of CollapseHistory
     std::vector<Index> kept_faces;
     std::vector<Vec3> kept_positions;
@@ -41,7 +41,7 @@ FAQEM_EXPORT ChainHistory join(std::span<const CollapseHistory> levels);
 /// The history of one level, as its run gave it.
 /// \pre level < history.level_count()
 /// O(size)
-FAQEM_EXPORT CollapseHistory cut_at_level(const ChainHistory& history, std::size_t level);
+FAQEM_EXPORT CollapseHistory truncate_to_level(const ChainHistory& history, std::size_t level);
 
 /// The history up to where no more than `faces` are left: of a level that the run stopped at there, and of
 /// one with just as many faces, as its run gave it, else with every vertex where the last collapse put it.
@@ -50,13 +50,14 @@ FAQEM_EXPORT CollapseHistory cut_at_level(const ChainHistory& history, std::size
 /// ladder.
 /// \pre histories are valid
 /// O(size)
-FAQEM_EXPORT CollapseHistory cut_to(const ChainHistory& history, std::uint64_t faces);
+FAQEM_EXPORT CollapseHistory truncate_to_faces(const ChainHistory& history, std::uint64_t faces);
 
-/// cut_to() for the parts of an asset together. As many faces as a level has give that level; others are
+/// truncate_to_faces() for the parts of an asset together. As many faces as a level has give that level; others are
 /// shared out in proportion between the levels around them.
 /// \param parts  with as many levels each; those of parts without faces are empty
 /// \throws InputError  the parts have not the same number of levels
-FAQEM_EXPORT std::vector<CollapseHistory> cut_to(std::span<const ChainHistory> parts, std::uint64_t faces);
+FAQEM_EXPORT std::vector<CollapseHistory> truncate_to_faces(std::span<const ChainHistory> parts,
+                                                            std::uint64_t faces);
 
 /// The small mesh of a history, as the run gave it. Attributes on corners are not in a history.
 /// Of the report the counts of faces, vertices and collapses.

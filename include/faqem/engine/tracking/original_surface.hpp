@@ -1,0 +1,116 @@
+#pragma once
+/// \file
+/// The surface before the first collapse, and what has become of its vertices.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/tracking/distance.hpp"
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
+
+/// Vertices of the original, and the vertex of a complex that each has gone into.
+struct TrackedVertices {
+    std::vector<Index> original, current;
+
+    /// Of all of them.
+    /// \param vertex_map  for each original vertex, or no_index
+    explicit TrackedVertices(std::span<const Index> vertex_map) {
+        for (Index v = 0; v < vertex_map.size(); ++v) {
+            if (vertex_map[v] != no_index) add(v, vertex_map[v]);
+        }
+    }
+    TrackedVertices() = default;
+
+    void add(Index v, Index target) {
+        original.push_back(v);
+        current.push_back(target);
+    }
+};
+
+/// The surface that is simplified, as it was. Does not change; several engines may look at it.
+class OriginalSurface {
+public:
+    /// \param positions, triangles  borrowed; triangles of different corners
+    /// \throws what the poll throws
+    /// O(triangles); 20 bytes per triangle, and 4 per vertex where there is a border
+    OriginalSurface(std::span<const Vector3> positions, std::span<const Triangle> triangles,
+                    CancellationCheck check_cancelled = {})
+        : positions_(positions),
+          triangles_(triangles),
+          boundary_edges_(find_boundary_edges(triangles, positions.size(), check_cancelled)),
+          face_offsets_(positions.size() + 1, 0) {
+        for (const Triangle& t : triangles_) {
+            for (const Index v : t) ++face_offsets_[v + 1];
+        }
+        std::partial_sum(face_offsets_.begin(), face_offsets_.end(), face_offsets_.begin());
+        vertex_faces_.resize(face_offsets_.back());
+        for (Index f = 0; f < triangles_.size(); ++f) {
+            check_cancelled();
+            for (const Index v : triangles_[f]) vertex_faces_[face_offsets_[v]++] = f;
+        }
+        // Each is where the next begins now.
+        std::copy_backward(face_offsets_.begin(), face_offsets_.end() - 1, face_offsets_.end());
+        face_offsets_.front() = 0;
+        find_boundary_neighbours(check_cancelled);
+    }
+
+    const Vector3& position(Index v) const { return positions_[v]; }
+    /// Edges with one face, as find_boundary_edges() gives them.
+    std::span<const std::array<Index, 2>> boundary_edges() const { return boundary_edges_; }
+    /// The other ends of these edges at vertex v, ascending.
+    std::span<const Index> boundary_neighbours(Index v) const {
+        if (boundary_edges_.empty()) return {};
+        return std::span(boundary_neighbours_)
+            .subspan(boundary_offsets_[v], boundary_offsets_[v + 1] - boundary_offsets_[v]);
+    }
+
+    /// Squared distance of p to the faces around vertex v, or `at_most` where that is smaller. O(valence)
+    double squared_distance_to_ring(Index v, const Vector3& p, double at_most) const {
+        for (std::uint32_t i = face_offsets_[v]; i < face_offsets_[v + 1]; ++i) {
+            const Triangle& t = triangles_[vertex_faces_[i]];
+            const TriangleDistance distance(positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+            at_most = std::min(at_most, distance(p));
+        }
+        return at_most;
+    }
+
+private:
+    // The edges are in order, so that each vertex gets the smaller ends first.
+    void find_boundary_neighbours(CancellationCheck check_cancelled) {
+        if (boundary_edges_.empty()) return;
+        boundary_offsets_.assign(positions_.size() + 1, 0);
+        for (const auto& [a, b] : boundary_edges_) ++boundary_offsets_[a + 1], ++boundary_offsets_[b + 1];
+        std::partial_sum(boundary_offsets_.begin(), boundary_offsets_.end(), boundary_offsets_.begin());
+        boundary_neighbours_.resize(boundary_offsets_.back());
+        for (const auto& [a, b] : boundary_edges_) {
+            check_cancelled();
+            boundary_neighbours_[boundary_offsets_[a]++] = b;
+            boundary_neighbours_[boundary_offsets_[b]++] = a;
+        }
+        std::copy_backward(boundary_offsets_.begin(), boundary_offsets_.end() - 1, boundary_offsets_.end());
+        boundary_offsets_.front() = 0;
+    }
+
+    std::span<const Vector3> positions_;
+    std::span<const Triangle> triangles_;
+    std::vector<std::array<Index, 2>> boundary_edges_;
+    std::vector<std::uint32_t> face_offsets_;  // where the faces of each vertex begin
+    std::vector<Index> vertex_faces_;
+    std::vector<std::uint32_t>
+        boundary_offsets_;  // where the open ends of each vertex begin; empty: no border
+    std::vector<Index> boundary_neighbours_;
+};
+
+}  // namespace engine
+FAQEM_NAMESPACE_END
