@@ -1,4 +1,4 @@
-// Flat arrays in, flat arrays out: the standard library only.
+// Simplifies a mesh in flat arrays; includes only the standard library and faqem.
 #include <faqem/simplify.hpp>
 
 int main() {

@@ -1,4 +1,4 @@
-// An OpenMesh mesh, in place.
+// Simplifies an OpenMesh mesh in place.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <faqem/openmesh.hpp>
 

@@ -1,4 +1,4 @@
-// The engine's templates with a metric of the user's own: the shortest edge goes first, to its midpoint.
+// Uses the engine templates with a custom metric: the shortest edge is collapsed first, to its midpoint.
 #include <faqem/engine/engine.hpp>
 
 struct ShortestEdge {

@@ -1,4 +1,4 @@
-// A textured asset: load, simplify with a new texture, save.
+// Simplifies a textured asset with a new texture, saves it and loads it again.
 #include <faqem/bake.hpp>
 
 #include <filesystem>
@@ -27,12 +27,13 @@ int main() {
     part.face_material.assign(part.triangles.size(), 0);
     source.parts.push_back(part);
 
-    const auto light = faqem::simplify(source, {.target = faqem::ratio(0.25), .bake = {.texture_size = 256}});
+    const auto simplified =
+        faqem::simplify(source, {.target = faqem::ratio(0.25), .bake = {.texture_size = 256}});
     const auto file = std::filesystem::temp_directory_path() / "faqem-consumer.glb";
-    faqem::save(light.asset, file, faqem::Overwrite::yes);
+    faqem::save(simplified.asset, file, faqem::Overwrite::yes);
     const auto again = faqem::load(file);
     std::filesystem::remove(file);
-    // a colour, and the normals that 128 triangles cannot show
+    // two images: base colour and normal map
     return again.images.size() == 2 && again.parts.size() == 1 && again.parts[0].triangles.size() <= 128 ? 0
                                                                                                          : 1;
 }

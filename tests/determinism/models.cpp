@@ -1,4 +1,4 @@
-// Writes small procedural models: `determinism_models FOLDER`.
+// Writes small procedural models to a folder: `determinism_models FOLDER`.
 
 #include <iostream>
 

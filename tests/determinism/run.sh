@@ -1,6 +1,6 @@
 #!/bin/sh
-# Compares the SHA-256 of what the tool writes. Usage: run.sh MODELS_PROGRAM TOOL; the tools of the presets release,
-# debug and clang take part where they are built.
+# Compares SHA-256 sums of the output of the tool. Usage: run.sh MODELS_PROGRAM TOOL. The tools of the CMake presets
+# release, debug and clang are tested as well if they exist.
 set -eu
 models=$1
 tool=$2
@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$models" "$work"
 
-# hash TOOL MODEL THREADS OPTION...: of the model, the history and the textures.
+# hash TOOL MODEL THREADS OPTIONS: prints the SHA-256 sum of the model with its textures, and the history.
 hash() {
     "$1" simplify "$2" "$work/out.glb" --force --quiet --threads "$3" --history "$work/out.hist" \
         --texture-size 128 $4
@@ -18,7 +18,7 @@ hash() {
 
 runs=0
 same=0
-# compare TOOL THREADS WHAT: of $model with $options, with $first
+# compare TOOL THREADS DESCRIPTION: compares the sum for $model and $options with $first.
 compare() {
     runs=$((runs + 1))
     if [ "$(hash "$1" "$model" "$2" "$options")" = "$first" ]; then

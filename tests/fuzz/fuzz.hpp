@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// What the fuzz targets share. Each defines LLVMFuzzerTestOneInput(); libFuzzer calls it, or replay.cpp.
+/// Helpers for the fuzz targets. Each target defines LLVMFuzzerTestOneInput(), which libFuzzer or replay.cpp
+/// calls.
 
 #include <unistd.h>
 
@@ -27,14 +28,15 @@ namespace faqem::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Ends the process, which is what libFuzzer looks for.
+/// Aborts the process if a condition is false; libFuzzer reports this as a crash.
+/// \param what  the expected condition
 inline void expect(bool good, const char* what) {
     if (good) return;
     std::fprintf(stderr, "expected: %s\n", what);
     std::abort();
 }
 
-/// Takes numbers from the front of the bytes; zeros where none are left.
+/// Reads values from the beginning of the input; zeros after its end.
 class Input {
 public:
     explicit Input(Bytes bytes) : left_(bytes) {}
@@ -55,7 +57,8 @@ public:
     /// In [0, size).
     Index below(std::size_t size) { return static_cast<Index>(byte() % size); }
 
-    /// Mostly a point of a small grid, so that places meet; now and then the worst numbers there are.
+    /// Usually an integer or a fraction in a small range, so that positions coincide; sometimes an extreme
+    /// value.
     double real() {
         using Limits = std::numeric_limits<double>;
         static constexpr double worst[] = {Limits::quiet_NaN(),
@@ -85,10 +88,10 @@ private:
     Bytes left_;
 };
 
-/// Options of every kind; now and then out of range.
+/// Random options, sometimes out of range.
 inline Options options_of(Input& in) {
     Options o;
-    o.preset = all_presets[in.below(16) / 3];  // seldom the slow one, which is the last
+    o.preset = all_presets[in.below(16) / 3];  // the last preset, which is slow, is rare
     const std::uint8_t wanted = in.byte();
     o.target = wanted < 128   ? ratio((wanted + 1) / 128.0)
                : wanted < 250 ? faces(wanted - 127)
@@ -105,7 +108,7 @@ inline Options options_of(Input& in) {
     if (more & 8) {
         o.weights = {in.real(), in.real(), in.real(), in.real(), in.real()};
     }
-    if (more % 64 >= 56) {  // seldom: it makes a dozen runs
+    if (more % 64 >= 56) {  // rare, because it causes up to twelve runs
         o.max_error = Length{in.real() / 64, in.flag() ? Length::Unit::model : Length::Unit::diagonal};
         if (in.flag()) o.target = {};
     }
@@ -114,7 +117,7 @@ inline Options options_of(Input& in) {
     return o;
 }
 
-/// A grid, a sphere, a tube or nothing, and then vertices and faces of any kind.
+/// A regular mesh or an empty one, with random vertices and faces added.
 inline TriangleMesh mesh_of(Input& in) {
     TriangleMesh mesh;
     switch (in.byte() % 8) {
@@ -153,13 +156,13 @@ inline bool is_finite(const Vec3& p) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-/// Is a per-vertex array absent or complete?
+/// True if a per-vertex array is empty or has one entry per vertex.
 template <class T>
 bool fits(const std::vector<T>& values, const Part& part) {
     return values.empty() || values.size() == part.positions.size();
 }
 
-/// Aborts unless everything in the asset is in range and what load() promises is so.
+/// Aborts unless the asset is valid as documented for load().
 inline void expect_sound(const Asset& asset) {
     for (const Part& part : asset.parts) {
         for (const Vec3& p : part.positions) expect(is_finite(p), "finite positions");
@@ -186,7 +189,8 @@ inline void expect_sound(const Asset& asset) {
         expect(instance.part < asset.parts.size(), "instances of parts that exist");
 }
 
-/// What the call returns; nothing where it refuses its input with a message that starts with the file's name.
+/// Result of the call, or nullopt if it throws an InputError. Aborts if the message does not begin with the
+/// file name.
 template <class Call>
 auto refusable(const std::string& file, Call&& call) -> std::optional<decltype(call())> {
     try {
@@ -197,7 +201,8 @@ auto refusable(const std::string& file, Call&& call) -> std::optional<decltype(c
     return {};
 }
 
-/// A file name in a folder of this process. TMPDIR should be in memory: the writers wait for the disk.
+/// Path of a file in a temporary folder of this process. TMPDIR should be a memory file system, since the
+/// writers flush their files to the disk.
 inline std::string scratch_file(const std::string& name) {
     static const struct Folder {
         std::filesystem::path path =
@@ -211,15 +216,16 @@ inline std::string scratch_file(const std::string& name) {
     return (folder.path / name).string();
 }
 
-/// Faces that the scene shows.
+/// Number of faces of all instances in the scene.
 inline std::uint64_t shown_faces(const Asset& asset) {
     std::uint64_t faces = 0;
     for (const Instance& instance : instances(asset)) faces += asset.parts[instance.part].triangles.size();
     return faces;
 }
 
-/// What can be written can be read. \return the asset read back, or nothing where it cannot be written, or has
-/// no face for a file that holds no scene
+/// Writes an asset and reads it again; aborts if the result is invalid.
+/// \return the asset read back; nullopt if it cannot be written, or if it shows no face and the format has no
+///         scene
 inline std::optional<Asset> written_and_read(const Asset& asset, const std::string& name) {
     const std::string file = scratch_file(name);
     const bool holds_scene = name.ends_with(".glb") || name.ends_with(".gltf");
@@ -227,7 +233,7 @@ inline std::optional<Asset> written_and_read(const Asset& asset, const std::stri
     try {
         save(asset, file, Overwrite::yes);
     } catch (const WriteError&) {
-        return {};  // a position beyond a float's range
+        return {};  // a position exceeds the range of float
     }
     Asset back = load(file);
     expect_sound(back);
@@ -240,10 +246,11 @@ inline std::uint64_t face_count(const Asset& asset) {
     return faces;
 }
 
-/// Reads bytes as a file of one format; what is accepted must be sound and survive writing.
-/// \param read     bytes and name to an asset
-/// \param written  name of the file it is written to
-/// \return the asset, or nothing where the bytes were refused
+/// Reads bytes as a file of one format. Aborts unless an accepted asset is valid and can be written and read
+/// again.
+/// \param read     (bytes, file name) -> Asset
+/// \param written  name of the file to write
+/// \return the asset, or nullopt if the bytes were refused
 template <class Read>
 std::optional<Asset> read_sound(Bytes bytes, Read read, const std::string& written) {
     const std::string file = "no-such-folder/a";

@@ -1,4 +1,4 @@
-// A small textured scene, right or wrong, through both stages.
+// Simplifies and bakes a small textured scene, valid or invalid.
 
 #include "faqem/bake.hpp"
 #include "fuzz/fuzz.hpp"
@@ -106,11 +106,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < 2; ++i) asset.materials.push_back(material_of(in, asset.images.size()));
     for (std::size_t i = 0; i < 1u + (bits >> 6) % 2; ++i) asset.parts.push_back(part_of(in, 2));
     try {
-        const SimplifiedAsset light = simplify(asset, options);
-        fuzz::expect_sound(light.asset);
-        for (const PageOrigins& page : light.correspondence)
-            fuzz::expect(page.texels.size() == std::size_t{page.width} * page.height, "every texel's origin");
-        if (fuzz::face_count(light.asset) > 0) fuzz::written_and_read(light.asset, "a.glb");
+        const SimplifiedAsset simplified = simplify(asset, options);
+        fuzz::expect_sound(simplified.asset);
+        for (const PageOrigins& page : simplified.correspondence)
+            fuzz::expect(page.texels.size() == std::size_t{page.width} * page.height,
+                         "an origin for every texel");
+        if (fuzz::face_count(simplified.asset) > 0) fuzz::written_and_read(simplified.asset, "a.glb");
     } catch (const InputError&) {
     } catch (const OptionError&) {
     }

@@ -1,5 +1,5 @@
-// Blocks as simplify() uses them, memoryless and then with distances watched, but of few vertices each: a
-// mesh that is large enough to be cut there would take seconds here.
+// Block decimation as in simplify(), first with the memoryless metric and then with distance tracking, but
+// with small blocks: a mesh that is large enough for the real block size would take seconds per input.
 
 #include <map>
 #include <utility>
@@ -17,7 +17,7 @@ namespace {
 
 using fuzz::expect;
 
-/// A surface of some hundred vertices, and a soup beside it.
+/// A surface of some hundred vertices, possibly with random vertices and faces added.
 TriangleMesh surface_of(fuzz::Input& in) {
     TriangleMesh mesh;
     switch (in.byte() % 8) {
@@ -59,7 +59,7 @@ engine::LoopOptions loop_of(fuzz::Input& in, const RunState& state) {
     return loop;
 }
 
-/// Is every edge of two faces, and are those around each vertex one fan?
+/// True if every edge has two faces and the faces around each vertex form one closed fan.
 bool is_closed_manifold(std::span<const Triangle> triangles) {
     std::map<Index, std::map<Index, std::vector<Index>>> rings;  // vertex -> neighbours on its ring
     for (const Triangle& t : triangles) {
@@ -88,35 +88,35 @@ int euler(std::span<const Triangle> triangles) {
     return test::euler(std::vector<Triangle>(triangles.begin(), triangles.end()));
 }
 
-/// Does the steps one after the other, as an engine would have.
+/// Applies the steps one by one to a CollapseMesh and compares the result.
 void expect_steps(const BlockInput& input, const BlockSteps& found, const CompactedMesh& compacted) {
     CollapseMesh collapse_mesh({input.positions.begin(), input.positions.end()},
                                {input.triangles.begin(), input.triangles.end()});
-    std::vector<std::uint8_t> waits(input.locked.begin(), input.locked.end());
+    std::vector<std::uint8_t> is_fixed(input.locked.begin(), input.locked.end());
     for (const Triangle& t : input.triangles) {
         if (!input.is_between_blocks(t)) continue;
-        for (const Index v : t) waits[v] = 1;
+        for (const Index v : t) is_fixed[v] = 1;
     }
     expect(found.patch_begin.size() == found.steps.size(), "a patch for every step");
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
         expect(survivor < input.positions.size() && gone < input.positions.size(), "slots in range");
         expect(collapse_mesh.degree(survivor) > 0 && collapse_mesh.degree(gone) > 0,
-               "vertices that are there");
-        expect(!waits[gone], "what is locked or between blocks stays");
-        expect(!waits[survivor] || to == collapse_mesh.position(survivor), "what is locked does not move");
-        expect(std::isfinite(to.squaredNorm()), "finite places");
+               "vertices that have not been removed");
+        expect(!is_fixed[gone], "locked vertices and vertices between blocks are not removed");
+        expect(!is_fixed[survivor] || to == collapse_mesh.position(survivor), "locked vertices do not move");
+        expect(std::isfinite(to.squaredNorm()), "finite positions");
         std::vector<Index> patch;
         collapse_mesh.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.push_back(f); });
         const std::size_t begin = found.patch_begin[i];
         const std::size_t end =
             i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
         expect(begin <= end && end <= found.patch_faces.size(), "patches in order");
-        std::vector<Index> told(found.patch_faces.begin() + static_cast<std::ptrdiff_t>(begin),
-                                found.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
+        std::vector<Index> recorded(found.patch_faces.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    found.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
         std::sort(patch.begin(), patch.end());
-        std::sort(told.begin(), told.end());
-        expect(patch == told, "the faces of a step");
+        std::sort(recorded.begin(), recorded.end());
+        expect(patch == recorded, "the patch of a step has the faces around its vertices");
         collapse_mesh.collapse(survivor, gone, to);
     }
     expect(compacted.triangles.size() == collapse_mesh.face_count(), "the same number of faces");
@@ -124,20 +124,20 @@ void expect_steps(const BlockInput& input, const BlockSteps& found, const Compac
                compacted.source_slots.size() == compacted.vertices.size() &&
                compacted.vertex_map.size() == input.positions.size() &&
                compacted.faces.size() == compacted.triangles.size(),
-           "whole arrays");
+           "arrays of matching sizes");
     for (std::size_t f = 0; f < compacted.faces.size(); ++f) {
-        expect(collapse_mesh.is_alive(compacted.faces[f]), "faces that are left");
+        expect(collapse_mesh.is_alive(compacted.faces[f]), "faces that have not been removed");
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = compacted.triangles[f][k];
             expect(v < compacted.vertices.size(), "vertices in range");
             expect(compacted.vertices[v] == collapse_mesh.triangle(compacted.faces[f])[k],
                    "the same corners");
             expect(compacted.positions[v] == collapse_mesh.position(compacted.vertices[v]),
-                   "the same places");
+                   "the same positions");
         }
     }
     for (const Index v : compacted.vertex_map)
-        expect(v == no_index || v < compacted.vertices.size(), "lineages");
+        expect(v == no_index || v < compacted.vertices.size(), "vertex map in range");
 }
 
 bool same_steps(const BlockSteps& a, const BlockSteps& b) {
@@ -149,7 +149,7 @@ bool same_steps(const BlockSteps& a, const BlockSteps& b) {
            a.rungs == b.rungs;
 }
 
-/// One stage of simplify(): blocks, and what they leave.
+/// One round of block decimation as in simplify(), with checks.
 void reduce_in_blocks(RunState& state, const engine::LoopOptions& loop, std::size_t per_block,
                       std::size_t least, const BlockTracking* tracking) {
     const BlockInput input{state.mesh().positions, state.mesh().triangles, state.locked(), per_block};
@@ -158,10 +158,11 @@ void reduce_in_blocks(RunState& state, const engine::LoopOptions& loop, std::siz
     };
     const BlockSteps found = steps(1);
     for (const std::uint32_t threads : {2u, 3u})
-        expect(same_steps(found, steps(threads)), "the same with any number of threads");
+        expect(same_steps(found, steps(threads)), "the same steps with any number of threads");
     CompactedMesh compacted = apply_steps(input, found.steps);
     expect_steps(input, found, compacted);
-    expect(found.steps.empty() || compacted.triangles.size() >= least, "as many faces as wanted");
+    expect(found.steps.empty() || compacted.triangles.size() >= least,
+           "at least the requested number of faces");
     if (loop.rules.link == LinkCondition::on && is_closed_manifold(input.triangles)) {
         expect(is_closed_manifold(compacted.triangles), "a closed manifold stays one");
         expect(euler(compacted.triangles) == euler(input.triangles), "the same topology");
@@ -173,7 +174,7 @@ void reduce_in_blocks(RunState& state, const engine::LoopOptions& loop, std::siz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::Input in(fuzz::Bytes(data, size));
-    // Smaller blocks would be all border, and left alone.
+    // In smaller blocks all vertices would be between blocks.
     const std::size_t per_block = 40u + in.byte() % 160;
     const double share = (1 + in.byte()) / 512.0;
     const std::uint8_t bits = in.byte();

@@ -1,4 +1,4 @@
-// The whole bytes of a GLB or a JSON glTF: framing above all.
+// Complete GLB or JSON glTF files; tests mainly the GLB framing.
 
 #include "asset/gltf/gltf.hpp"
 #include "fuzz/fuzz.hpp"

@@ -1,4 +1,5 @@
-// JSON, a zero byte, and the BIN chunk: the frame is always right, so that what is inside gets its share.
+// Input: JSON, a zero byte, and the BIN chunk. The GLB framing is added and always valid, so that the
+// contents are tested.
 
 #include "asset/gltf/framing.hpp"
 #include "asset/gltf/gltf.hpp"
@@ -23,12 +24,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::optional<Asset> asset = fuzz::read_sound({data, size}, read_framed, "a.glb");
     if (!asset || fuzz::face_count(*asset) == 0 || fuzz::face_count(*asset) > 64) return 0;
     fuzz::written_and_read(*asset, "a.ply");
-    // Simplified, with its UVs, skins and targets carried over.
+    // Simplification that keeps UVs, skins and morph targets.
     Options options;
     options.target = ratio(0.5);
     options.bake.kind = Bake::keep;
     options.threads = 1;
-    const auto light = fuzz::refusable("", [&] { return simplify(*asset, options); });
-    if (light) fuzz::written_and_read(light->asset, "b.glb");
+    const auto simplified = fuzz::refusable("", [&] { return simplify(*asset, options); });
+    if (simplified) fuzz::written_and_read(simplified->asset, "b.glb");
     return 0;
 }

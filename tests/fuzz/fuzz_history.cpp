@@ -14,14 +14,15 @@ std::string text_of(const CollapseHistory& history) {
     return out.str();
 }
 
-/// Any history that is accepted can be replayed and asked where a point of the small mesh was.
+/// Replays a valid history, and maps points of the simplified mesh to the original.
 void use(const CollapseHistory& history) {
-    const TriangleMesh small = replay(history);
-    for (const Triangle& t : small.triangles)
-        for (const Index v : t) fuzz::expect(v < small.positions.size(), "a replayed mesh in range");
+    const TriangleMesh simplified = replay(history);
+    for (const Triangle& t : simplified.triangles)
+        for (const Index v : t)
+            fuzz::expect(v < simplified.positions.size(), "a replayed mesh with indices in range");
     for (const Mapping mapping : {Mapping::projection, Mapping::lineage}) {
         const SurfaceMap map(history, mapping);
-        for (Index f = 0; f < std::min<std::size_t>(small.triangles.size(), 8); ++f) {
+        for (Index f = 0; f < std::min<std::size_t>(simplified.triangles.size(), 8); ++f) {
             const SurfacePoint at = map.map(f, {0.25, 0.25, 0.5});
             fuzz::expect(at.face < history.triangles.size(), "a point on a face of the original");
             fuzz::expect(fuzz::is_finite(at.barycentric), "finite barycentrics");
@@ -39,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!history) return 0;
     const std::string text = text_of(*history);
     std::istringstream again(text);
-    fuzz::expect(text_of(read_history(again)) == text, "what was written reads back the same");
+    fuzz::expect(text_of(read_history(again)) == text, "a written history is the same when read again");
     use(*history);
     return 0;
 }

@@ -4,7 +4,7 @@
 using namespace faqem;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // A large picture only takes longer: the decoders are not ours.
+    // Large images are skipped: they only take longer, and the decoders belong to other projects.
     const auto declared = detail::declared_size({data, size});
     if (declared && declared->pixels() > 1 << 20) return 0;
     Image image;

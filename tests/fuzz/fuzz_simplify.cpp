@@ -1,4 +1,4 @@
-// A mesh and options of every kind. What is refused must be wrong, what comes out must be sound.
+// Simplifies a random mesh with random options. Refused input must be invalid, and results must be valid.
 
 #include "faqem/surface_map.hpp"
 #include "fuzz/fuzz.hpp"
@@ -7,7 +7,7 @@ using namespace faqem;
 
 namespace {
 
-/// A mesh with everything a view can carry.
+/// A mesh with all arrays of a MeshView.
 struct Soup {
     TriangleMesh mesh;
     std::vector<std::uint8_t> locks;
@@ -62,26 +62,27 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }
 
 void expect_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
-    const TriangleMesh& small = result.mesh;
-    for (const Vec3& p : small.positions) fuzz::expect(fuzz::is_finite(p), "finite positions");
-    for (const Triangle& t : small.triangles) {
-        for (const Index v : t) fuzz::expect(v < small.positions.size(), "indices in range");
-        fuzz::expect(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "three corners");
+    const TriangleMesh& simplified = result.mesh;
+    for (const Vec3& p : simplified.positions) fuzz::expect(fuzz::is_finite(p), "finite positions");
+    for (const Triangle& t : simplified.triangles) {
+        for (const Index v : t) fuzz::expect(v < simplified.positions.size(), "indices in range");
+        fuzz::expect(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "three distinct corners");
     }
-    fuzz::expect(result.face_origin.size() == small.triangles.size(), "an origin for every face");
-    fuzz::expect(result.vertex_origin.size() == small.positions.size(), "an origin for every vertex");
-    for (const Index f : result.face_origin) fuzz::expect(f < mesh.triangles.size(), "origins of faces");
-    for (const Index v : result.vertex_origin) fuzz::expect(v < mesh.positions.size(), "origins of vertices");
+    fuzz::expect(result.face_origin.size() == simplified.triangles.size(), "an origin for every face");
+    fuzz::expect(result.vertex_origin.size() == simplified.positions.size(), "an origin for every vertex");
+    for (const Index f : result.face_origin) fuzz::expect(f < mesh.triangles.size(), "face origins in range");
+    for (const Index v : result.vertex_origin)
+        fuzz::expect(v < mesh.positions.size(), "vertex origins in range");
     const Report& report = result.report;
-    fuzz::expect(report.faces_out == small.triangles.size(), "the right count");
+    fuzz::expect(report.faces_out == simplified.triangles.size(), "the correct face count in the report");
     fuzz::expect(report.faces_out <= report.target_faces || report.stop != StopReason::reached_target,
-                 "the target, or a reason");
+                 "the target reached, or another stop reason");
     fuzz::expect(!report.max_error || !(report.max_error->bound < report.max_error->value),
-                 "a bound not below the value");
+                 "a bound that is not below the value");
     validate(result.history);
     const TriangleMesh again = replay(result.history);
-    fuzz::expect(same_bits(again.positions, small.positions) && again.triangles == small.triangles,
-                 "the history leads to the small mesh");
+    fuzz::expect(same_bits(again.positions, simplified.positions) && again.triangles == simplified.triangles,
+                 "replaying the history gives the result");
 }
 
 void expect_map(const CollapseHistory& history) {
@@ -90,7 +91,7 @@ void expect_map(const CollapseHistory& history) {
         for (Index f = 0; f < history.kept_faces.size(); ++f) {
             const SurfacePoint at = map.map(f, {0.25, 0.25, 0.5});
             fuzz::expect(at.face < history.triangles.size() && fuzz::is_finite(at.barycentric),
-                         "a place on the original");
+                         "a point on the original");
         }
     }
 }
@@ -104,7 +105,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Soup soup(in);
     try {
         const SimplifyResult result = simplify(soup.view(), options);
-        fuzz::expect(soup.is_valid(), "an error where the mesh is wrong");
+        fuzz::expect(soup.is_valid(), "an error for an invalid mesh");
         expect_sound(soup.mesh, result);
         expect_map(result.history);
         if (data[size - 1] % 4 != 0) return 0;
@@ -112,10 +113,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const SimplifyResult same = simplify(soup.view(), options);
         fuzz::expect(same_bits(same.mesh.positions, result.mesh.positions) &&
                          same.mesh.triangles == result.mesh.triangles,
-                     "the same with three threads");
+                     "the same result with three threads");
     } catch (const InputError& error) {
         if (soup.is_valid()) std::fprintf(stderr, "%s\n", error.what());
-        fuzz::expect(!soup.is_valid(), "a result where the mesh is right");
+        fuzz::expect(!soup.is_valid(), "no error for a valid mesh");
     } catch (const OptionError&) {
     }
     return 0;

@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer, over every file of the folders named, as `fuzz_NAME -runs=0
-// FOLDER...` does with it.
+// Runs a fuzz target without libFuzzer on every file of the given folders, like `fuzz_NAME -runs=0 FOLDER...`
+// with libFuzzer.
 
 #include <exception>
 #include <fstream>
@@ -23,9 +23,9 @@ std::vector<fs::path> files_of(const fs::path& place) {
 void run(const fs::path& file) {
     std::fprintf(stderr, "%s\n", file.c_str());
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error("cannot be read");
+    if (!in) throw std::runtime_error("the file cannot be read");
     const std::vector<char> bytes(std::istreambuf_iterator<char>(in), {});
-    // A copy of exactly its size: a read beyond the end is one beyond an allocation.
+    // Copied to an allocation of exactly this size, so that AddressSanitizer finds reads beyond the end.
     const std::vector<std::uint8_t> exact(bytes.begin(), bytes.end());
     LLVMFuzzerTestOneInput(exact.data(), exact.size());
 }
@@ -35,7 +35,7 @@ void run(const fs::path& file) {
 int main(int count, char** arguments) try {
     std::size_t files = 0;
     for (const std::string argument : std::span(arguments, static_cast<std::size_t>(count)).subspan(1)) {
-        if (argument[0] == '-') continue;  // libFuzzer's
+        if (argument[0] == '-') continue;  // option of libFuzzer
         for (const fs::path& file : files_of(argument)) run(file), ++files;
     }
     std::printf("%zu inputs\n", files);

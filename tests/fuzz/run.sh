@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs fuzz targets one after the other. Usage: tests/fuzz/run.sh SECONDS [TARGET...]; default: all of them.
-# Needs the preset `fuzz` built (tests/run.sh fuzz). What is found lies in build/fuzz/found, the corpora grow in
-# build/fuzz/corpus.
+# Runs fuzz targets one after the other. Usage: tests/fuzz/run.sh SECONDS [TARGET...]; default: all targets.
+# Requires a build of the CMake preset `fuzz` (tests/run.sh fuzz). Failing inputs are written to build/fuzz/found, the
+# corpora to build/fuzz/corpus.
 set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:?usage: tests/fuzz/run.sh SECONDS [TARGET...]}
@@ -9,7 +9,7 @@ shift
 build=build/fuzz
 [ $# -gt 0 ] || set -- bake blocks glb gltf history image mtl obj off ply simplify stl
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds"
-scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # files are written and read again: not on a disk
+scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # in memory, because the targets write and read files
 trap 'rm -rf "$scratch"' EXIT
 export TMPDIR="$scratch"
 export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan-suppressions.txt:print_suppressions=0"
@@ -21,7 +21,7 @@ for target in "$@"; do
     [ "$target" != glb ] || words=tests/fuzz/gltf.dict
     [ ! -f "$words" ] || dictionary="-dict=$words"
     echo "== $target, $seconds seconds"
-    # shellcheck disable=SC2086  # no dictionary is no argument
+    # shellcheck disable=SC2086  # an empty $dictionary must not become an argument
     "$build/tests/fuzz/fuzz_$target" $dictionary -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=120 \
         -max_len=8192 -print_funcs=0 -print_final_stats=1 -artifact_prefix="$build/found/$target-" \
         "$build/corpus/$target" "$build/seeds/$target"

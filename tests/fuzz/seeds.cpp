@@ -1,4 +1,4 @@
-// Writes the inputs that fuzzing starts from: `fuzz_seeds FOLDER` fills FOLDER/NAME for every target.
+// Writes the seed inputs of all fuzz targets: `fuzz_seeds FOLDER` creates FOLDER/NAME for each target.
 
 #include <fstream>
 #include <iostream>
@@ -36,7 +36,8 @@ Asset scene() {
     return asset;
 }
 
-/// Everything a primitive can hold, a skin, an animation, morph targets, sparse data and images.
+/// A glTF document with all attributes of a primitive, a skin, an animation, morph targets, sparse data and
+/// images.
 testing::GltfBuilder rich_gltf() {
     using namespace testing;
     GltfBuilder b = square_gltf();
@@ -112,7 +113,7 @@ void gltf_seeds() {
 #endif
 }
 
-/// Files of the other formats, as we write them and as others do.
+/// Files of the other formats, as faqem writes them and with variants that other programs write.
 void text_seeds() {
     const fs::path folder = root / "out";
     fs::create_directories(folder);
@@ -183,7 +184,7 @@ void image_seeds() {
         {reinterpret_cast<const char*>(testing::small_webp.data()), testing::small_webp.size()});
 }
 
-/// These targets take any bytes: the first says which preset, the rest is drawn.
+/// Random inputs for the targets that accept any bytes; the first byte selects the preset.
 void drawn_seeds() {
     std::mt19937 random(1);
     for (const std::string target : {"simplify", "blocks", "bake"})

@@ -1,4 +1,4 @@
-// Door (b): OpenMesh meshes in place.
+// simplify() for OpenMesh meshes.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,8 +39,8 @@ Soup torus(unsigned n) {
     return soup;
 }
 
-// An n x n height field with open borders and a hole: rows of squares, the middle ones missing.
-Soup holed_sheet(unsigned n) {
+// A height field of n x n squares with an open boundary and a hole.
+Soup height_field_with_hole(unsigned n) {
     Soup soup;
     for (unsigned i = 0; i <= n; ++i) {
         for (unsigned j = 0; j <= n; ++j) {
@@ -72,7 +72,7 @@ M build(const Soup& soup) {
     return mesh;
 }
 
-// Positions of each living face, rotated so that the smallest comes first; sorted.
+// Corner positions of every face that is not deleted, rotated so that the smallest comes first; sorted.
 template <class M>
 std::vector<std::array<faqem::Vec3, 3>> face_set(const M& mesh) {
     std::vector<std::array<faqem::Vec3, 3>> faces;
@@ -102,7 +102,8 @@ std::vector<std::array<faqem::Vec3, 3>> face_set(const faqem::TriangleMesh& mesh
     return faces;
 }
 
-// Does every half-edge fit its neighbours? OpenMesh has no public checker in its core library.
+// True if the half-edges are connected consistently. The core library of OpenMesh has no public check for
+// this.
 template <class M>
 bool is_consistent(const M& mesh) {
     for (const auto h : mesh.halfedges()) {
@@ -116,8 +117,8 @@ bool is_consistent(const M& mesh) {
 
 }  // namespace
 
-TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshes") {
-    const Soup soup = GENERATE(torus(40), holed_sheet(40));
+TEST_CASE("simplifying a manifold OpenMesh mesh gives the same faces as simplifying its arrays") {
+    const Soup soup = GENERATE(torus(40), height_field_with_hole(40));
     const auto preset = GENERATE(faqem::Preset::qem, faqem::Preset::paper, faqem::Preset::stmw,
                                  faqem::Preset::fast, faqem::Preset::balanced, faqem::Preset::best);
     const double share = GENERATE(0.5, 0.1, 0.01);
@@ -134,7 +135,7 @@ TEST_CASE("the OpenMesh door gives the faces of the array door on manifold meshe
     CHECK(is_consistent(mesh));
 }
 
-TEST_CASE("the OpenMesh door swaps the edges that the array door swaps") {
+TEST_CASE("preset best flips the same edges of an OpenMesh mesh as of its arrays") {
     Soup soup = torus(40);
     for (std::size_t v = 0; v < soup.positions.size(); ++v) {
         for (std::size_t k = 0; k < 3; ++k) soup.positions[v][k] += 0.02 * std::sin(double(v * (3 * k + 7)));
@@ -149,7 +150,7 @@ TEST_CASE("the OpenMesh door swaps the edges that the array door swaps") {
     CHECK(is_consistent(mesh));
 }
 
-TEST_CASE("the OpenMesh door keeps an error as the array door does") {
+TEST_CASE("max_error gives the same result for an OpenMesh mesh as for its arrays") {
     const Soup soup = torus(32);
     faqem::Options options{.max_error = faqem::of_diagonal(0.01)};
     Mesh mesh = build(soup);
@@ -177,7 +178,7 @@ TEST_CASE("a closed OpenMesh torus stays a closed torus") {
     for (const auto e : mesh.edges()) REQUIRE_FALSE(mesh.is_boundary(e));
 }
 
-TEST_CASE("handles and custom properties of what survives stay valid") {
+TEST_CASE("handles and custom properties of remaining elements stay valid") {
     const Soup soup = torus(30);
     Mesh mesh = build(soup);
     OpenMesh::VPropHandleT<int> vertex_number;
@@ -197,7 +198,7 @@ TEST_CASE("handles and custom properties of what survives stay valid") {
 }
 
 TEST_CASE("locked and feature elements do not move") {
-    const Soup soup = holed_sheet(24);
+    const Soup soup = height_field_with_hole(24);
     Mesh mesh = build(soup);
     mesh.request_vertex_status();
     mesh.request_edge_status();
@@ -221,8 +222,8 @@ TEST_CASE("locked and feature elements do not move") {
     }
 }
 
-TEST_CASE("only the selected region changes") {
-    const Soup soup = holed_sheet(24);
+TEST_CASE("faces outside the selected region are not deleted") {
+    const Soup soup = height_field_with_hole(24);
     Mesh mesh = build(soup);
     mesh.request_face_status();
     for (const auto f : mesh.faces()) mesh.status(f).set_selected(mesh.calc_face_centroid(f)[0] < 0.5);
@@ -237,7 +238,7 @@ TEST_CASE("only the selected region changes") {
     CHECK(living < soup.triangles.size() * 6 / 10);
 }
 
-TEST_CASE("weights and groups come from properties, and the result is that of the array door") {
+TEST_CASE("weights and groups from properties give the same result as weights and groups in arrays") {
     const Soup soup = torus(40);
     Mesh mesh = build(soup);
     faqem::Properties properties;
@@ -270,7 +271,7 @@ TEST_CASE("weights and groups come from properties, and the result is that of th
     CHECK(important > 0.6 * double(mesh.n_faces() - (soup.triangles.size() - report.faces_out)));
 }
 
-TEST_CASE("small components are pruned from an OpenMesh mesh, even where nothing else changes") {
+TEST_CASE("small components of an OpenMesh mesh are pruned even at ratio 1") {
     Soup soup = torus(20);
     const auto first = static_cast<faqem::Index>(soup.positions.size());
     for (const faqem::Vec3& p : {faqem::Vec3{9, 0, 0}, {9.1, 0, 0}, {9, 0.1, 0}}) soup.positions.push_back(p);
@@ -289,7 +290,7 @@ TEST_CASE("small components are pruned from an OpenMesh mesh, even where nothing
     CHECK(mesh.n_faces() == report.faces_out);
 }
 
-TEST_CASE("a float mesh, deleted faces and a second call work") {
+TEST_CASE("a float mesh with deleted faces can be simplified twice") {
     FloatMesh mesh = build<FloatMesh>(torus(30));
     mesh.request_face_status();
     mesh.request_edge_status();
@@ -303,8 +304,8 @@ TEST_CASE("a float mesh, deleted faces and a second call work") {
     CHECK(is_consistent(mesh));
 }
 
-TEST_CASE("border vertices stay put when the border is locked") {
-    Mesh mesh = build(holed_sheet(20));
+TEST_CASE("a locked boundary keeps the positions of its vertices") {
+    Mesh mesh = build(height_field_with_hole(20));
     std::vector<std::pair<Mesh::VertexHandle, Mesh::Point>> border;
     for (const auto v : mesh.vertices()) {
         if (mesh.valence(v) > 0 && mesh.is_boundary(v)) border.emplace_back(v, mesh.point(v));
@@ -316,7 +317,7 @@ TEST_CASE("border vertices stay put when the border is locked") {
     }
 }
 
-TEST_CASE("cancelling leaves the mesh as it was") {
+TEST_CASE("cancelling leaves the mesh unchanged") {
     Mesh mesh = build(torus(60));
     const auto before = face_set(mesh);
     const faqem::Report report =
@@ -326,7 +327,7 @@ TEST_CASE("cancelling leaves the mesh as it was") {
     CHECK(face_set(mesh) == before);
 }
 
-TEST_CASE("many small components: whole ones are deleted, the half-edge mesh stays consistent") {
+TEST_CASE("deleting whole components keeps the half-edge mesh consistent") {
     Soup soup;
     std::mt19937 random(7);
     for (faqem::Index i = 0; i < 200; ++i) {
@@ -349,7 +350,7 @@ TEST_CASE("many small components: whole ones are deleted, the half-edge mesh sta
     CHECK(is_consistent(mesh));
 }
 
-TEST_CASE("virtual edges are refused: a half-edge mesh cannot hold what they make") {
+TEST_CASE("virtual edges are refused because a half-edge mesh cannot represent their results") {
     Mesh mesh = build(torus(10));
     CHECK_THROWS_AS(faqem::simplify(mesh, {.topology = {.virtual_edges = faqem::VirtualEdges::on}}),
                     faqem::OptionError);

@@ -18,24 +18,25 @@ using namespace faqem::engine;
 
 namespace {
 
-// A surface in slots, its blocks of 500 vertices.
-struct Ground {
-    explicit Ground(const TriangleMesh& mesh)
-        : arranged(reorder(preprocess(mesh.view(), settings({})))), locked(arranged.positions.size(), 0) {
+// A preprocessed and reordered surface with blocks of 500 vertices.
+struct Fixture {
+    explicit Fixture(const TriangleMesh& mesh)
+        : reordered(reorder(preprocess(mesh.view(), settings({})))), locked(reordered.positions.size(), 0) {
         loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
         loop.distance_weight = 1e-4;
     }
-    BlockInput input() const { return {arranged.positions, arranged.triangles, locked, 500}; }
+    BlockInput input() const { return {reordered.positions, reordered.triangles, locked, 500}; }
     BlockSteps steps(std::size_t least, std::uint32_t threads = 2) const {
         return simplify_in_blocks(input(), loop, least, nullptr, Recording::on, threads);
     }
-    std::size_t faces() const { return arranged.triangles.size(); }
+    std::size_t faces() const { return reordered.triangles.size(); }
 
-    ReorderedMesh arranged;
+    ReorderedMesh reordered;
     std::vector<std::uint8_t> locked;
     LoopOptions loop;
 };
 
+// Recorder that stores collapses as block steps.
 struct Steps {
     void before_collapse(const CollapseMesh&, Index survivor, Index gone, const Candidate& to) {
         steps.push_back({survivor, gone, to.point});
@@ -47,9 +48,9 @@ struct Steps {
 
 TriangleMesh triple(const TriangleMesh& mesh) { return test::both(test::both(mesh, mesh), mesh); }
 
-// What an engine without blocks does to the mesh, where so many faces of three such are wanted.
-std::vector<BlockStep> alone(const TriangleMesh& mesh, const LoopOptions& loop, std::size_t wanted,
-                             TrackedMetric metric) {
+// The collapses of one engine without blocks, if `wanted` faces are to be kept of three copies of the mesh.
+std::vector<BlockStep> single_engine_steps(const TriangleMesh& mesh, const LoopOptions& loop,
+                                           std::size_t wanted, TrackedMetric metric) {
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     PairTable pairs(collapse_mesh, {});
     Wedges wedges;
@@ -62,8 +63,9 @@ std::vector<BlockStep> alone(const TriangleMesh& mesh, const LoopOptions& loop, 
     return steps.steps;
 }
 
-// Three meshes in one place, of so many vertices: what was found for all does the same to each.
-void check_that_each_goes_like(const std::vector<BlockStep>& one, const BlockSteps& found, Index size) {
+// Checks that the steps found for three copies of a mesh are, for each copy, the steps of a single engine.
+// \param size  number of vertices of one copy
+void check_copies_match(const std::vector<BlockStep>& one, const BlockSteps& found, Index size) {
     REQUIRE(found.steps.size() % 3 == 0);
     const std::size_t each = found.steps.size() / 3;
     REQUIRE(each > 80);
@@ -78,11 +80,11 @@ void check_that_each_goes_like(const std::vector<BlockStep>& one, const BlockSte
     }
 }
 
-TriangleMesh lump() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
+TriangleMesh bumpy_sphere() { return test::shaken(test::icosphere(4), 0.01, 7); }  // 2562 vertices
 
 }  // namespace
 
-TEST_CASE("blocks: few vertices are one, more are four, eight and so on of one size") {
+TEST_CASE("blocks: small surfaces are one block, larger ones a multiple of four blocks of equal size") {
     for (const std::size_t few : {0u, 1u, 32768u}) CHECK(vertices_per_block(few) == few);
     CHECK(vertices_per_block(8192, 8192) == 8192);
     CHECK(vertices_per_block(8193, 8192) == 2049);
@@ -96,11 +98,11 @@ TEST_CASE("blocks: few vertices are one, more are four, eight and so on of one s
     }
 }
 
-TEST_CASE("blocks: the steps can be done one after the other, and leave what apply_steps() says") {
-    const Ground ground(lump());
-    const BlockSteps found = ground.steps(1000);
+TEST_CASE("blocks: applying the steps one by one gives the mesh and patches of apply_steps") {
+    const Fixture fixture(bumpy_sphere());
+    const BlockSteps found = fixture.steps(1000);
     REQUIRE(found.steps.size() > 1000);
-    CollapseMesh collapse_mesh(ground.arranged.positions, ground.arranged.triangles);
+    CollapseMesh collapse_mesh(fixture.reordered.positions, fixture.reordered.triangles);
     bool patches_agree = true;
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
@@ -115,7 +117,7 @@ TEST_CASE("blocks: the steps can be done one after the other, and leave what app
         collapse_mesh.collapse(survivor, gone, to);
     }
     CHECK(patches_agree);
-    const CompactedMesh compacted = apply_steps(ground.input(), found.steps);
+    const CompactedMesh compacted = apply_steps(fixture.input(), found.steps);
     CHECK(compacted.triangles.size() == collapse_mesh.face_count());
     bool agree = true;
     for (std::size_t f = 0; f < compacted.faces.size(); ++f) {
@@ -132,29 +134,29 @@ TEST_CASE("blocks: the steps can be done one after the other, and leave what app
     CHECK(test::euler(compacted.triangles) == 2);
 }
 
-TEST_CASE("blocks: no fewer faces are left than wanted, whatever they cost") {
-    // Of the flat one every collapse costs nothing: ties are kept in equal shares.
-    for (const TriangleMesh& mesh : {lump(), test::grid(50)}) {
-        const Ground ground(mesh);
+TEST_CASE("blocks: the number of remaining faces is at least the requested number") {
+    // All collapses of the flat grid have the same cost: each block keeps the same share of them.
+    for (const TriangleMesh& mesh : {bumpy_sphere(), test::grid(50)}) {
+        const Fixture fixture(mesh);
         for (const std::size_t least : {100u, 800u, 2000u}) {
-            const BlockSteps found = ground.steps(least);
-            const std::size_t left = apply_steps(ground.input(), found.steps).triangles.size();
+            const BlockSteps found = fixture.steps(least);
+            const std::size_t left = apply_steps(fixture.input(), found.steps).triangles.size();
             CHECK(left >= least);
-            CHECK(left < 0.9 * static_cast<double>(ground.faces()));
+            CHECK(left < 0.9 * static_cast<double>(fixture.faces()));
         }
     }
 }
 
-TEST_CASE("blocks: one or two, or next to nothing to do, are left to the engine of the whole") {
-    CHECK(Ground(test::icosphere(3)).steps(10).steps.empty());  // 642 vertices
-    CHECK(Ground(lump()).steps(4000).steps.empty());            // of 5120 faces
+TEST_CASE("blocks: there are no steps for at most two blocks or if few faces are to be removed") {
+    CHECK(Fixture(test::icosphere(3)).steps(10).steps.empty());  // 642 vertices
+    CHECK(Fixture(bumpy_sphere()).steps(4000).steps.empty());    // of 5120 faces
 }
 
 TEST_CASE("blocks: the steps do not depend on the number of threads") {
-    const Ground ground(lump());
-    const BlockSteps one = ground.steps(600, 1);
+    const Fixture fixture(bumpy_sphere());
+    const BlockSteps one = fixture.steps(600, 1);
     for (const std::uint32_t threads : {2u, 3u, 16u}) {
-        const BlockSteps more = ground.steps(600, threads);
+        const BlockSteps more = fixture.steps(600, threads);
         REQUIRE(more.steps.size() == one.steps.size());
         bool same = more.patch_faces == one.patch_faces;
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
@@ -166,16 +168,16 @@ TEST_CASE("blocks: the steps do not depend on the number of threads") {
     }
 }
 
-TEST_CASE("blocks: vertices that are locked, or have faces in two blocks, stay") {
-    Ground ground(lump());
-    for (Index v = 0; v < ground.locked.size(); v += 5) ground.locked[v] = 1;
-    const BlockInput input = ground.input();
+TEST_CASE("blocks: locked vertices and vertices with faces in two blocks do not move") {
+    Fixture fixture(bumpy_sphere());
+    for (Index v = 0; v < fixture.locked.size(); v += 5) fixture.locked[v] = 1;
+    const BlockInput input = fixture.input();
     std::set<Index> staying;
-    for (Index v = 0; v < ground.locked.size(); v += 5) staying.insert(v);
+    for (Index v = 0; v < fixture.locked.size(); v += 5) staying.insert(v);
     for (const Triangle& t : input.triangles) {
         if (input.is_between_blocks(t)) staying.insert(t.begin(), t.end());
     }
-    const BlockSteps found = ground.steps(1500);
+    const BlockSteps found = fixture.steps(1500);
     REQUIRE_FALSE(found.steps.empty());
     for (const auto& [survivor, gone, to] : found.steps) {
         REQUIRE(staying.count(gone) == 0);
@@ -183,46 +185,46 @@ TEST_CASE("blocks: vertices that are locked, or have faces in two blocks, stay")
     }
 }
 
-TEST_CASE("blocks: a hole between blocks is no border that could end") {
-    // Without the rule, edges that only seem open would hold the surface beside them, or their end be priced.
-    const Ground ground(test::grid(60));
-    const BlockSteps found = ground.steps(500);
-    const CompactedMesh compacted = apply_steps(ground.input(), found.steps);
-    // The outline is still that of the square.
+TEST_CASE("blocks: edges between blocks are not treated as boundary edges") {
+    // Otherwise these edges would get boundary quadrics, or costs for the removal of a boundary.
+    const Fixture fixture(test::grid(60));
+    const BlockSteps found = fixture.steps(500);
+    const CompactedMesh compacted = apply_steps(fixture.input(), found.steps);
+    // The area is still that of the square.
     double area = 0;
     for (const Triangle& t : compacted.triangles) {
         area +=
             area_vector(compacted.positions[t[0]], compacted.positions[t[1]], compacted.positions[t[2]]).z();
     }
     double whole = 0;
-    for (const Triangle& t : ground.arranged.triangles) {
-        whole += area_vector(ground.arranged.positions[t[0]], ground.arranged.positions[t[1]],
-                             ground.arranged.positions[t[2]])
+    for (const Triangle& t : fixture.reordered.triangles) {
+        whole += area_vector(fixture.reordered.positions[t[0]], fixture.reordered.positions[t[1]],
+                             fixture.reordered.positions[t[2]])
                      .z();
     }
     CHECK(area == Approx(whole));
 }
 
-TEST_CASE("blocks: who cancels is obeyed, and who throws is heard, on the calling thread") {
-    Ground ground(test::shaken(test::icosphere(5), 0.01, 7));
+TEST_CASE("blocks: the progress callback runs on the calling thread and can cancel or throw") {
+    Fixture fixture(test::shaken(test::icosphere(5), 0.01, 7));
     const std::thread::id here = std::this_thread::get_id();
     int calls = 0;
     double last = 0;
-    ground.loop.progress = [&](double done) {
+    fixture.loop.progress = [&](double done) {
         CHECK(std::this_thread::get_id() == here);
         CHECK(done >= last);
         CHECK(done <= 1);
         last = done;
         return ++calls == 2 ? Continue::cancel : Continue::yes;
     };
-    CHECK(ground.steps(2000, 3).is_cancelled);
+    CHECK(fixture.steps(2000, 3).is_cancelled);
     CHECK(calls == 2);
-    ground.loop.progress = [&](double) -> Continue { throw std::runtime_error("enough"); };
-    CHECK_THROWS_WITH(ground.steps(2000, 3), "enough");
+    fixture.loop.progress = [&](double) -> Continue { throw std::runtime_error("enough"); };
+    CHECK_THROWS_WITH(fixture.steps(2000, 3), "enough");
 }
 
-TEST_CASE("blocks: each does what an engine alone would do, with the original vertices that are its own") {
-    // Three spheres in one place, one block each; each was a finer one before.
+TEST_CASE("blocks: with distance tracking each block gets the same collapses as from a single engine") {
+    // Three spheres at the same position, one block each, that were simplified from a finer sphere.
     const TriangleMesh coarse = test::shaken(test::icosphere(2), 0.01, 7);
     const TriangleMesh fine = test::icosphere(3);
     std::vector<Index> into;
@@ -247,13 +249,13 @@ TEST_CASE("blocks: each does what an engine alone would do, with the original ve
     const BlockInput input{now.positions, now.triangles, locked, size};
     const BlockTracking tracking{originals.surface, into_all};
     const BlockSteps found = simplify_in_blocks(input, loop, 300, &tracking, Recording::off, 2);
-    const std::vector<BlockStep> one =
-        alone(coarse, loop, 300, TrackedMetric({}, original.surface, TrackedVertices(into), 320, 0.05));
-    check_that_each_goes_like(one, found, size);
+    const std::vector<BlockStep> one = single_engine_steps(
+        coarse, loop, 300, TrackedMetric({}, original.surface, TrackedVertices(into), 320, 0.05));
+    check_copies_match(one, found, size);
 }
 
-TEST_CASE("blocks: where only borders are watched, each holds its own as an engine alone would") {
-    // Three tubes in one place, one block each.
+TEST_CASE("blocks: with boundary tracking each block gets the same collapses as from a single engine") {
+    // Three tubes at the same position, one block each.
     const TriangleMesh tube = test::shaken(test::cylinder(16, 12, 2), 0.01, 7);
     const test::OriginalOf original(tube), now(triple(tube));
     LoopOptions loop;
@@ -267,8 +269,9 @@ TEST_CASE("blocks: where only borders are watched, each holds its own as an engi
     };
     const BlockTracking borders{now.surface, now.tracked.current, Watched::borders};
     const BlockSteps held = found(&borders);
-    check_that_each_goes_like(
-        alone(tube, loop, 500, TrackedMetric({}, original.surface, original.tracked, 0, 0.05)), held, size);
+    check_copies_match(
+        single_engine_steps(tube, loop, 500, TrackedMetric({}, original.surface, original.tracked, 0, 0.05)),
+        held, size);
     const BlockSteps free = found(nullptr);
     REQUIRE(free.steps.size() == held.steps.size());
     CHECK_FALSE(std::equal(free.steps.begin(), free.steps.end(), held.steps.begin(),

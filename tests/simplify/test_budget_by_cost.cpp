@@ -18,14 +18,14 @@ CostCurve curve_of(const TriangleMesh& mesh, const Options& options = {}) {
     return detail::cost_curve(mesh.view(), options);
 }
 
-// From 12 faces to 4 in steps of two, each at the cost given.
+// A curve from 12 faces to 4 in steps of two with the given costs.
 CostCurve stairs(std::array<double, 4> costs, double diagonal = 1) {
     return {{{12, costs[0]}, {10, costs[1]}, {8, costs[2]}, {6, costs[3]}}, 4, diagonal, true};
 }
 
 }  // namespace
 
-TEST_CASE("cost curve: faces descend from all to the fewest, costs ascend") {
+TEST_CASE("cost curve: face counts descend and costs ascend") {
     const TriangleMesh mesh = test::shaken(test::torus(14, 9), 0.05, 1);
     const CostCurve curve = curve_of(mesh);
     REQUIRE(curve.is_complete);
@@ -38,7 +38,7 @@ TEST_CASE("cost curve: faces descend from all to the fewest, costs ascend") {
     CHECK(curve.diagonal == Approx(info(mesh.view()).diagonal));
 }
 
-TEST_CASE("cost curve: what is flat costs nothing, whatever the model's size") {
+TEST_CASE("cost curve: flat surfaces have zero cost at any scale") {
     const CostCurve flat = curve_of(test::scaled(test::grid(8), 1e6));
     REQUIRE(!flat.steps.empty());
     CHECK(flat.steps[flat.steps.size() / 2].cost < 1e-20);
@@ -46,22 +46,22 @@ TEST_CASE("cost curve: what is flat costs nothing, whatever the model's size") {
     CHECK(bumpy.steps[bumpy.steps.size() / 2].cost > 1e-8);
 }
 
-TEST_CASE("cost curve: locked vertices end it") {
+TEST_CASE("cost curve: locked vertices limit the number of steps") {
     Options options;
     options.topology.boundary = Boundary::locked;
-    // A fan of six triangles whose hub alone may go.
+    // A fan of six triangles of which only the centre vertex is free.
     const CostCurve curve = curve_of(test::fan(6), options);
     CHECK(curve.steps.size() <= 1);
     CHECK(curve.min_faces >= 4);
 }
 
-TEST_CASE("cost curve: cancelling is told") {
+TEST_CASE("cost curve: a cancelled curve is incomplete") {
     Options options;
     options.progress = [](Phase, double) { return Continue::cancel; };
     CHECK_FALSE(curve_of(test::icosphere(4), options).is_complete);
 }
 
-TEST_CASE("shares: the cheapest steps are taken, whoever's they are") {
+TEST_CASE("face budget: the cheapest steps of all meshes are taken first") {
     const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     const std::vector<double> weights = {1, 1};
     CHECK(distribute_face_budget(curves, weights, 24) == Shares{12, 12});
@@ -71,7 +71,7 @@ TEST_CASE("shares: the cheapest steps are taken, whoever's they are") {
     CHECK(distribute_face_budget(curves, weights, 10) == Shares{6, 4});
 }
 
-TEST_CASE("shares: no face of the goal is given away") {
+TEST_CASE("face budget: the budget is used completely") {
     const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     const std::vector<double> weights = {1, 1};
     for (std::uint64_t goal = 8; goal <= 24; ++goal) {
@@ -81,16 +81,16 @@ TEST_CASE("shares: no face of the goal is given away") {
     CHECK(distribute_face_budget(curves, weights, 100) == Shares{12, 12});
 }
 
-TEST_CASE("shares: below four faces each nothing is taken") {
+TEST_CASE("face budget: each mesh keeps at least four faces") {
     std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     curves[0].min_faces = 2;
-    curves.push_back({{}, 2, 1, true});  // has two to begin with
+    curves.push_back({{}, 2, 1, true});  // a mesh of two faces
     const std::vector<double> weights = {1, 1, 1};
     CHECK(distribute_face_budget(curves, weights, 0) == Shares{4, 4, 2});
 }
 
-TEST_CASE("shares: costs count by the fourth power of the size, times the weight") {
-    // The second is twice as large: its first step costs 16 times as much as the first's.
+TEST_CASE("face budget: costs scale with the fourth power of the size and with the weight") {
+    // The second mesh is twice as large: its first step costs 16 times as much as that of the first mesh.
     const std::vector<double> weights = {1, 1};
     CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights,
                                  22) == Shares{10, 12});
@@ -101,7 +101,7 @@ TEST_CASE("shares: costs count by the fourth power of the size, times the weight
                                  22) == Shares{12, 10});
 }
 
-TEST_CASE("shares: sizes far from 1 neither overflow nor vanish") {
+TEST_CASE("face budget: sizes of 1e-150 and 1e150 neither overflow nor underflow") {
     const std::vector<double> weights = {1, 1};
     for (const double unit : {1e-150, 1.0, 1e150}) {
         CHECK(distribute_face_budget(std::vector{stairs({1, 2, 5, 9}, unit), stairs({3, 4, 6, 7}, unit)},
@@ -109,7 +109,7 @@ TEST_CASE("shares: sizes far from 1 neither overflow nor vanish") {
     }
 }
 
-TEST_CASE("shares: there may be nothing to share") {
+TEST_CASE("face budget: no meshes and empty meshes are allowed") {
     CHECK(distribute_face_budget({}, {}, 10).empty());
     CHECK(distribute_face_budget(std::vector<CostCurve>(2), std::vector<double>{1, 1}, 10) == Shares{0, 0});
 }

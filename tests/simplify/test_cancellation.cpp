@@ -25,9 +25,9 @@ using engine::ProgressMonitor;
 
 namespace {
 
-// How often somebody was asked.
+// Number of calls of the callback during `work`.
 template <class Work>
-std::size_t questions(Work&& work) {
+std::size_t callback_calls(Work&& work) {
     std::size_t count = 0;
     ProgressMonitor monitor([&] { return ++count, Continue::yes; });
     work(CancellationCheck(monitor));
@@ -42,87 +42,88 @@ Options with(Preset preset, Target target) {
     return options;
 }
 
-using Door = std::function<Report(const Options&)>;
+using EntryPoint = std::function<Report(const Options&)>;
 
-// Cancels at every question, or throws: whatever is being done then, nothing is asked after it.
-// On one thread: who waits for others asks every few milliseconds, as often as that takes.
-// \param times  spread over the whole work
-void stop_anywhere(Options options, std::size_t times, const Door& door) {
+// Cancels, or throws, at some of the calls of the progress callback, and checks that no further call follows.
+// Runs on one thread, since the number of calls while waiting for other threads depends on time.
+// \param times  number of calls to try, spread over the whole work
+void stop_anywhere(Options options, std::size_t times, const EntryPoint& entry_point) {
     options.threads = 1;
     std::size_t all = 0;
     options.progress = [&](Phase, double) { return ++all, Continue::yes; };
-    CHECK(door(options).stop != StopReason::cancelled);
+    CHECK(entry_point(options).stop != StopReason::cancelled);
     REQUIRE(all > 4);
     for (std::size_t stop = 1; stop <= all; stop += 1 + all / times) {
         std::size_t calls = 0;
         options.progress = [&](Phase, double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
-        CHECK(door(options).stop == StopReason::cancelled);
+        CHECK(entry_point(options).stop == StopReason::cancelled);
         CHECK(calls == stop);
         calls = 0;
         options.progress = [&](Phase, double) {
-            if (++calls == stop) throw std::runtime_error("of the user's");
+            if (++calls == stop) throw std::runtime_error("from the callback");
             return Continue::yes;
         };
-        CHECK_THROWS_WITH(door(options), "of the user's");
+        CHECK_THROWS_WITH(entry_point(options), "from the callback");
         CHECK(calls == stop);
     }
 }
 
 }  // namespace
 
-TEST_CASE("every phase asks once for each few thousand operations") {
-    const TriangleMesh mesh = test::icosphere(6), light = test::icosphere(3);
+TEST_CASE("every phase checks for cancellation once per few thousand operations") {
+    const TriangleMesh mesh = test::icosphere(6), coarse = test::icosphere(3);
     const std::size_t faces = mesh.triangles.size(), enough = faces / ProgressMonitor::interval;
     const detail::Settings settings = detail::settings({});
-    CHECK(questions([&](CancellationCheck check_cancelled) {
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
               detail::preprocess(mesh.view(), settings, check_cancelled);
           }) >= 5 * enough);
     const detail::PreprocessedMesh prepared = detail::preprocess(mesh.view(), settings);
-    CHECK(questions([&](CancellationCheck check_cancelled) { detail::reorder(prepared, check_cancelled); }) >=
-          3 * enough);
-    CHECK(questions([&](CancellationCheck check_cancelled) {
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
+              detail::reorder(prepared, check_cancelled);
+          }) >= 3 * enough);
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
               detail::sorted_halfedges(mesh.triangles, check_cancelled);
           }) >= 3 * 16 * enough);
-    CHECK(questions([&](CancellationCheck check_cancelled) {
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
               detail::Bvh(mesh.positions, mesh.triangles, check_cancelled);
           }) >= 16 * enough);
-    CHECK(questions([&](CancellationCheck check_cancelled) {
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
               detail::extract_surface(mesh.view(), check_cancelled);
           }) >= 8 * enough);
-    CHECK(questions([&](CancellationCheck check_cancelled) {
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
               detail::find_surface_patches(mesh.positions, mesh.triangles, {}, check_cancelled);
           }) >= 16 * enough);
     Options options = with(Preset::fast, ratio(0.1));
     options.history = Recording::on;
-    const SimplifyResult small = simplify(mesh.view(), options);
-    const std::vector<Index> one_sheet(faces, 0);
+    const SimplifyResult recorded = simplify(mesh.view(), options);
+    const std::vector<Index> one_patch(faces, 0);
     detail::ReplayTables replay;
-    CHECK(questions([&](CancellationCheck check_cancelled) {
-              replay = detail::replay_patches(small.history, check_cancelled);
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
+              replay = detail::replay_patches(recorded.history, check_cancelled);
           }) >= 3 * enough);
-    CHECK(questions([&](CancellationCheck check_cancelled) {
-              detail::describe_patches(small.history, one_sheet, {1, check_cancelled}, replay);
+    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
+              detail::describe_patches(recorded.history, one_patch, {1, check_cancelled}, replay);
           }) >= 2 * enough);
 
     const detail::Surface from = detail::extract_surface(mesh.view()),
-                          to = detail::extract_surface(light.view());
+                          to = detail::extract_surface(coarse.view());
     const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);
     for (const std::uint32_t threads : {1u, 3u}) {
-        CHECK(questions([&](CancellationCheck check_cancelled) {
+        CHECK(callback_calls([&](CancellationCheck check_cancelled) {
                   detail::two_sided_hausdorff(from, tree_from, to, tree_to,
                                               {.workers = {threads, check_cancelled}});
               }) >= (threads == 1 ? enough : 1));
-        const std::vector<engine::Vector3> original = test::vectors(mesh), positions = test::vectors(light);
+        const std::vector<engine::Vector3> original = test::vectors(mesh), positions = test::vectors(coarse);
         const std::vector<std::uint8_t> fixed(positions.size(), 0);
-        CHECK(questions([&](CancellationCheck check_cancelled) {
+        CHECK(callback_calls([&](CancellationCheck check_cancelled) {
                   detail::fit_vertices_and_flip_edges({original, mesh.triangles},
-                                                      {positions, light.triangles}, fixed, {}, 0.3,
+                                                      {positions, coarse.triangles}, fixed, {}, 0.3,
                                                       {threads, check_cancelled});
               }) >= 50 * enough);
     }
 }
 
-TEST_CASE("whoever cancels or throws is heard in every phase, and once") {
+TEST_CASE("the progress callback can cancel or throw in every phase and is not called again") {
     const TriangleMesh sphere = test::shaken(test::icosphere(4), 0.003, 1);
     const TriangleMesh before = sphere;
     const auto simplified = [&](const Options& options) { return simplify(sphere.view(), options).report; };
@@ -141,7 +142,7 @@ TEST_CASE("whoever cancels or throws is heard in every phase, and once") {
     CHECK(sphere.triangles == before.triangles);
 }
 
-TEST_CASE("cancelling before the first collapse leaves an empty mesh, and says so") {
+TEST_CASE("cancelling before the first collapse gives an empty mesh with stop reason cancelled") {
     const TriangleMesh mesh = test::icosphere(5);
     Options options = with(Preset::best, ratio(0.1));
     options.progress = [](Phase phase, double) {
@@ -154,11 +155,11 @@ TEST_CASE("cancelling before the first collapse leaves an empty mesh, and says s
     CHECK(result.report.faces_in == mesh.triangles.size());
 }
 
-TEST_CASE("threads that help hear that the calling one has been told to stop") {
+TEST_CASE("helper threads stop if the calling thread is cancelled") {
     std::atomic<int> stopped{0};
     int calls = 0;
     ProgressMonitor monitor([&] { return ++calls == 3 ? Continue::cancel : Continue::yes; });
-    // Blocks without an end of their own.
+    // Blocks that end only by cancellation.
     const auto forever = [&](std::size_t, std::size_t, CancellationCheck check_cancelled) {
         struct Leaving {
             std::atomic<int>& count;
@@ -173,7 +174,7 @@ TEST_CASE("threads that help hear that the calling one has been told to stop") {
     CHECK(calls == 3);
 }
 
-TEST_CASE("who waits for threads that help is asked meanwhile") {
+TEST_CASE("the calling thread checks for cancellation while it waits for helper threads") {
     const std::thread::id here = std::this_thread::get_id();
     ProgressMonitor monitor([&] {
         CHECK(std::this_thread::get_id() == here);
@@ -191,7 +192,7 @@ TEST_CASE("who waits for threads that help is asked meanwhile") {
                     Cancelled);
 }
 
-TEST_CASE("what the calling thread throws counts, whatever the others have thrown") {
+TEST_CASE("an exception of the calling thread takes precedence over those of helper threads") {
     std::atomic<bool> has_begun{false}, has_thrown{false};
     const std::thread::id here = std::this_thread::get_id();
     CHECK_THROWS_WITH(detail::parallel_blocks(2, 1, 2,

@@ -8,12 +8,12 @@ using namespace faqem;
 using namespace faqem::detail;
 using engine::Vector3;
 
-TEST_CASE("a trace knows where slots went and whose place they have") {
+TEST_CASE("SlotTrace follows merged slots and slots with original positions") {
     SlotTrace trace(5);
     const Vector3 a(0, 0, 0), b(1, 0, 0), c(2, 0, 0), middle(0.5, 0, 0);
-    trace.before_collapse(0, 1, a, b, b);  // at the place of the one that goes
+    trace.before_collapse(0, 1, a, b, b);  // to the position of the removed vertex
     CHECK(trace.source_slots() == std::vector<Index>{1, 1, 2, 3, 4});
-    trace.before_collapse(3, 2, b, c, b);  // stays
+    trace.before_collapse(3, 2, b, c, b);  // to the position of the survivor
     CHECK(trace.source_slots()[3] == 3);
     trace.before_collapse(3, 0, b, a, middle);
     CHECK(trace.source_slots()[3] == no_index);
@@ -21,7 +21,7 @@ TEST_CASE("a trace knows where slots went and whose place they have") {
     CHECK(trace.root(4) == 4);
 }
 
-TEST_CASE("what an engine has left is numbered anew") {
+TEST_CASE("compaction numbers the remaining vertices and faces consecutively") {
     engine::CollapseMesh mesh = test::collapse_mesh_of(test::grid(2));
     SlotTrace trace(mesh.vertex_slots());
     const Vector3 to = mesh.position(1);
@@ -41,7 +41,7 @@ TEST_CASE("what an engine has left is numbered anew") {
         CHECK(left.positions[v] == mesh.position(left.vertices[v]));
 }
 
-TEST_CASE("vertices whose faces have all gone have gone into none") {
+TEST_CASE("compaction maps vertices without remaining faces to no_index") {
     engine::CollapseMesh mesh = test::collapse_mesh_of(test::both(test::quad(), test::tetrahedron()));
     SlotTrace trace(mesh.vertex_slots());
     for (Index f = 0; f < 2; ++f) mesh.remove_face(f);

@@ -21,7 +21,7 @@ Options within(MaxError error, Preset preset = Preset::balanced) {
     return options;
 }
 
-/// A flat square of side 1 with 2 n^2 faces; its middle vertex stands out by `height`.
+/// A flat square of side 1 with 2 n^2 faces, whose middle vertex is raised by `height`.
 TriangleMesh bump(Index n, double height) {
     TriangleMesh mesh = test::square(n, 1, 0);
     mesh.positions[n / 2 + (n + 1) * (n / 2)][2] = height;
@@ -45,10 +45,10 @@ bool warned(const Report& report, const std::string& beginning) {
 
 }  // namespace
 
-TEST_CASE("a bump stays as high as the error asks for, and its surroundings lose their faces") {
+TEST_CASE("an error search keeps a bump as high as max_error requires and simplifies the flat rest") {
     const double height = 0.05;
     const TriangleMesh mesh = bump(20, height);
-    // Four faces over the whole square would be off by at least h / 2: below that it takes more.
+    // Four faces over the whole square have an error of at least h / 2: smaller errors need more faces.
     const SimplifyResult close = simplify(mesh.view(), within(model_units(0.3 * height)));
     const SimplifyResult below = simplify(mesh.view(), within(model_units(0.98 * height)));
     const SimplifyResult above = simplify(mesh.view(), within(model_units(1.02 * height)));
@@ -70,7 +70,7 @@ TEST_CASE("a bump stays as high as the error asks for, and its surroundings lose
     }
 }
 
-TEST_CASE("no point of the result of any preset is farther than the error allows") {
+TEST_CASE("an error search with any preset gives a result within max_error") {
     const TriangleMesh mesh = test::shaken(test::icosphere(3), 0.004, 5);
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
@@ -81,14 +81,14 @@ TEST_CASE("no point of the result of any preset is farther than the error allows
         CHECK(error.within());
         CHECK(std::max(test::sampled_distance(mesh, result.mesh, 4),
                        test::sampled_distance(result.mesh, mesh, 12)) <= error.bound + 1e-12);
-        // A sphere with n faces is off by about 2 / n at best: 1280 faces come down to some hundreds.
+        // The error of a sphere with n faces is about 2 / n at best: a few hundred of 1280 faces remain.
         CHECK(error.value >= 0.02);
         CHECK(result.mesh.triangles.size() <= 400);
         CHECK(result.mesh.triangles.size() >= 50);
     }
 }
 
-TEST_CASE("no count well below the one found is within the error") {
+TEST_CASE("results with clearly fewer faces than found by the error search exceed max_error") {
     const TriangleMesh mesh = test::icosphere(3);
     const SimplifyResult result = simplify(mesh.view(), within(model_units(0.02)));
     const auto found = static_cast<double>(result.mesh.triangles.size());
@@ -99,7 +99,7 @@ TEST_CASE("no count well below the one found is within the error") {
     }
 }
 
-TEST_CASE("an error as a share of the diagonal is the same as in model units") {
+TEST_CASE("max_error of_diagonal is equivalent to max_error in model units") {
     const TriangleMesh mesh = test::scaled(test::torus(24, 16), 8);
     const double diagonal = info(mesh.view()).diagonal;
     const SimplifyResult share = simplify(mesh.view(), within(of_diagonal(0.01)));
@@ -109,7 +109,7 @@ TEST_CASE("an error as a share of the diagonal is the same as in model units") {
     CHECK(share.report.max_error->allowed == Approx(0.01 * diagonal));
 }
 
-TEST_CASE("a target with an error is run once and measured") {
+TEST_CASE("with a target and max_error there is one run and one measurement") {
     const TriangleMesh mesh = test::icosphere(3);
     const Target target = GENERATE(faces(100), ratio(0.05));
     for (const double allowed : {1e-3, 0.5}) {
@@ -131,7 +131,7 @@ TEST_CASE("a target with an error is run once and measured") {
     }
 }
 
-TEST_CASE("an error too small for any collapse gives the input back") {
+TEST_CASE("a max_error too small for any collapse gives the input as the result") {
     const TriangleMesh mesh = test::shaken(test::grid(6), 0.1, 2);
     for (const double allowed : {1e-9, 1e-300}) {
         const SimplifyResult result = simplify(mesh.view(), within(model_units(allowed)));
@@ -143,7 +143,7 @@ TEST_CASE("an error too small for any collapse gives the input back") {
     }
 }
 
-TEST_CASE("an error larger than the model leaves what the engine leaves at the least") {
+TEST_CASE("a max_error larger than the model gives the smallest possible mesh") {
     const TriangleMesh mesh = test::icosphere(2);
     const SimplifyResult result = simplify(mesh.view(), within(of_diagonal(10)));
     CHECK(result.mesh.triangles.size() <= 4);
@@ -151,7 +151,7 @@ TEST_CASE("an error larger than the model leaves what the engine leaves at the l
     CHECK(result.report.max_error->runs <= 3);
 }
 
-TEST_CASE("what is locked stays, however large the error") {
+TEST_CASE("locked boundaries and vertices are kept with any max_error") {
     const TriangleMesh mesh = test::cylinder(12, 8, 4);
     Options options = within(model_units(100));
     options.topology.boundary = Boundary::locked;
@@ -164,7 +164,7 @@ TEST_CASE("what is locked stays, however large the error") {
     CHECK(same(simplify(view, options).mesh, mesh));
 }
 
-TEST_CASE("a weld that moves the surface by more than the error is found out") {
+TEST_CASE("an error search reports if welding alone exceeds max_error") {
     const TriangleMesh mesh = bump(8, 0.3);
     Options options = within(model_units(1e-3));
     options.topology.weld_distance = 0.5;
@@ -176,7 +176,7 @@ TEST_CASE("a weld that moves the surface by more than the error is found out") {
     CHECK(warned(result.report, "no mesh within max_error was found"));
 }
 
-TEST_CASE("meshes without area have no distance") {
+TEST_CASE("the distance is zero for originals without area and infinite if only the result has none") {
     const Options options = within(of_diagonal(0.01));
     const SimplifyResult empty = simplify(MeshView{}, options);
     CHECK(empty.mesh.triangles.empty());
@@ -185,15 +185,15 @@ TEST_CASE("meshes without area have no distance") {
     for (Vec3& p : line.positions) p[1] = p[2] = 0;
     const SimplifyResult flat = simplify(line.view(), options);
     CHECK(flat.report.max_error->bound == 0);
-    // If only the result has no area, nothing is near it.
-    SimplifyResult gone;
-    gone.report.collapses = 1;
+    // Only the result has no area.
+    SimplifyResult no_faces;
+    no_faces.report.collapses = 1;
     const detail::DistanceReference original(test::cube().view());
-    CHECK(detail::distance(original, gone, 1, detail::MeasureMode::full, {}).bound ==
+    CHECK(detail::distance(original, no_faces, 1, detail::MeasureMode::full, {}).bound ==
           std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("bad input is refused with an error as without one") {
+TEST_CASE("invalid input is refused with max_error as without it") {
     TriangleMesh mesh = test::grid(3);
     mesh.triangles[4][1] = 99;
     CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(1))), InputError);
@@ -203,7 +203,7 @@ TEST_CASE("bad input is refused with an error as without one") {
     CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(0))), OptionError);
 }
 
-TEST_CASE("a search gives the same mesh with any number of threads, and its history fits") {
+TEST_CASE("an error search does not depend on the number of threads and its history gives the result") {
     const TriangleMesh mesh = test::shaken(test::torus(32, 24), 0.01, 1);
     Options options = within(of_diagonal(0.01));
     options.history = Recording::on;
@@ -218,10 +218,10 @@ TEST_CASE("a search gives the same mesh with any number of threads, and its hist
     CHECK(one.report.max_error->runs == three.report.max_error->runs);
 }
 
-TEST_CASE("progress rises to one over a whole search, and any call may cancel it") {
+TEST_CASE("progress of an error search increases to 1 and any call can cancel it") {
     const TriangleMesh mesh = test::torus(48, 32);
     Options options = within(of_diagonal(0.005));
-    options.threads = 1;  // who waits for other threads asks every few milliseconds, as often as that takes
+    options.threads = 1;  // the number of calls while waiting for other threads depends on time
     std::vector<double> seen;
     options.progress = [&](Phase phase, double done) {
         CHECK(phase == Phase::simplify);

@@ -9,7 +9,7 @@
 
 using namespace faqem;
 
-TEST_CASE("positions are seen as float or double, as triples or flat, without a copy") {
+TEST_CASE("PositionView reads float and double, as arrays of triples and as flat arrays, without copying") {
     const std::vector<Vec3> doubles = {{1, 2, 3}, {4, 5, 0.1}};
     const std::vector<Vec3f> floats = {{1, 2, 3}, {4, 5, 0.1f}};
     const std::vector<double> flat = {1, 2, 3, 4, 5, 0.1};
@@ -28,7 +28,7 @@ TEST_CASE("positions are seen as float or double, as triples or flat, without a 
     CHECK(view[0][0] == 9);
 }
 
-TEST_CASE("trailing numbers that make no vertex or triangle are ignored") {
+TEST_CASE("views ignore trailing values that do not form a complete vertex or triangle") {
     const std::vector<double> seven(7, 1.0);
     CHECK(PositionView(seven).size() == 2);
     const std::vector<Index> eight = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -36,14 +36,14 @@ TEST_CASE("trailing numbers that make no vertex or triangle are ignored") {
     CHECK(TriangleView(eight)[1] == Triangle{3, 4, 5});
 }
 
-TEST_CASE("views of nothing are empty") {
+TEST_CASE("default-constructed views and views of empty arrays are empty") {
     CHECK(PositionView().empty());
     CHECK(TriangleView().empty());
     CHECK(PositionView(std::vector<Vec3>{}).empty());
     CHECK(TriangleView(std::vector<Triangle>{}).empty());
 }
 
-TEST_CASE("a mesh shows its arrays, and its attributes where it has some") {
+TEST_CASE("TriangleMesh::view refers to all arrays of the mesh, and to attributes only if there are some") {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}};
@@ -59,10 +59,10 @@ TEST_CASE("a mesh shows its arrays, and its attributes where it has some") {
 
 namespace {
 
-// A vertex as a renderer has it.
-struct Drawn {
+// An interleaved vertex, as in a vertex buffer.
+struct InterleavedVertex {
     float normal[3];
-    float place[3];
+    float position[3];
     std::uint8_t colour[4];
 };
 const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0.5}};
@@ -80,14 +80,14 @@ void check_faces(const TriangleView& view) {
 
 }  // namespace
 
-TEST_CASE("positions are seen between other data") {
-    std::vector<Drawn> drawn;
+TEST_CASE("PositionView reads interleaved positions") {
+    std::vector<InterleavedVertex> vertices;
     for (const Vec3& p : corners)
-        drawn.push_back({{7, 7, 7}, {float(p[0]), float(p[1]), float(p[2])}, {9, 9, 9, 9}});
-    check_corners({drawn[0].place, drawn.size(), sizeof(Drawn)});
+        vertices.push_back({{7, 7, 7}, {float(p[0]), float(p[1]), float(p[2])}, {9, 9, 9, 9}});
+    check_corners({vertices[0].position, vertices.size(), sizeof(InterleavedVertex)});
 }
 
-TEST_CASE("positions are seen one coordinate after the other, as matrices have them") {
+TEST_CASE("PositionView reads column-major matrices with one row per vertex") {
     std::vector<double> columns;
     for (std::size_t k = 0; k < 3; ++k) {
         for (const Vec3& p : corners) columns.push_back(p[k]);
@@ -95,13 +95,13 @@ TEST_CASE("positions are seen one coordinate after the other, as matrices have t
     check_corners({columns.data(), corners.size(), sizeof(double), corners.size() * sizeof(double)});
 }
 
-TEST_CASE("positions need not be aligned") {
+TEST_CASE("PositionView reads unaligned positions") {
     std::vector<unsigned char> bytes(1 + corners.size() * sizeof(Vec3));
     std::memcpy(bytes.data() + 1, corners.data(), corners.size() * sizeof(Vec3));
     check_corners({reinterpret_cast<const double*>(bytes.data() + 1), corners.size(), sizeof(Vec3)});
 }
 
-TEST_CASE("triangles are seen with indices of 16 bits, signed, padded, or corner after corner") {
+TEST_CASE("TriangleView reads 16-bit, signed, padded and column-major indices") {
     const std::vector<std::uint16_t> narrow = {0, 1, 2, 0, 2, 3};
     check_faces(narrow);
     check_faces(std::span(narrow));
@@ -114,13 +114,13 @@ TEST_CASE("triangles are seen with indices of 16 bits, signed, padded, or corner
     CHECK(TriangleView(eight).size() == 2);
 }
 
-TEST_CASE("a negative index is out of range") {
+TEST_CASE("simplify refuses negative vertex indices") {
     const std::vector<std::int32_t> triangles = {0, 1, 2, 0, -2, 3};
     const MeshView mesh{corners, {triangles.data(), 2, 3 * sizeof(std::int32_t)}};
     CHECK_THROWS_WITH(simplify(mesh), "face 1: vertex index out of range");
 }
 
-TEST_CASE("the result does not depend on how the input lies in memory") {
+TEST_CASE("the result of simplify does not depend on the memory layout of the input") {
     const TriangleMesh mesh = test::shaken(test::grid(20), 0.2, 3);
     std::vector<double> columns;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -12,7 +12,7 @@ namespace {
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 const double infinity = std::numeric_limits<double>::infinity();
 
-// What validate() says of options changed by `change`.
+// The error message of validate() for options changed by `change`, or "accepted".
 template <class Change>
 std::string complaint(Change change) {
     Options options;
@@ -27,11 +27,11 @@ std::string complaint(Change change) {
 
 }  // namespace
 
-TEST_CASE("the defaults are valid") {
+TEST_CASE("the default options are valid") {
     CHECK(complaint([](Options&) {}) == "accepted");
 }
 
-TEST_CASE("a ratio is above 0 and at most 1, a number of faces is at least one") {
+TEST_CASE("a target ratio must be above 0 and at most 1 and a face count at least 1") {
     for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, infinity}) {
         CHECK(complaint([&](Options& o) { o.target = ratio(bad); }) == "target ratio must be in (0, 1]");
     }
@@ -47,7 +47,7 @@ TEST_CASE("a ratio is above 0 and at most 1, a number of faces is at least one")
     CHECK(complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
 }
 
-TEST_CASE("an error is finite and positive in either unit") {
+TEST_CASE("max_error must be finite and positive in either unit") {
     for (const double bad : {0.0, -1e-9, not_a_number, infinity}) {
         CHECK(complaint([&](Options& o) { o.max_error = model_units(bad); }) ==
               "max_error must be finite and > 0");
@@ -58,24 +58,24 @@ TEST_CASE("an error is finite and positive in either unit") {
     CHECK(complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
 }
 
-TEST_CASE("what is hidden weighs less only where faces are counted") {
+TEST_CASE("weighted visibility with max_error needs a target") {
     const auto both = [](Options& o) {
         o.max_error = of_diagonal(0.1);
         o.visibility = Visibility::weighted;
     };
     CHECK(complaint(both) ==
-          "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
+          "visibility must be ignored if max_error is given without a target: distances are not weighted");
     CHECK(complaint([&](Options& o) { both(o), o.target = faces(10); }) == "accepted");
     CHECK(complaint([&](Options& o) { both(o), o.visibility = Visibility::ignored; }) == "accepted");
 }
 
-TEST_CASE("without a target a tenth of the faces is meant") {
+TEST_CASE("the default target is a ratio of 0.1") {
     CHECK(Options{}.target.kind == Target::Kind::unset);
     CHECK(Options{}.target.value == 0.1);
     CHECK(complaint([](Options& o) { o.target.value = 0; }) == "target ratio must be in (0, 1]");
 }
 
-TEST_CASE("weights are finite and not negative, and the wrong one is named") {
+TEST_CASE("weights must be finite and not negative and errors name the weight") {
     const std::pair<std::optional<double> Weights::*, std::string> members[] = {
         {&Weights::area, "area"}, {&Weights::boundary, "boundary"},     {&Weights::normal, "normal"},
         {&Weights::uv, "uv"},     {&Weights::plane_area, "plane_area"},
@@ -89,7 +89,7 @@ TEST_CASE("weights are finite and not negative, and the wrong one is named") {
     }
 }
 
-TEST_CASE("distances have their ranges") {
+TEST_CASE("weld and virtual edge distances must be in their ranges") {
     for (const double bad : {-1e-9, not_a_number, infinity}) {
         CHECK(complaint([&](Options& o) { o.topology.weld_distance = bad; }) ==
               "weld_distance must be finite and >= 0");
@@ -102,7 +102,7 @@ TEST_CASE("distances have their ranges") {
     CHECK(complaint([](Options& o) { o.topology.virtual_edge_distance = 1; }) == "accepted");
 }
 
-TEST_CASE("baking options have their ranges") {
+TEST_CASE("baking options must be in their ranges") {
     for (const std::uint32_t bad : {0u, 32u, 100u, 2047u, 32768u, ~0u}) {
         CHECK(complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
               "texture_size must be a power of two in [64, 16384]");

@@ -32,8 +32,8 @@ std::string complaint(const MeshView& mesh) {
 
 }  // namespace
 
-TEST_CASE("vertices at one place become one, faces keep their index") {
-    // The two triangles of the square, not sharing vertices.
+TEST_CASE("preprocessing welds vertices at equal positions and keeps face indices") {
+    // The two triangles of the square, without shared vertices.
     const TriangleMesh mesh = test::make(
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, -0.0}, {-0.0, 1, 0}, {0, 0, 0}}, {{0, 1, 2}, {5, 3, 4}});
     const PreprocessedMesh p = preprocess(mesh.view());
@@ -44,7 +44,7 @@ TEST_CASE("vertices at one place become one, faces keep their index") {
     CHECK(p.dropped_faces == 0);
 }
 
-TEST_CASE("within the weld distance a face may lose a corner and is dropped") {
+TEST_CASE("preprocessing removes faces that become degenerate by welding") {
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-7, 0, 0}}, {{0, 1, 2}, {0, 3, 2}});
     CHECK(preprocess(mesh.view()).dropped_faces == 0);
@@ -54,7 +54,7 @@ TEST_CASE("within the weld distance a face may lose a corner and is dropped") {
     CHECK(p.positions.size() == 3);
 }
 
-TEST_CASE("doubles of a face are dropped, back-to-back faces and those of other groups are kept") {
+TEST_CASE("duplicate faces are removed unless their winding or group differs") {
     TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                    {{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}, {1, 1, 2}});
     const PreprocessedMesh p = preprocess(mesh.view());
@@ -65,7 +65,7 @@ TEST_CASE("doubles of a face are dropped, back-to-back faces and those of other 
           std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, dead, dead, dead});
 }
 
-TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertices do not count") {
+TEST_CASE("preprocessing centres and scales the bounding box of the referenced vertices") {
     TriangleMesh mesh = test::moved(test::scaled(test::quad(), 3), {10, 20, 30});
     mesh.positions.push_back({-1e6, 1e9, 4});
     const PreprocessedMesh p = preprocess(mesh.view(), 100);
@@ -78,7 +78,7 @@ TEST_CASE("the model is centred and scaled to the wanted diagonal, unused vertic
     CHECK(p.to_model(q[2])[2] == 30);
 }
 
-TEST_CASE("a model without extent, and one near the largest double, have a scale") {
+TEST_CASE("preprocessing finds a valid scale for coincident vertices and for the largest coordinates") {
     const PreprocessedMesh point = preprocess(test::scaled(test::cube(), 0).view());
     CHECK(point.scale == 1);
     CHECK(point.dropped_faces == 12);
@@ -86,7 +86,7 @@ TEST_CASE("a model without extent, and one near the largest double, have a scale
         preprocess(test::moved(test::scaled(test::cube(), 1e308), {5e307, 0, 0}).view());
     CHECK(huge.centre == Vec3{1e308, 5e307, 5e307});
     CHECK(huge.scale == Approx(1 / (std::sqrt(3.0) * 1e308)));
-    // The diagonal of the largest box is above the largest double.
+    // The diagonal of this box exceeds the largest double.
     TriangleMesh largest = test::cube();
     for (Vec3& p : largest.positions)
         for (double& x : p)
@@ -96,9 +96,9 @@ TEST_CASE("a model without extent, and one near the largest double, have a scale
     CHECK(prepare({}).positions.empty());
 }
 
-TEST_CASE("is a triangle too flat to have a normal, at any size?") {
+TEST_CASE("has_no_area finds degenerate triangles at any scale") {
     using detail::has_no_area;
-    // Squares of lengths leave the range of a double beyond 1e154, their squares beyond 1e77.
+    // Squared lengths overflow above 1e154, and their squares above 1e77.
     for (const double s : {1.0, 1e-30, 1e30, 1e-70, 1e70, 1e-100, 1e100, 1e-150, 1e150, 1e-290, 1e290}) {
         INFO("scale " << s);
         CHECK_FALSE(has_no_area({0, 0, 0}, {s, 0, 0}, {0, s, 0}));
@@ -110,7 +110,7 @@ TEST_CASE("is a triangle too flat to have a normal, at any size?") {
     CHECK(has_no_area({1, 2, 3}, {1, 2, 3}, {4, 5, 6}));
 }
 
-TEST_CASE("what is wrong with the input is said, with the element") {
+TEST_CASE("input errors name the element and the reason") {
     TriangleMesh mesh = test::quad();
     CHECK(complaint(mesh.view()) == "accepted");
     mesh.triangles[1][2] = 4;
@@ -140,5 +140,5 @@ TEST_CASE("what is wrong with the input is said, with the element") {
     uv.values.resize(12);
     CHECK(complaint(view) == "accepted");
     uv.values[5] = std::numeric_limits<float>::quiet_NaN();
-    CHECK(complaint(view) == "attributes, corner 2: not finite");
+    CHECK(complaint(view) == "attributes, corner 2: value is not finite");
 }

@@ -18,7 +18,7 @@ detail::Settings of(Preset preset, const Weights& weights = {}, const Topology& 
 
 }  // namespace
 
-TEST_CASE("paper is Table 1 of the supplementary, at a diagonal of 100") {
+TEST_CASE("preset paper has the weights of Table 1 at a diagonal of 100") {
     const detail::Settings s = of(Preset::paper);
     CHECK(s.weights.base == BaseWeight::inverse_area);
     CHECK(s.weights.plane_area == 1);
@@ -34,7 +34,7 @@ TEST_CASE("paper is Table 1 of the supplementary, at a diagonal of 100") {
     CHECK(s.weld_distance == 1e-6);
 }
 
-TEST_CASE("qem is Garland and Heckbert's: plain planes, the link condition") {
+TEST_CASE("preset qem has unweighted plane quadrics and the link condition") {
     const detail::Settings s = of(Preset::qem);
     CHECK(s.weights.base == BaseWeight::unit);
     CHECK(s.weights.area == 0);
@@ -47,7 +47,7 @@ TEST_CASE("qem is Garland and Heckbert's: plain planes, the link condition") {
     CHECK(s.weld_distance == 0);
 }
 
-TEST_CASE("fast has no memory, balanced tracks the distance besides") {
+TEST_CASE("preset fast is memoryless and preset balanced also tracks distances") {
     CHECK(of(Preset::fast).quadric_policy == detail::Settings::QuadricPolicy::memoryless);
     const detail::Settings s = of(Preset::balanced);
     CHECK(s.quadric_policy == detail::Settings::QuadricPolicy::tracked);
@@ -57,7 +57,7 @@ TEST_CASE("fast has no memory, balanced tracks the distance besides") {
     CHECK(detail::settings({}).quadric_policy == detail::Settings::QuadricPolicy::tracked);
 }
 
-TEST_CASE("stmw weighs planes by area and places with the area term") {
+TEST_CASE("preset stmw weights planes by area and uses the area term for placement") {
     const detail::Settings s = of(Preset::stmw);
     CHECK(s.weights.base == BaseWeight::area);
     CHECK(s.weights.area == 1);
@@ -69,7 +69,7 @@ TEST_CASE("stmw weighs planes by area and places with the area term") {
     CHECK(s.weld_distance == 0);
 }
 
-TEST_CASE("every weight and rule can be set on its own") {
+TEST_CASE("every weight and topology option overrides the preset") {
     Weights w;
     w.area = 1;
     w.boundary = 2;
@@ -94,7 +94,7 @@ TEST_CASE("every weight and rule can be set on its own") {
     CHECK(of(Preset::qem, {}, t).link == LinkCondition::off);
 }
 
-TEST_CASE("the link condition by size is that of the presets without memory, elsewhere it is on") {
+TEST_CASE("the link condition by_size applies to memoryless presets and is on for others") {
     for (const Preset preset : all_presets) {
         Options o;
         o.preset = preset;
@@ -105,7 +105,7 @@ TEST_CASE("the link condition by size is that of the presets without memory, els
     }
 }
 
-TEST_CASE("plane_area 0 means unweighted planes, as in the paper's ablation") {
+TEST_CASE("plane_area 0 gives unweighted planes as in the ablation of the paper") {
     Weights w;
     w.plane_area = 0;
     CHECK(of(Preset::paper, w).weights.base == BaseWeight::unit);

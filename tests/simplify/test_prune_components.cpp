@@ -16,7 +16,7 @@ namespace {
 
 constexpr Triangle no_face = {no_index, no_index, no_index};
 
-// Tetrahedra of these sizes side by side; the box of one of size s has the diagonal s sqrt(3).
+// Tetrahedra of these sizes in a row; the bounding box of one of size s has the diagonal s sqrt(3).
 TriangleMesh tetrahedra(const std::vector<double>& sizes) {
     TriangleMesh mesh;
     double x = 0;
@@ -27,7 +27,7 @@ TriangleMesh tetrahedra(const std::vector<double>& sizes) {
     return mesh;
 }
 
-// Which tetrahedra are left.
+// Indices of the tetrahedra that are kept.
 std::vector<std::size_t> left(const std::vector<double>& sizes, const Length& size,
                               const std::vector<std::uint8_t>& locked = {}) {
     const TriangleMesh mesh = tetrahedra(sizes);
@@ -35,9 +35,9 @@ std::vector<std::size_t> left(const std::vector<double>& sizes, const Length& si
     const PruneResult pruned = prune(mesh.positions, locked, size, triangles);
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-        const bool gone = triangles[4 * i] == no_face;
-        for (std::size_t k = 1; k < 4; ++k) CHECK((triangles[4 * i + k] == no_face) == gone);
-        if (!gone) result.push_back(i);
+        const bool is_removed = triangles[4 * i] == no_face;
+        for (std::size_t k = 1; k < 4; ++k) CHECK((triangles[4 * i + k] == no_face) == is_removed);
+        if (!is_removed) result.push_back(i);
     }
     CHECK(pruned.components == sizes.size() - result.size());
     CHECK(pruned.faces.size() == 4 * pruned.components);
@@ -54,7 +54,7 @@ Options pruning(const Length& size, double keep = 1) {
     return options;
 }
 
-// A globe with two specks beside it, one of them in two faces.
+// A sphere with two small components beside it, a tetrahedron and a quad.
 TriangleMesh dusty() {
     const TriangleMesh speck = test::moved(test::scaled(test::tetrahedron(), 0.01), {1.5, 0, 0});
     const TriangleMesh scrap = test::moved(test::scaled(test::quad(), 0.02), {0, 0, 3});
@@ -63,33 +63,33 @@ TriangleMesh dusty() {
 
 }  // namespace
 
-TEST_CASE("components with a smaller box go, those of the size stay") {
+TEST_CASE("components whose bounding box has a smaller diagonal than the size are pruned") {
     const double root = std::sqrt(3.0);
     CHECK(left({1, 4, 2, 0.5}, model_units(1.01 * root)) == Which{1, 2});
     CHECK(left({1, 4, 2, 0.5}, model_units(0.99 * root)) == Which{0, 1, 2});
     CHECK(left({1, 4, 2, 0.5}, model_units(0.1)) == Which{0, 1, 2, 3});
 }
 
-TEST_CASE("a share is one of the whole box") {
-    // The tetrahedra of 1 and 3 take 0 to 5 along x, and 3 along y and z.
+TEST_CASE("a prune size of_diagonal refers to the bounding box of the whole mesh") {
+    // The tetrahedra of sizes 1 and 3 extend from 0 to 5 along x, and over 3 along y and z.
     const double share = std::sqrt(3.0) / std::sqrt(25.0 + 9 + 9);
     CHECK(left({1, 3}, of_diagonal(0.99 * share)) == Which{0, 1});
     CHECK(left({1, 3}, of_diagonal(1.01 * share)) == Which{1});
 }
 
-TEST_CASE("the largest stays however small it is, the first of equals") {
+TEST_CASE("the largest component is never pruned and of equal ones the first is kept") {
     CHECK(left({1, 4, 2, 4}, model_units(1e300)) == Which{1});
     CHECK(left({1, 1}, of_diagonal(10)) == Which{0});
     CHECK(left({}, model_units(1)).empty());
 }
 
-TEST_CASE("a component with a locked vertex stays") {
+TEST_CASE("components with a locked vertex are not pruned") {
     std::vector<std::uint8_t> locked(12, 0);
     locked[9] = 1;
     CHECK(left({1, 4, 2}, model_units(1e3), locked) == Which{1, 2});
 }
 
-TEST_CASE("huge and tiny coordinates are pruned like others") {
+TEST_CASE("pruning works for coordinates from 1e-300 to 1e307") {
     for (const double scale : {1e-300, 1e-150, 1e150, 1e307}) {
         CAPTURE(scale);
         CHECK(left({scale, 3 * scale}, of_diagonal(0.3)) == Which{1});
@@ -97,8 +97,8 @@ TEST_CASE("huge and tiny coordinates are pruned like others") {
     }
 }
 
-TEST_CASE("what touches after welding is one component") {
-    // Two tetrahedra that share a corner's place, and one of the same size elsewhere.
+TEST_CASE("components that share a vertex after welding are pruned as one component") {
+    // Two tetrahedra with a vertex at the same position, and a separate one of the same size.
     const TriangleMesh pair = test::both(test::tetrahedron(), test::moved(test::tetrahedron(), {1, 0, 0}));
     const TriangleMesh mesh = test::both(pair, test::moved(test::tetrahedron(), {5, 0, 0}));
     Options options = pruning(model_units(2));
@@ -109,7 +109,7 @@ TEST_CASE("what touches after welding is one component") {
     CHECK(simplify(mesh.view(), options).report.components_pruned == 2);
 }
 
-TEST_CASE("pruned components are counted, reported and in the history") {
+TEST_CASE("pruned components are counted, reported and recorded in the history") {
     const TriangleMesh mesh = dusty();
     Options options = pruning(of_diagonal(0.02), 0.1);
     options.history = Recording::on;
@@ -136,7 +136,7 @@ TEST_CASE("pruned components are counted, reported and in the history") {
     }
 }
 
-TEST_CASE("a pruned mesh is simplified like one that never had the specks") {
+TEST_CASE("a pruned mesh is simplified like the mesh without its small components") {
     const TriangleMesh clean = test::icosphere(3);
     const TriangleMesh mesh = test::both(clean, test::scaled(test::tetrahedron(), 0.01));
     Options options;
@@ -149,7 +149,7 @@ TEST_CASE("a pruned mesh is simplified like one that never had the specks") {
     CHECK(pruned.report.collapses == without.report.collapses);
 }
 
-TEST_CASE("what is pruned does not count as an error") {
+TEST_CASE("max_error ignores pruned components") {
     Options options;
     options.max_error = of_diagonal(0.01);
     const TriangleMesh mesh = dusty();
@@ -164,7 +164,7 @@ TEST_CASE("what is pruned does not count as an error") {
     CHECK(hausdorff(test::icosphere(3).view(), result.mesh.view()).value <= 0.01 * diagonal);
 }
 
-TEST_CASE("without a size nothing is pruned") {
+TEST_CASE("nothing is pruned without a prune size") {
     const SimplifyResult result = simplify(dusty().view(), {.target = ratio(1)});
     CHECK(result.report.components_pruned == 0);
     CHECK(result.report.faces_pruned == 0);
@@ -172,7 +172,7 @@ TEST_CASE("without a size nothing is pruned") {
     CHECK(result.mesh.triangles.size() == dusty().triangles.size());
 }
 
-TEST_CASE("a size to prune is finite and positive") {
+TEST_CASE("a prune size must be finite and positive") {
     for (const double bad :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         CHECK_THROWS_WITH(simplify(dusty().view(), pruning(model_units(bad))),

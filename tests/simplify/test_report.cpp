@@ -10,14 +10,14 @@
 
 using namespace faqem;
 
-TEST_CASE("every preset is found by its name, and no other") {
+TEST_CASE("preset_named finds every preset by its name and refuses other names") {
     for (const Preset preset : all_presets) CHECK(preset_named(name(preset)) == preset);
     CHECK(name(Preset::paper) == "paper");
     CHECK_THROWS_AS(preset_named("Paper"), OptionError);
     CHECK_THROWS_WITH(preset_named(""), Catch::StartsWith("unknown preset '' (known: qem, paper, stmw"));
 }
 
-TEST_CASE("names tell all reasons and rungs apart") {
+TEST_CASE("refusals and rungs have distinct names") {
     std::set<std::string_view> names;
     for (std::size_t i = 0; i < refusal_kinds; ++i) names.insert(name(static_cast<Refusal>(i)));
     CHECK(names.size() == refusal_kinds);
@@ -33,7 +33,7 @@ TEST_CASE("names tell all reasons and rungs apart") {
     CHECK(name(StopReason::no_legal_collapse) == "no_legal_collapse");
 }
 
-TEST_CASE("the report as JSON holds every count") {
+TEST_CASE("the JSON report contains every count") {
     Report report;
     report.preset = Preset::stmw;
     report.faces_in = 1'000'000'007;
@@ -93,7 +93,7 @@ TEST_CASE("the report as JSON holds every count") {
     CHECK(!json.contains("max_error"));
 }
 
-TEST_CASE("the report as JSON holds the error where there is one") {
+TEST_CASE("the JSON report contains the measured error if there is one") {
     Report report;
     report.stop = StopReason::reached_max_error;
     report.max_error = {.allowed = 0.5, .value = 0.25, .bound = 0.375, .runs = 7};
@@ -109,7 +109,7 @@ TEST_CASE("the report as JSON holds the error where there is one") {
     CHECK(!report.max_error->within());
 }
 
-TEST_CASE("a warning that is not UTF-8 does not spoil the report") {
+TEST_CASE("the JSON report replaces invalid UTF-8 in warnings") {
     Report report;
     report.warnings = {"file \xff.obj"};
     CHECK(nlohmann::json::parse(to_json(report))["warnings"][0] == "file \xEF\xBF\xBD.obj");

@@ -17,7 +17,7 @@ RunState state_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& loc
 
 }  // namespace
 
-TEST_CASE("ground: locks follow their vertices, and the boundary's are added") {
+TEST_CASE("run state: locks follow the reordered vertices and can include boundary vertices") {
     const TriangleMesh mesh = test::grid(2);
     std::vector<std::uint8_t> locked(9, 0);
     locked[4] = 1;
@@ -28,8 +28,8 @@ TEST_CASE("ground: locks follow their vertices, and the boundary's are added") {
     CHECK(free.source_vertices() == free.mesh().vertex);
 }
 
-TEST_CASE("ground: after two rounds of steps everything still knows whose it was") {
-    // A strip of four quads, x = 0 ... 4; what each round joins goes to the left.
+TEST_CASE("run state: vertex maps and locks stay correct after two rounds of collapses") {
+    // A strip of four quads, x = 0 ... 4. Each round collapses vertices to the left.
     TriangleMesh mesh = test::make({}, {});
     for (Index x = 0; x <= 4; ++x) {
         for (Index y = 0; y < 2; ++y) mesh.positions.push_back({double(x), double(y), 0});
@@ -43,7 +43,8 @@ TEST_CASE("ground: after two rounds of steps everything still knows whose it was
     const std::vector<engine::Vector3> original = state.mesh().positions;
     const std::vector<Index> vertex = state.mesh().vertex;
     const double area = state.area();
-    const auto join = [&](double from, double to) {  // both vertices at x = from into those at x = to
+    const auto join = [&](double from,
+                          double to) {  // collapses both vertices at x = from into those at x = to
         const auto at = [&](double x, double y) {
             for (Index v = 0; v < state.mesh().vertex.size(); ++v) {
                 const Vec3& p = mesh.positions[state.mesh().vertex[v]];

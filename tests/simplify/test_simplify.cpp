@@ -35,7 +35,7 @@ std::uint64_t refused(const Report& report, Refusal why) {
     return report.refusals[static_cast<std::size_t>(why)];
 }
 
-// x and y of each corner as its UV; right of `cut` shifted by 10.
+// x and y of each corner as its UV, shifted by 10 for faces with x > cut.
 CornerAttributes planar_uv(const TriangleMesh& mesh, double cut) {
     CornerAttributes uv;
     uv.width = 2;
@@ -56,7 +56,7 @@ bool has(const std::vector<Vec3>& positions, const Vec3& p) {
 
 }  // namespace
 
-TEST_CASE("at ratio 1 the mesh comes back as it is, bit by bit and in order") {
+TEST_CASE("ratio 1 returns the input exactly and in order") {
     TriangleMesh mesh = test::shaken(test::both(test::grid(3), test::moved(test::book(), {9, 0, 0})), 0.1, 3);
     mesh.positions[5][2] = 1.0 / 3;
     for (Index f = 0; f < mesh.triangles.size(); ++f) mesh.face_groups.push_back(f % 3);
@@ -76,20 +76,20 @@ TEST_CASE("at ratio 1 the mesh comes back as it is, bit by bit and in order") {
     }
 }
 
-TEST_CASE("what is as it was is not moved closer to itself, nor has it edges to swap") {
+TEST_CASE("preset best does not change a mesh without collapses") {
     const TriangleMesh mesh = test::shaken(test::icosphere(3), 0.02, 3);
     SimplifyResult result = simplify(mesh.view(), options(Preset::best, ratio(1)));
     CHECK(same_bits(result.mesh, mesh));
     CHECK(result.report.vertices_fitted == 0);
     CHECK(result.report.edges_flipped == 0);
-    // Of the same mesh with every face twice, only the doubles go.
+    // If every face is present twice, only the duplicates are removed.
     TriangleMesh twice = mesh;
     twice.triangles.insert(twice.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     result = simplify(twice.view(), options(Preset::best, ratio(0.5)));
     CHECK(same_bits(result.mesh, mesh));
 }
 
-TEST_CASE("positions given as float come back as the same numbers") {
+TEST_CASE("float positions are returned without rounding") {
     std::vector<Vec3f> positions;
     const TriangleMesh grid = test::shaken(test::grid(2), 0.1, 1);
     for (const Vec3& p : grid.positions)
@@ -102,7 +102,7 @@ TEST_CASE("positions given as float come back as the same numbers") {
         CHECK(result.mesh.positions[i] == Vec3{positions[i][0], positions[i][1], positions[i][2]});
 }
 
-TEST_CASE("targets are shares or counts, at least four faces") {
+TEST_CASE("targets are ratios or face counts of at least four faces") {
     const TriangleMesh mesh = test::icosphere(1);  // 80 faces
     const auto target = [&](Target t) {
         return simplify(mesh.view(), options(Preset::qem, t)).report.target_faces;
@@ -116,12 +116,12 @@ TEST_CASE("targets are shares or counts, at least four faces") {
     CHECK(target(faces(33)) == 33);
     CHECK(target(faces(1)) == 4);
     CHECK(target(faces(1'000'000)) == 1'000'000);
-    // 0.1 * 30 and its like are whole numbers, whatever a double makes of them.
+    // Products such as 0.1 * 30 count as integers in spite of rounding errors.
     for (std::uint64_t tens = 1; tens < 8; ++tens)
         CHECK(target(ratio(static_cast<double>(tens) / 80)) == std::max<std::uint64_t>(4, tens));
 }
 
-TEST_CASE("the target is met from below by less than one collapse") {
+TEST_CASE("the result has at most one face less than the target") {
     for (const Preset preset : all_presets) {
         for (const std::uint64_t n : {60u, 33u, 10u, 4u}) {
             const Report report = simplify(test::icosphere(1).view(), options(preset, faces(n))).report;
@@ -132,8 +132,8 @@ TEST_CASE("the target is met from below by less than one collapse") {
     }
 }
 
-TEST_CASE("a coplanar grid loses nothing of its outline where the metric sees the border") {
-    // stmw and paper keep the four corners: every cheaper place lies on the sides.
+TEST_CASE("a coplanar grid keeps its area with presets that have boundary terms") {
+    // stmw and paper keep the four corners: all cheaper positions are on the sides.
     for (const Preset preset : {Preset::paper, Preset::stmw}) {
         const SimplifyResult result = simplify(test::grid(10).view(), options(preset, ratio(0.1)));
         double area = 0;
@@ -142,7 +142,7 @@ TEST_CASE("a coplanar grid loses nothing of its outline where the metric sees th
     }
 }
 
-TEST_CASE("nothing in, nothing out") {
+TEST_CASE("an empty mesh gives an empty result") {
     for (const Preset preset : all_presets) {
         Options o = options(preset, ratio(0.5));
         o.history = Recording::on;
@@ -157,19 +157,20 @@ TEST_CASE("nothing in, nothing out") {
     }
 }
 
-TEST_CASE("one triangle, and one that is a point") {
+TEST_CASE("a single triangle is kept and a single degenerate triangle gives an empty result") {
     const TriangleMesh triangle = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     CHECK(simplify(triangle.view(), options(Preset::paper, faces(1))).mesh.triangles.size() == 1);
-    const SimplifyResult gone = simplify(test::scaled(triangle, 0).view(), options(Preset::paper, faces(1)));
-    CHECK(gone.mesh.triangles.empty());
-    CHECK(gone.report.faces_dropped == 1);
-    REQUIRE(gone.report.warnings.size() == 2);
-    CHECK(gone.report.warnings[0].find("1 faces without area") == 0);
-    CHECK(gone.report.warnings[1].find("nothing is left") != std::string::npos);
+    const SimplifyResult degenerate =
+        simplify(test::scaled(triangle, 0).view(), options(Preset::paper, faces(1)));
+    CHECK(degenerate.mesh.triangles.empty());
+    CHECK(degenerate.report.faces_dropped == 1);
+    REQUIRE(degenerate.report.warnings.size() == 2);
+    CHECK(degenerate.report.warnings[0].find("1 degenerate or duplicate faces") == 0);
+    CHECK(degenerate.report.warnings[1].find("the result is empty") != std::string::npos);
 }
 
-TEST_CASE("faces without area are dropped and counted") {
-    // The sliver 0 1 4 lies on the side 0-1 of the square.
+TEST_CASE("faces of zero area are removed and counted") {
+    // The face 0 1 4 is degenerate: vertex 4 is on the edge 0-1 of the square.
     TriangleMesh mesh = test::quad();
     mesh.positions.push_back({0.5, 0, 0});
     mesh.triangles.push_back({0, 1, 4});
@@ -179,7 +180,7 @@ TEST_CASE("faces without area are dropped and counted") {
     CHECK(result.report.faces_in == 3);
 }
 
-TEST_CASE("models of any size keep their faces") {
+TEST_CASE("no faces are lost at scales from 1e-300 to 1e300") {
     for (const double size : {1e-300, 1e-100, 1e-30, 1e30, 1e38, 1e100, 1e300}) {
         for (const Preset preset : all_presets) {
             Options o = options(preset, ratio(0.5));
@@ -192,7 +193,7 @@ TEST_CASE("models of any size keep their faces") {
     }
 }
 
-TEST_CASE("the result is the same again, and whether or not a history is kept") {
+TEST_CASE("the result does not depend on repetition, recording or the number of threads") {
     const TriangleMesh mesh = test::both(test::shaken(test::torus(12, 8), 0.05, 2), test::soup(3, 20, 40));
     for (const Preset preset : all_presets) {
         Options o = options(preset, ratio(0.2));
@@ -213,8 +214,8 @@ TEST_CASE("the result is the same again, and whether or not a history is kept") 
     }
 }
 
-TEST_CASE("vertices split by attributes are welded: no crack opens") {
-    // Every face of the sphere has corners of its own.
+TEST_CASE("vertices split by attributes are welded so that no cracks open") {
+    // Every face of the sphere has its own vertices.
     const TriangleMesh sphere = test::icosphere(2);
     TriangleMesh split;
     for (const Triangle& t : sphere.triangles) {
@@ -230,7 +231,7 @@ TEST_CASE("vertices split by attributes are welded: no crack opens") {
     }
 }
 
-TEST_CASE("locked vertices stay where they are, bit by bit") {
+TEST_CASE("locked vertices keep their positions exactly") {
     const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.02, 4);
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
     for (std::size_t v = 0; v < locks.size(); v += 9) locks[v] = 1;
@@ -248,7 +249,7 @@ TEST_CASE("locked vertices stay where they are, bit by bit") {
     }
 }
 
-TEST_CASE("with every vertex locked nothing happens, and the reason is told") {
+TEST_CASE("a mesh with all vertices locked is returned unchanged with the reason") {
     const TriangleMesh mesh = test::icosphere(1);
     const std::vector<std::uint8_t> locks(mesh.positions.size(), 1);
     MeshView view = mesh.view();
@@ -260,7 +261,7 @@ TEST_CASE("with every vertex locked nothing happens, and the reason is told") {
     CHECK(result.report.collapses == 0);
 }
 
-TEST_CASE("a locked border keeps every vertex of it") {
+TEST_CASE("a locked boundary keeps all of its vertices") {
     const TriangleMesh mesh = test::shaken(test::grid(8), 0.1, 5);
     for (const Preset preset : all_presets) {
         Options o = options(preset, ratio(0.4));
@@ -268,13 +269,13 @@ TEST_CASE("a locked border keeps every vertex of it") {
         const SimplifyResult result = simplify(mesh.view(), o);
         CHECK(result.report.faces_out <= 51);
         for (Index v = 0; v < 81; ++v) {
-            const bool border = v % 9 == 0 || v % 9 == 8 || v / 9 == 0 || v / 9 == 8;
-            if (border) CHECK(has(result.mesh.positions, mesh.positions[v]));
+            const bool is_boundary = v % 9 == 0 || v % 9 == 8 || v / 9 == 0 || v / 9 == 8;
+            if (is_boundary) CHECK(has(result.mesh.positions, mesh.positions[v]));
         }
     }
 }
 
-TEST_CASE("UVs are carried along, the seam stays a seam") {
+TEST_CASE("UVs are interpolated and UV seams are preserved") {
     TriangleMesh mesh = test::grid(8);
     mesh.attributes = planar_uv(mesh, 4);
     for (const Preset preset : all_presets) {
@@ -282,7 +283,8 @@ TEST_CASE("UVs are carried along, the seam stays a seam") {
         const TriangleMesh& out = result.mesh;
         CHECK(result.report.faces_out <= 51);
         REQUIRE(out.attributes.values.size() == 6 * out.triangles.size());
-        // The surface is flat and the map linear: each corner's UV is its place, shifted in the right chart.
+        // The surface is flat and the UV map linear: the UV of a corner is its position, shifted in the right
+        // chart.
         bool good = true;
         for (std::size_t f = 0; f < out.triangles.size(); ++f) {
             const bool right = out.attributes.values[6 * f] > 9;
@@ -290,7 +292,7 @@ TEST_CASE("UVs are carried along, the seam stays a seam") {
                 const Vec3& p = out.positions[out.triangles[f][c]];
                 const float* uv = &out.attributes.values[6 * f + 2 * c];
                 const double x = p[0] + (right ? 10 : 0);
-                // Points a metric puts outside of the square are clamped to it.
+                // UVs of points outside the square are clamped.
                 good = good && (std::abs(uv[0] - x) < 1e-5 || p[0] < 0 || p[0] > 8 || p[1] < 0 || p[1] > 8);
                 good = good && (right ? p[0] > 4 - 1e-9 : p[0] < 4 + 1e-9);
             }
@@ -299,7 +301,7 @@ TEST_CASE("UVs are carried along, the seam stays a seam") {
     }
 }
 
-TEST_CASE("attributes at corners that did not move keep every bit") {
+TEST_CASE("attributes of corners that did not move are kept exactly") {
     TriangleMesh mesh = test::shaken(test::grid(6), 0.2, 7);
     test::Random random(8);
     mesh.attributes.width = 3;
@@ -310,7 +312,7 @@ TEST_CASE("attributes at corners that did not move keep every bit") {
             mesh.attributes.values.insert(mesh.attributes.values.end(), &value[3 * v], &value[3 * v] + 3);
     }
     for (const Preset preset : all_presets) {
-        if (preset == Preset::best) continue;  // moves nearly all of them
+        if (preset == Preset::best) continue;  // moves nearly all vertices
         const SimplifyResult result = simplify(mesh.view(), options(preset, ratio(0.5)));
         std::size_t compared = 0, equal = 0;
         for (std::size_t f = 0; f < result.mesh.triangles.size(); ++f) {
@@ -327,7 +329,7 @@ TEST_CASE("attributes at corners that did not move keep every bit") {
     }
 }
 
-TEST_CASE("groups go with their faces") {
+TEST_CASE("faces keep their groups") {
     TriangleMesh mesh = test::icosphere(2);
     for (Index f = 0; f < mesh.triangles.size(); ++f) mesh.face_groups.push_back(f / 100);
     const SimplifyResult result = simplify(mesh.view(), options(Preset::stmw, ratio(0.3)));
@@ -336,7 +338,7 @@ TEST_CASE("groups go with their faces") {
         CHECK(result.mesh.face_groups[f] == mesh.face_groups[result.face_origin[f]]);
 }
 
-TEST_CASE("tiny parts go before the topology of the large one") {
+TEST_CASE("the ladder deletes tiny components before it lifts the link condition") {
     const TriangleMesh mesh =
         test::both(test::tetrahedron(), test::moved(test::scaled(test::tetrahedron(), 1e-3), {1, 1, 1}));
     const SimplifyResult result = simplify(mesh.view(), options(Preset::qem, faces(4)));
@@ -349,7 +351,7 @@ TEST_CASE("tiny parts go before the topology of the large one") {
     CHECK(result.report.warnings[0] == "1 small components were deleted to reach the target");
 }
 
-TEST_CASE("parts of one size lose the link condition first") {
+TEST_CASE("the ladder lifts the link condition if there are no tiny components") {
     const TriangleMesh mesh = test::both(test::tetrahedron(), test::moved(test::tetrahedron(), {5, 0, 0}));
     const SimplifyResult result = simplify(mesh.view(), options(Preset::qem, faces(4)));
     CHECK(result.report.faces_out <= 4);
@@ -359,8 +361,8 @@ TEST_CASE("parts of one size lose the link condition first") {
     CHECK(refused(result.report, Refusal::link) >= 12);
 }
 
-TEST_CASE("virtual edges let near parts grow together") {
-    // Rough enough that closing the gap is cheaper than flattening the parts.
+TEST_CASE("virtual edges join components that are close to each other") {
+    // The surfaces are rough enough that closing the gap is cheaper than flattening them.
     TriangleMesh mesh = test::both(test::grid(6), test::moved(test::grid(6), {6.05, 0, 0}));
     test::Random random(1);
     for (Vec3& p : mesh.positions) p[2] = random.between(-0.06, 0.06);
@@ -370,7 +372,7 @@ TEST_CASE("virtual edges let near parts grow together") {
         o.topology.virtual_edges = VirtualEdges::on;
         const SimplifyResult result = simplify(mesh.view(), o);
         CHECK(result.report.virtual_edges == 7);  // one for each pair of opposite vertices
-        if (preset == Preset::qem) continue;      // borders may not be joined under the link condition
+        if (preset == Preset::qem) continue;      // the link condition does not permit joining boundaries
         // A face of the result that spans the gap.
         const bool joined =
             std::any_of(result.mesh.triangles.begin(), result.mesh.triangles.end(), [&](const Triangle& t) {
@@ -382,7 +384,7 @@ TEST_CASE("virtual edges let near parts grow together") {
     }
 }
 
-TEST_CASE("the progress callback sees shares that rise, and may cancel") {
+TEST_CASE("the progress callback gets increasing fractions and can cancel or throw") {
     const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.001, 1);
     Options o = options(Preset::qem, ratio(0.01));
     double last = 0;
@@ -406,7 +408,7 @@ TEST_CASE("the progress callback sees shares that rise, and may cancel") {
     CHECK_THROWS_WITH(simplify(mesh.view(), o), "from the callback");
 }
 
-TEST_CASE("bad options and bad input throw before anything is done") {
+TEST_CASE("invalid options and invalid input throw") {
     CHECK_THROWS_AS(simplify(test::quad().view(), options(Preset::qem, ratio(0))), OptionError);
     TriangleMesh mesh = test::quad();
     mesh.triangles[0][1] = 99;
@@ -417,7 +419,7 @@ TEST_CASE("bad options and bad input throw before anything is done") {
     CHECK_THROWS_AS(simplify(mesh.view()), InputError);
 }
 
-TEST_CASE("a hub of 20,000 triangles is no trap") {
+TEST_CASE("a vertex with 20,000 triangles is simplified to the target") {
     for (const Preset preset : {Preset::paper, Preset::stmw}) {
         TriangleMesh mesh = test::fan(20'000);
         mesh.positions[0][2] = 1;

@@ -1,4 +1,4 @@
-// The nastiest shapes we know. Every preset takes them to a tenth: nothing is lost, nothing is left broken.
+// Degenerate, non-manifold and otherwise difficult meshes, simplified with every preset.
 
 #include <sys/mman.h>
 
@@ -17,11 +17,11 @@ Options to_ratio(Preset preset, double share) {
     Options o;
     o.preset = preset;
     o.target = ratio(share);
-    o.topology.weld_distance = 0;  // the paper's is in the model's own unit
+    o.topology.weld_distance = 0;  // the distance of preset paper is in model units
     return o;
 }
 
-/// Finite, faces with three corners in range, the count that was asked for.
+/// Checks that positions are finite, corners distinct and in range, and that the report fits the mesh.
 void is_sound(const SimplifyResult& result) {
     for (const Vec3& p : result.mesh.positions)
         for (const double x : p) REQUIRE(std::isfinite(x));
@@ -34,7 +34,7 @@ void is_sound(const SimplifyResult& result) {
           (result.report.stop == StopReason::reached_target));
 }
 
-/// Calls check(result) for every preset.
+/// Calls check(result) for the result of every preset.
 template <class Check>
 void every_preset(const TriangleMesh& mesh, double share, Check check) {
     for (const Preset preset : all_presets) {
@@ -45,7 +45,7 @@ void every_preset(const TriangleMesh& mesh, double share, Check check) {
     }
 }
 
-/// Largest distance between the surfaces as a share of the diagonal.
+/// Hausdorff distance of the surfaces (sampled), relative to the diagonal.
 double distance(const TriangleMesh& a, const TriangleMesh& b) {
     CompareOptions options;
     options.samples = 1000;
@@ -53,7 +53,7 @@ double distance(const TriangleMesh& a, const TriangleMesh& b) {
     return c.hausdorff / c.diagonal;
 }
 
-/// A strip of n by `width` quads, turned by half before its ends are joined.
+/// A Moebius strip of n by `width` quads.
 TriangleMesh moebius(Index n, Index width) {
     TriangleMesh mesh;
     for (Index i = 0; i < n; ++i)
@@ -71,7 +71,7 @@ TriangleMesh moebius(Index n, Index width) {
     return mesh;
 }
 
-/// The figure-eight immersion: closed, with one side, and it passes through itself.
+/// A Klein bottle of m by n quads (figure-eight immersion): closed, non-orientable and self-intersecting.
 TriangleMesh klein_bottle(Index m, Index n) {
     TriangleMesh mesh;
     for (Index i = 0; i < m; ++i)
@@ -97,12 +97,12 @@ TriangleMesh some_reversed(TriangleMesh mesh, double share, std::uint32_t seed) 
     return mesh;
 }
 
-/// Two curved sheets back to back on the same vertices.
-TriangleMesh blade(Index n) {
-    TriangleMesh sheet = test::grid(n);
-    for (Vec3& p : sheet.positions) p[2] = 0.1 * std::sin(p[0]) * n / 4;
-    TriangleMesh both = sheet;
-    for (const auto [a, b, c] : sheet.triangles) both.triangles.push_back({a, c, b});
+/// A curved grid of faces on both sides, over the same vertices.
+TriangleMesh two_sided_grid(Index n) {
+    TriangleMesh front = test::grid(n);
+    for (Vec3& p : front.positions) p[2] = 0.1 * std::sin(p[0]) * n / 4;
+    TriangleMesh both = front;
+    for (const auto [a, b, c] : front.triangles) both.triangles.push_back({a, c, b});
     return both;
 }
 
@@ -114,8 +114,8 @@ double share_of_nonmanifold_edges(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("nasty: a sheet with a front and a back keeps its shape") {
-    const TriangleMesh mesh = blade(16);
+TEST_CASE("degenerate input: a thin surface with faces on both sides keeps its shape") {
+    const TriangleMesh mesh = two_sided_grid(16);
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
         CHECK(result.report.stop == StopReason::reached_target);
         const bool holds_outlines = result.report.preset >= Preset::fast;
@@ -123,22 +123,22 @@ TEST_CASE("nasty: a sheet with a front and a back keeps its shape") {
     });
 }
 
-TEST_CASE("nasty: a two-sided blade with three faces of ten reversed stays a blade") {
-    const TriangleMesh mesh = some_reversed(blade(16), 0.3, 7);
+TEST_CASE("degenerate input: a two-sided thin surface with 30% reversed faces keeps its shape") {
+    const TriangleMesh mesh = some_reversed(two_sided_grid(16), 0.3, 7);
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
         CHECK(result.report.stop == StopReason::reached_target);
         CHECK(distance(mesh, result.mesh) < 0.3);
     });
 }
 
-TEST_CASE("nasty: a ball of mixed winding, or inside out, stays a ball") {
+TEST_CASE("degenerate input: a sphere with mixed or inverted winding keeps its shape") {
     for (const TriangleMesh& mesh :
          {some_reversed(test::icosphere(3), 0.3, 3), test::inside_out(test::icosphere(3))})
         every_preset(mesh, 0.1,
                      [&](const SimplifyResult& result) { CHECK(distance(mesh, result.mesh) < 0.1); });
 }
 
-TEST_CASE("nasty: surfaces with one side keep their topology under the link condition") {
+TEST_CASE("degenerate input: non-orientable surfaces keep their topology under the link condition") {
     for (const TriangleMesh& mesh : {moebius(40, 6), klein_bottle(40, 16)}) {
         REQUIRE(test::euler(mesh.triangles) == 0);
         every_preset(mesh, 0.2, [](const SimplifyResult&) {});
@@ -151,9 +151,9 @@ TEST_CASE("nasty: surfaces with one side keep their topology under the link cond
     }
 }
 
-TEST_CASE("nasty: fins and bow-ties are no trap") {
+TEST_CASE("degenerate input: the target is reached with fins and bow-tie vertices") {
     TriangleMesh mesh = test::icosphere(2);
-    // A fin on every tenth edge, and a triangle that hangs on every tenth vertex.
+    // For every tenth face a fin on one of its edges, and a triangle attached to one of its vertices.
     for (std::size_t f = 0; f < 320; f += 10) {
         const auto [a, b, c] = mesh.triangles[f];
         const auto first = static_cast<Index>(mesh.positions.size());
@@ -169,7 +169,7 @@ TEST_CASE("nasty: fins and bow-ties are no trap") {
     });
 }
 
-TEST_CASE("nasty: with 28 of 100 edges non-manifold the target is met") {
+TEST_CASE("degenerate input: the target is reached with 28% non-manifold edges") {
     const TriangleMesh mesh = test::soup(5, 40, 700);
     REQUIRE(share_of_nonmanifold_edges(mesh) > 0.28);
     every_preset(mesh, 0.1, [](const SimplifyResult& result) {
@@ -179,7 +179,7 @@ TEST_CASE("nasty: with 28 of 100 edges non-manifold the target is met") {
     });
 }
 
-TEST_CASE("nasty: the target is met with thousands of components") {
+TEST_CASE("degenerate input: the target is reached with thousands of components") {
     TriangleMesh mesh;
     for (int i = 0; i < 2000; ++i) {
         const double size = 1 + i % 7;
@@ -194,7 +194,7 @@ TEST_CASE("nasty: the target is met with thousands of components") {
     }
 }
 
-TEST_CASE("nasty: boxes at one place, and boxes that touch, with virtual edges") {
+TEST_CASE("degenerate input: coincident and touching boxes with virtual edges give valid results") {
     TriangleMesh mesh = test::both(test::cube(), test::inside_out(test::cube()));
     mesh = test::both(mesh, test::moved(test::cube(), {1, 0, 0}));
     mesh = test::both(mesh, test::moved(test::cube(), {2.001, 0, 0}));
@@ -211,16 +211,16 @@ TEST_CASE("nasty: boxes at one place, and boxes that touch, with virtual edges")
     }
 }
 
-TEST_CASE("nasty: one vertex at 1e38 beside others at 1 leaves nothing but finite numbers") {
+TEST_CASE("degenerate input: the result is finite with one vertex at 1e38 and others at 1") {
     TriangleMesh mesh = test::icosphere(2);
     mesh.positions[5] = {1e38, -1e38, 1e38};
     every_preset(mesh, 0.1, [](const SimplifyResult& result) { CHECK(!result.mesh.triangles.empty()); });
 }
 
-TEST_CASE("nasty: faces of no area do no harm") {
+TEST_CASE("degenerate input: faces of zero area have little effect on the shape") {
     TriangleMesh mesh = test::shaken(test::grid(12), 0.2, 1);
     for (Index f = 0; f < 100; f += 7) {
-        // Two needles of area 0 and 1e-16 from corner to corner.
+        // Two needle-shaped faces of area 0 and 1e-16 on an edge.
         const auto [a, b, c] = mesh.triangles[f];
         const auto middle = static_cast<Index>(mesh.positions.size());
         const Vec3 p = mesh.positions[a], q = mesh.positions[b];
@@ -230,7 +230,7 @@ TEST_CASE("nasty: faces of no area do no harm") {
         mesh.triangles.push_back({a, b, middle + 1});
     }
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
-        // The paper divides by areas: a needle outweighs the faces around it.
+        // The paper divides by areas, so that a needle has more weight than the faces around it.
         CHECK(distance(mesh, result.mesh) < (result.report.preset == Preset::paper ? 0.5 : 0.2));
     });
     Options options = to_ratio(Preset::paper, 0.1);
@@ -238,8 +238,9 @@ TEST_CASE("nasty: faces of no area do no harm") {
     is_sound(simplify(mesh.view(), options));
 }
 
-TEST_CASE("nasty: planes that are parallel but for noise send no vertex far away") {
-    // Ten lengths of the tube away, where each collapse was free to take the minimum of its quadric.
+TEST_CASE("degenerate input: nearly parallel planes do not move vertices far outside the bounding box") {
+    // Vertices were ten times the length of the tube away when the minimum of the quadric was used without a
+    // limit.
     const TriangleMesh mesh = test::shaken(test::cylinder(10, 10, 10), 0.001, 35);
     every_preset(mesh, 0.01, [](const SimplifyResult& result) {
         for (const auto [x, y, z] : result.mesh.positions) {
@@ -250,19 +251,19 @@ TEST_CASE("nasty: planes that are parallel but for noise send no vertex far away
     });
 }
 
-TEST_CASE("nasty: points at one place give an empty mesh, and it is said") {
+TEST_CASE("degenerate input: coincident vertices give an empty mesh and a warning") {
     TriangleMesh mesh = test::icosphere(1);
     for (Vec3& p : mesh.positions) p = {1, 2, 3};
     every_preset(mesh, 0.1, [](const SimplifyResult& result) {
         CHECK(result.mesh.triangles.empty());
         CHECK(result.report.faces_dropped == 80);
         REQUIRE(!result.report.warnings.empty());
-        CHECK(result.report.warnings.back() == "nothing is left: no face that remained had an area");
+        CHECK(result.report.warnings.back() == "the result is empty: all remaining faces are degenerate");
     });
 }
 
-TEST_CASE("meshes too large for 32-bit indices are refused before they are read") {
-    // Only address space is taken: a read would end the test.
+TEST_CASE("meshes too large for 32-bit indices are refused before their arrays are read") {
+    // The memory is reserved without access rights, so that reading it would end the test.
     const std::size_t count = std::size_t{1} << 32, bytes = count * sizeof(Vec3f);
     void* const memory =
         ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

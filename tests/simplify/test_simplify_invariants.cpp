@@ -1,4 +1,4 @@
-// What must hold whatever comes in: seeded soups and surfaces, every preset, three ratios.
+// Invariants of simplify() for seeded random triangle soups and surfaces, with every preset and three ratios.
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -18,11 +18,11 @@ SimplifyResult run(const TriangleMesh& mesh, Preset preset, double share) {
     Options o;
     o.preset = preset;
     o.target = ratio(share);
-    o.topology.weld_distance = 0;  // the paper's is in the model's own unit
+    o.topology.weld_distance = 0;  // the distance of preset paper is in model units
     return simplify(mesh.view(), o);
 }
 
-// Calls check(mesh, result) for a mesh under every preset and ratio, and says which where it fails.
+// Calls check(mesh, result) for a mesh with every preset and ratio.
 template <class Check>
 void everywhere(const TriangleMesh& mesh, Check check) {
     for (const Preset preset : all_presets) {
@@ -33,14 +33,14 @@ void everywhere(const TriangleMesh& mesh, Check check) {
     }
 }
 
-// From sparse to fourfold overcrowded.
+// Triangle soups of 40 to 370 faces over 60 vertices.
 std::vector<TriangleMesh> soups() {
     std::vector<TriangleMesh> meshes;
     for (std::uint32_t seed = 0; seed < 12; ++seed) meshes.push_back(test::soup(seed, 60, 40 + 30 * seed));
     return meshes;
 }
 
-// Open, closed, and parts that meet.
+// Open and closed surfaces, and meshes of several components that touch.
 std::vector<TriangleMesh> surfaces() {
     std::vector<TriangleMesh> meshes;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
@@ -48,7 +48,7 @@ std::vector<TriangleMesh> surfaces() {
         meshes.push_back(test::shaken(test::cylinder(11, 8, 3), 0.1, seed));
         meshes.push_back(test::shaken(test::icosphere(2), 0.05, seed));
         meshes.push_back(test::shaken(test::torus(14, 9), 0.05, seed));
-        // Parts of three kinds, welded in places because the grids lie on one lattice.
+        // Grids on a common lattice are partly welded; one of them is reversed.
         TriangleMesh mix = test::both(test::grid(5), test::moved(test::grid(5), {5, 0, 0}));
         mix = test::both(mix, test::inside_out(test::moved(test::grid(5), {0, 2, 0})));
         meshes.push_back(test::both(mix, test::moved(test::soup(seed, 20, 60), {3, 3, 3})));
@@ -77,7 +77,7 @@ bool indices_valid_and_used(const TriangleMesh& mesh) {
     return used.size() == mesh.positions.size() && (used.empty() || *used.rbegin() < mesh.positions.size());
 }
 
-// Height over longest edge above 1e-12.
+// True if the height of every face is more than 1e-12 of its longest edge.
 bool has_area(const TriangleMesh& mesh) {
     return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
         double longest = 0;
@@ -109,7 +109,8 @@ bool climbed(const Report& report) {
     return false;
 }
 
-// Finite, every vertex used, faces with area, origins in range; the target met or the reason given.
+// Checks that positions are finite, vertices referenced, faces not degenerate and origins in range, and that
+// the target is reached or a reason reported.
 void is_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
     CHECK(finite(result.mesh));
     CHECK(indices_valid_and_used(result.mesh));
@@ -131,15 +132,15 @@ void is_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
 
 }  // namespace
 
-TEST_CASE("results of soups are sound, and meet the target or say why not") {
+TEST_CASE("results of triangle soups are valid and reach the target or report a reason") {
     for (const TriangleMesh& mesh : soups()) everywhere(mesh, is_sound);
 }
 
-TEST_CASE("results of surfaces are sound, and meet the target or say why not") {
+TEST_CASE("results of surfaces are valid and reach the target or report a reason") {
     for (const TriangleMesh& mesh : surfaces()) everywhere(mesh, is_sound);
 }
 
-TEST_CASE("no collapse turns a face by more than a right angle before the ladder allows it") {
+TEST_CASE("no collapse rotates a face normal by more than 90 degrees before the ladder allows it") {
     std::size_t turned = 0, checked = 0;
     for (const TriangleMesh& mesh : all_sorts()) {
         for (const Preset preset : all_presets) {
@@ -165,7 +166,7 @@ TEST_CASE("no collapse turns a face by more than a right angle before the ladder
                     if (std::count(now[f].begin(), now[f].end(), made) != 1) continue;
                     const Vec3 n = doubled_area(before), m = doubled_area(now[f]);
                     const double dot = n[0] * m[0] + n[1] * m[1] + n[2] * m[2];
-                    // The history holds rounded places: room for the last bits.
+                    // Positions in the history are rounded, hence the tolerance.
                     turned += !(dot >= -1e-6 * std::hypot(n[0], n[1], n[2]) * std::hypot(m[0], m[1], m[2]));
                     ++checked;
                 }
@@ -176,7 +177,7 @@ TEST_CASE("no collapse turns a face by more than a right angle before the ladder
     CHECK(checked > 10'000);
 }
 
-TEST_CASE("qem keeps closed surfaces closed and their genus") {
+TEST_CASE("qem keeps closed surfaces closed and preserves their genus") {
     std::size_t tested = 0;
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
         const std::pair<TriangleMesh, int> surfaces[] = {
@@ -196,7 +197,7 @@ TEST_CASE("qem keeps closed surfaces closed and their genus") {
     CHECK(tested >= 24);
 }
 
-TEST_CASE("the link condition keeps the topology of surfaces with borders") {
+TEST_CASE("the link condition preserves the topology of surfaces with boundaries") {
     Options o;
     o.preset = Preset::qem;
     for (const double share : {0.5, 0.2}) {
@@ -211,7 +212,7 @@ TEST_CASE("the link condition keeps the topology of surfaces with borders") {
     }
 }
 
-TEST_CASE("a model scaled by a power of two gives the result scaled by it, bit by bit") {
+TEST_CASE("scaling the input by a power of two scales the result exactly") {
     for (const TriangleMesh& mesh : {test::shaken(test::torus(14, 9), 0.05, 1),
                                      test::shaken(test::grid(9), 0.3, 1), test::soup(5, 60, 150)}) {
         for (const Preset preset : all_presets) {
@@ -228,7 +229,7 @@ TEST_CASE("a model scaled by a power of two gives the result scaled by it, bit b
     }
 }
 
-TEST_CASE("a model moved gives the result moved") {
+TEST_CASE("translating the input translates the result") {
     const TriangleMesh mesh = test::shaken(test::torus(14, 9), 0.05, 1);
     const Vec3 by = {1000, -2000, 500};
     for (const Preset preset : all_presets) {
@@ -245,7 +246,7 @@ TEST_CASE("a model moved gives the result moved") {
     }
 }
 
-TEST_CASE("far from the origin the shape is kept") {
+TEST_CASE("the shape is preserved far from the origin") {
     const TriangleMesh sphere = test::icosphere(3);
     const Vec3 by = {1e7, 1e7, -1e7};
     for (const Preset preset : all_presets) {
@@ -258,7 +259,7 @@ TEST_CASE("far from the origin the shape is kept") {
     }
 }
 
-TEST_CASE("vertices that no face uses change nothing") {
+TEST_CASE("unreferenced vertices do not change the result") {
     const TriangleMesh mesh = test::shaken(test::torus(14, 9), 0.05, 1);
     TriangleMesh more;
     for (const Vec3& p : mesh.positions) {
@@ -280,7 +281,7 @@ TEST_CASE("vertices that no face uses change nothing") {
     }
 }
 
-TEST_CASE("two runs at once know nothing of each other") {
+TEST_CASE("concurrent runs do not affect each other") {
     const std::vector<TriangleMesh> meshes = surfaces();
     const auto all = [&] {
         std::vector<TriangleMesh> results;

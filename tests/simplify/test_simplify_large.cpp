@@ -8,7 +8,7 @@ using namespace faqem;
 
 namespace {
 
-// 40962 vertices: enough to be cut into blocks.
+// 40962 vertices: large enough to be split into blocks.
 const TriangleMesh& large() {
     static const TriangleMesh mesh = test::shaken(test::icosphere(6), 0.001, 3);
     return mesh;
@@ -23,7 +23,7 @@ SimplifyResult simplified(Preset preset, std::uint32_t threads, Recording histor
     return simplify(large().view(), options);
 }
 
-// Follows the history: the corners of the faces that are left, as versions.
+// The corners of all faces, as versions, after the last collapse of the history.
 std::vector<Triangle> followed(const CollapseHistory& history) {
     std::vector<Triangle> faces = history.triangles;
     for (std::size_t k = 0; k < history.collapses.size(); ++k) {
@@ -40,7 +40,7 @@ std::vector<Triangle> followed(const CollapseHistory& history) {
 
 }  // namespace
 
-TEST_CASE("large: the result depends neither on threads nor on whether it is recorded") {
+TEST_CASE("large meshes: the result depends neither on the number of threads nor on recording") {
     for (const Preset preset : {Preset::fast, Preset::balanced}) {
         const SimplifyResult one = simplified(preset, 1, Recording::off);
         CHECK(one.mesh.triangles.size() <= one.report.target_faces);
@@ -55,7 +55,7 @@ TEST_CASE("large: the result depends neither on threads nor on whether it is rec
     }
 }
 
-TEST_CASE("large: the history leads to the mesh, collapse by collapse") {
+TEST_CASE("large meshes: replaying the history collapse by collapse gives the result") {
     const SimplifyResult result = simplified(Preset::balanced, 0, Recording::on);
     const CollapseHistory& h = result.history;
     CHECK(h.collapses.size() == result.report.collapses);
@@ -77,7 +77,7 @@ TEST_CASE("large: the history leads to the mesh, collapse by collapse") {
     CHECK(in_order);
 }
 
-TEST_CASE("large: locked vertices and borders stay, and who cancels is obeyed") {
+TEST_CASE("large meshes: locked vertices keep their positions, and the callback can cancel") {
     Options options;
     options.preset = Preset::fast;
     options.target = ratio(0.05);

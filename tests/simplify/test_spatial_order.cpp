@@ -14,7 +14,7 @@ ReorderedMesh arranged(const TriangleMesh& mesh) {
     return detail::reorder(detail::preprocess(mesh.view(), detail::settings({})));
 }
 
-// The order of the faces' corners in space, without the numbers of either mesh.
+// Positions of the corners of all faces, independent of the vertex numbering.
 std::vector<Vec3> corners(const std::vector<engine::Vector3>& positions,
                           const std::vector<Triangle>& triangles) {
     std::vector<Vec3> all;
@@ -26,7 +26,7 @@ std::vector<Vec3> corners(const std::vector<engine::Vector3>& positions,
 
 }  // namespace
 
-TEST_CASE("arrange: slots say whose they are, and faces keep their winding") {
+TEST_CASE("spatial order: slots map to the preprocessed mesh and faces keep their winding") {
     const TriangleMesh mesh = test::shaken(test::torus(9, 7), 0.1, 1);
     const detail::PreprocessedMesh prepared = detail::preprocess(mesh.view(), detail::settings({}));
     const std::vector<engine::Vector3> positions = prepared.engine_positions();
@@ -43,8 +43,8 @@ TEST_CASE("arrange: slots say whose they are, and faces keep their winding") {
     CHECK(std::adjacent_find(faces.begin(), faces.end()) == faces.end());
 }
 
-TEST_CASE("arrange: along a line the order is that of the line") {
-    // Quads in a row, handed over with the vertices of every second one first.
+TEST_CASE("spatial order: elements along a line are sorted along the line") {
+    // Quads in a row; those at even positions come first in the input.
     TriangleMesh mesh;
     for (const Index parity : {0u, 1u}) {
         for (Index x = parity; x < 16; x += 2) {
@@ -58,7 +58,7 @@ TEST_CASE("arrange: along a line the order is that of the line") {
     for (std::size_t f = 2; f < a.triangles.size(); ++f) CHECK(a.triangles[f - 2][0] < a.triangles[f][0]);
 }
 
-TEST_CASE("arrange: what the engine sees does not depend on the order of the input") {
+TEST_CASE("spatial order: the reordered mesh does not depend on the vertex order of the input") {
     const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.05, 3);
     TriangleMesh turned = mesh;
     std::reverse(turned.positions.begin(), turned.positions.end());
@@ -69,7 +69,7 @@ TEST_CASE("arrange: what the engine sees does not depend on the order of the inp
     CHECK(corners(a.positions, a.triangles) == corners(b.positions, b.triangles));
 }
 
-TEST_CASE("arrange: unused vertices and dropped faces have no slot") {
+TEST_CASE("spatial order: unreferenced vertices and removed faces have no slot") {
     TriangleMesh mesh = test::quad();
     mesh.positions.push_back({1e30, 0, 0});
     mesh.triangles.insert(mesh.triangles.begin(), {2, 2, 3});
@@ -80,7 +80,7 @@ TEST_CASE("arrange: unused vertices and dropped faces have no slot") {
     CHECK(arranged({}).triangles.empty());
 }
 
-TEST_CASE("arrange: values of faces follow their faces") {
+TEST_CASE("spatial order: per_face reorders values with their faces") {
     TriangleMesh mesh = test::fan(5);
     std::vector<float> values;
     for (Index f = 0; f < 5; ++f) values.insert(values.end(), {float(f), 10 + float(f)});

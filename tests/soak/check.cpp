@@ -9,7 +9,7 @@ namespace faqem::soak {
 
 namespace {
 
-// Diagonals. Vertices of coarse meshes lie outside of what they stand for.
+// Limit of outside_box(). Optimal vertices of coarse meshes are outside the original surface.
 constexpr double most_outside = 1;
 
 template <class T>
@@ -17,7 +17,7 @@ bool strictly_ascending(const std::vector<T>& values) {
     return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
 
-// Numbers and indices before anything is read through them.
+// Checks positions, indices and attributes.
 std::string fault_of_arrays(const TriangleMesh& mesh) {
     std::vector<bool> used(mesh.positions.size());
     for (const Vec3& p : mesh.positions)
@@ -25,19 +25,19 @@ std::string fault_of_arrays(const TriangleMesh& mesh) {
             return "a position is not finite";
     for (const Triangle& t : mesh.triangles) {
         for (const Index v : t) {
-            if (!(v < used.size())) return "an index is out of range";
+            if (!(v < used.size())) return "a vertex index is out of range";
             used[v] = true;
         }
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return "a face has two equal corners";
     }
     if (!std::all_of(used.begin(), used.end(), [](bool is_used) { return is_used; }))
-        return "a vertex is not used";
+        return "a vertex is not referenced";
     for (const float x : mesh.attributes.values)
         if (!std::isfinite(x)) return "an attribute is not finite";
     return {};
 }
 
-// Height over longest edge; 0 where all corners are at one place.
+// Ratio of the height of a face to its longest edge; 0 if all corners coincide.
 double flatness(const TriangleMesh& mesh, const Triangle& t) {
     Vec3 edge[3];
     double longest = 0;
@@ -67,44 +67,46 @@ std::string fault_of_report(const TriangleMesh& mesh, double share, const Simpli
     };
     const auto wanted =
         static_cast<std::uint64_t>(std::floor(static_cast<double>(faces) * share * (1 + 1e-15)));
-    if (report.faces_in != faces || report.vertices_in != mesh.positions.size()) return "counts of the input";
-    if (report.faces_out != result.mesh.triangles.size()) return "count of faces";
-    if (report.vertices_out != result.mesh.positions.size()) return "count of vertices";
-    if (report.target_faces != std::max<std::uint64_t>(4, wanted)) return "target";
+    if (report.faces_in != faces || report.vertices_in != mesh.positions.size())
+        return "the report has wrong input counts";
+    if (report.faces_out != result.mesh.triangles.size()) return "the report has a wrong face count";
+    if (report.vertices_out != result.mesh.positions.size()) return "the report has a wrong vertex count";
+    if (report.target_faces != std::max<std::uint64_t>(4, wanted)) return "the report has a wrong target";
     if ((report.faces_out <= report.target_faces) != (report.stop == StopReason::reached_target))
-        return "reason to stop";
+        return "the stop reason does not fit the face count";
     if (report.stop == StopReason::no_legal_collapse && total(report.refusals) == 0)
-        return "no refusal is named";
+        return "no collapse was legal, but no refusal is counted";
     if (report.faces_dropped > faces || report.collapses > mesh.positions.size())
-        return "counts of what was done";
+        return "the report counts too many removed faces or collapses";
     if ((report.faces_dropped > 0 || report.components_deleted > 0) && report.warnings.empty())
-        return "no warning";
+        return "faces or components were removed without a warning";
     return {};
 }
 
 }  // namespace
 
 std::string fault(const TriangleMesh& mesh, double share, const SimplifyResult& result) {
-    const TriangleMesh& small = result.mesh;
-    if (std::string found = fault_of_arrays(small); !found.empty()) return found;
-    // What is dropped has 1e-12 and less; the rest is room for the last bits.
-    if (!std::all_of(small.triangles.begin(), small.triangles.end(),
-                     [&](const Triangle& t) { return flatness(small, t) > 0.99e-12; }))
-        return "a face has no area";
-    // Of faces that are as good as a line, a few that are left may have no area, and all may have become one
-    // point.
-    if (small.triangles.empty() && result.report.faces_dropped < mesh.triangles.size() && !is_line(mesh))
-        return "nothing is left";
-    if (!(outside_box(mesh, small) <= most_outside)) return "a vertex is far outside the box";
-    if (small.face_groups.size() != (mesh.face_groups.empty() ? 0 : small.triangles.size())) return "groups";
-    if (small.attributes.values.size() != 3 * small.triangles.size() * mesh.attributes.width)
-        return "attributes";
-    if (result.face_origin.size() != small.triangles.size() || !strictly_ascending(result.face_origin) ||
-        (!small.triangles.empty() && !(result.face_origin.back() < mesh.triangles.size())))
-        return "origins of faces";
-    if (result.vertex_origin.size() != small.positions.size() || !strictly_ascending(result.vertex_origin) ||
-        (!small.positions.empty() && !(result.vertex_origin.back() < mesh.positions.size())))
-        return "origins of vertices";
+    const TriangleMesh& simplified = result.mesh;
+    if (std::string found = fault_of_arrays(simplified); !found.empty()) return found;
+    // simplify() removes faces with a ratio of at most 1e-12; the factor 0.99 allows for rounding.
+    if (!std::all_of(simplified.triangles.begin(), simplified.triangles.end(),
+                     [&](const Triangle& t) { return flatness(simplified, t) > 0.99e-12; }))
+        return "a face is degenerate";
+    // If all faces are nearly degenerate, the few remaining ones may all be degenerate.
+    if (simplified.triangles.empty() && result.report.faces_dropped < mesh.triangles.size() && !is_line(mesh))
+        return "the result is empty";
+    if (!(outside_box(mesh, simplified) <= most_outside)) return "a vertex is far outside the bounding box";
+    if (simplified.face_groups.size() != (mesh.face_groups.empty() ? 0 : simplified.triangles.size()))
+        return "the number of face groups is wrong";
+    if (simplified.attributes.values.size() != 3 * simplified.triangles.size() * mesh.attributes.width)
+        return "the number of attribute values is wrong";
+    if (result.face_origin.size() != simplified.triangles.size() || !strictly_ascending(result.face_origin) ||
+        (!simplified.triangles.empty() && !(result.face_origin.back() < mesh.triangles.size())))
+        return "face_origin is wrong";
+    if (result.vertex_origin.size() != simplified.positions.size() ||
+        !strictly_ascending(result.vertex_origin) ||
+        (!simplified.positions.empty() && !(result.vertex_origin.back() < mesh.positions.size())))
+        return "vertex_origin is wrong";
     return fault_of_report(mesh, share, result);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What must be so of a result, whatever came in.
+/// Checks of results that must pass for any input.
 
 #include <string>
 
@@ -8,11 +8,12 @@
 
 namespace faqem::soak {
 
-/// \return what is wrong with the result of simplifying `mesh` to `share`, empty if nothing is
+/// Checks the result of simplifying `mesh` to the ratio `share`.
+/// \return a description of the first fault; empty if there is none
 std::string fault(const TriangleMesh& mesh, double share, const SimplifyResult& result);
 
-/// How far the farthest vertex of `result` is outside the box of the used vertices of `mesh`, in diagonals of
-/// the box.
+/// Largest distance of a vertex of `result` from the bounding box of the referenced vertices of `mesh`,
+/// relative to the diagonal of the box.
 double outside_box(const TriangleMesh& mesh, const TriangleMesh& result);
 
 }  // namespace faqem::soak

@@ -12,33 +12,33 @@ namespace {
 
 using test::Random;
 
-// Parts of these in a dirty model are what a scan, a scene or a generator leaves.
-TriangleMesh shape(Random& random, double size, std::string& story) {
+// A random shape; its name is stored in `description`.
+TriangleMesh shape(Random& random, double size, std::string& description) {
     const auto n = static_cast<Index>(size * random.between(5, 14));
     switch (random.below(9)) {
         case 0:
-            story = "grid";
+            description = "grid";
             return test::square(n, 2, 0);
         case 1:
-            story = "ball";
+            description = "ball";
             return test::icosphere(size > 2 ? 6 : 2 + static_cast<int>(random.below(2)));
         case 2:
-            story = "globe";
+            description = "globe";
             return test::globe(n, 1);
         case 3:
-            story = "torus";
+            description = "torus";
             return test::torus(2 * n, n);
         case 4:
-            story = "tube";
+            description = "tube";
             return test::cylinder(n, n, random.between(0.1, 20));
         case 5:
-            story = "fan";
+            description = "fan";
             return test::fan(20 * n);
         case 6:
-            story = "soup";
+            description = "soup";
             return test::soup(random.below(1000), std::size_t{10} * n, std::size_t{20} * n);
         case 7: {
-            story = "boxes";
+            description = "boxes";
             TriangleMesh all;
             for (Index i = 0; i < 4 * n; ++i) {
                 const Vec3 at = {double(random.below(5)), double(random.below(5)), double(random.below(5))};
@@ -48,7 +48,7 @@ TriangleMesh shape(Random& random, double size, std::string& story) {
             return all;
         }
         default:
-            story = "hills";
+            description = "hills";
             TriangleMesh mesh = test::square(n, 2, 0);
             for (Vec3& p : mesh.positions) p[2] = 0.3 * std::sin(5 * p[0]) * std::cos(4 * p[1]);
             return mesh;
@@ -62,10 +62,11 @@ double diagonal(const TriangleMesh& mesh) {
     return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-// From 10^low to 10^high.
+// A random number between 10^low and 10^high.
 double power(Random& random, double low, double high) { return std::pow(10, random.between(low, high)); }
 
-// What is on one side of a plane that goes through a vertex.
+// Calls act(is_beyond), where is_beyond(triangle) is true on one side of a random plane through a random
+// vertex.
 template <class Act>
 void beyond_plane(TriangleMesh& mesh, Random& random, Act act) {
     const Vec3 n = {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
@@ -77,8 +78,9 @@ void beyond_plane(TriangleMesh& mesh, Random& random, Act act) {
     act([&](const Triangle& t) { return along(t[0]) > at; });
 }
 
-// Every damage leaves indices in range and positions finite.
+// The following defects leave indices in range and positions finite.
 
+// Deletes faces: on one side of a plane, or at random.
 void cut(TriangleMesh& mesh, Random& random) {
     const TriangleMesh before = mesh;
     if (random.below(2)) {
@@ -90,6 +92,7 @@ void cut(TriangleMesh& mesh, Random& random) {
     if (mesh.triangles.empty()) mesh = before;
 }
 
+// Reverses faces: on one side of a plane, or at random.
 void flip(TriangleMesh& mesh, Random& random) {
     if (random.below(2)) {
         beyond_plane(mesh, random, [&](const auto& is_beyond) {
@@ -103,6 +106,7 @@ void flip(TriangleMesh& mesh, Random& random) {
     }
 }
 
+// Duplicates faces at random, with the same or the opposite winding.
 void duplicate_faces(TriangleMesh& mesh, Random& random) {
     const double share = random.between(0.01, 0.5);
     const std::size_t faces = mesh.triangles.size();
@@ -114,7 +118,7 @@ void duplicate_faces(TriangleMesh& mesh, Random& random) {
     }
 }
 
-// The whole a second time, where it is or close to it.
+// Duplicates the whole mesh at the same position or close to it.
 void double_all(TriangleMesh& mesh, Random& random) {
     const double by = random.below(2) ? 0 : diagonal(mesh) * power(random, -9, -2);
     TriangleMesh other = test::moved(mesh, {by, 0, by});
@@ -122,7 +126,7 @@ void double_all(TriangleMesh& mesh, Random& random) {
     mesh = test::both(std::move(mesh), other);
 }
 
-// Faces get vertices of others.
+// Replaces corners of faces by random vertices.
 void weld_wrongly(TriangleMesh& mesh, Random& random) {
     const std::size_t wrong = 1 + random.below(mesh.triangles.size() / 10 + 1);
     for (std::size_t i = 0; i < wrong; ++i)
@@ -130,7 +134,7 @@ void weld_wrongly(TriangleMesh& mesh, Random& random) {
             random.below(mesh.positions.size());
 }
 
-// On a coarse lattice: neighbours fall together, sheets as well.
+// Rounds positions to a coarse lattice, so that neighbouring vertices, also of different surfaces, coincide.
 void weld_too_far(TriangleMesh& mesh, Random& random) {
     const double cell = diagonal(mesh) * power(random, -3, -1);
     if (!(cell > 0)) return;
@@ -138,7 +142,7 @@ void weld_too_far(TriangleMesh& mesh, Random& random) {
         for (double& x : p) x = cell * std::round(x / cell);
 }
 
-// Every face on its own, its corners close to where its neighbours' are.
+// Gives every face its own vertices, at or close to their former positions.
 void unweld(TriangleMesh& mesh, Random& random) {
     const double by = random.below(2) ? 0 : diagonal(mesh) * power(random, -12, -4);
     std::vector<Vec3> positions;
@@ -152,26 +156,27 @@ void unweld(TriangleMesh& mesh, Random& random) {
     mesh.positions = std::move(positions);
 }
 
+// Moves all vertices at random.
 void noise(TriangleMesh& mesh, Random& random) {
     const double by = diagonal(mesh) * power(random, -8, -1.5);
     mesh = test::shaken(std::move(mesh), by, random.below(1000));
 }
 
-// Single vertices far away, as bad depths leave them.
+// Moves a few vertices far away, like outliers of a depth sensor.
 void spikes(TriangleMesh& mesh, Random& random) {
     const double by = diagonal(mesh) * power(random, -1, 4);
     for (std::size_t i = 1 + random.below(5); i > 0; --i)
         mesh.positions[random.below(mesh.positions.size())][random.below(3)] += random.between(-by, by);
 }
 
-// Flat, or nearly.
+// Scales one axis by a very small factor or 0.
 void flatten(TriangleMesh& mesh, Random& random) {
     const double by = random.below(3) ? power(random, -12, -2) : 0;
     const std::size_t axis = random.below(3);
     for (Vec3& p : mesh.positions) p[axis] *= by;
 }
 
-// Faces of no area, and faces with a vertex beside an edge that their neighbours do not have.
+// Adds degenerate and needle-shaped faces, and T-junctions.
 void needles(TriangleMesh& mesh, Random& random) {
     const std::size_t faces = mesh.triangles.size();
     for (std::size_t i = 0; i < 1 + faces / 20; ++i) {
@@ -186,7 +191,7 @@ void needles(TriangleMesh& mesh, Random& random) {
         }
         mesh.positions.push_back(p);
         switch (random.below(3)) {
-            case 0:  // the face is split, its neighbour is not
+            case 0:  // splits the face, but not its neighbour
                 t = {a, middle, c};
                 mesh.triangles.push_back({middle, b, c});
                 break;
@@ -199,7 +204,7 @@ void needles(TriangleMesh& mesh, Random& random) {
     }
 }
 
-// Other units, far from the origin.
+// Scales the mesh, and may move it far from the origin.
 void place(TriangleMesh& mesh, Random& random) {
     mesh = test::scaled(std::move(mesh), power(random, -25, 25));
     if (random.below(2)) {
@@ -208,6 +213,7 @@ void place(TriangleMesh& mesh, Random& random) {
     }
 }
 
+// Adds unreferenced vertices.
 void stray_vertices(TriangleMesh& mesh, Random& random) {
     const std::size_t before = mesh.positions.size();
     for (std::size_t i = 1 + random.below(50); i > 0; --i) {
@@ -217,30 +223,30 @@ void stray_vertices(TriangleMesh& mesh, Random& random) {
     }
 }
 
-struct Damage {
+struct Defect {
     const char* name;
-    void (*do_it)(TriangleMesh&, Random&);
+    void (*apply)(TriangleMesh&, Random&);
 };
-constexpr Damage kinds[] = {
-    {"cut", cut},
-    {"flipped", flip},
-    {"faces doubled", duplicate_faces},
-    {"all doubled", double_all},
-    {"cut", cut},
-    {"flipped", flip},
+constexpr Defect defects[] = {
+    {"faces deleted", cut},
+    {"faces reversed", flip},
+    {"faces duplicated", duplicate_faces},
+    {"mesh duplicated", double_all},
+    {"faces deleted", cut},
+    {"faces reversed", flip},
     {"welded wrongly", weld_wrongly},
-    {"welded too far", weld_too_far},
+    {"rounded to a lattice", weld_too_far},
     {"unwelded", unweld},
-    {"noised", noise},
-    {"noised", noise},
-    {"spikes", spikes},
+    {"noise", noise},
+    {"noise", noise},
+    {"outliers", spikes},
     {"flattened", flatten},
     {"needles", needles},
-    {"placed", place},
-    {"stray vertices", stray_vertices},
+    {"scaled or moved", place},
+    {"unreferenced vertices", stray_vertices},
 };
 
-// Two floats per corner, with a seam now and then.
+// Adds two floats per corner, with occasional seams.
 void add_attributes(TriangleMesh& mesh, Random& random) {
     mesh.attributes.width = 2;
     for (const Triangle& t : mesh.triangles) {
@@ -252,23 +258,23 @@ void add_attributes(TriangleMesh& mesh, Random& random) {
     }
 }
 
-void make_wrong(DirtyMesh& dirty, Random& random) {
+void make_invalid(DirtyMesh& dirty, Random& random) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     TriangleMesh& mesh = dirty.mesh;
     const Index f = random.below(mesh.triangles.size());
     const std::size_t corner = random.below(3);
-    dirty.is_wrong = true;
+    dirty.is_invalid = true;
     switch (random.below(3)) {
         case 0:
-            dirty.story += ", an index out of range";
+            dirty.description += ", an index out of range";
             mesh.triangles[f][corner] = static_cast<Index>(mesh.positions.size()) + random.below(1000);
             break;
         case 1:
-            dirty.story += ", no index";
+            dirty.description += ", a corner without index";
             mesh.triangles[f][corner] = no_index;
             break;
         default:
-            dirty.story += ", a position that is not finite";
+            dirty.description += ", a position that is not finite";
             mesh.positions[mesh.triangles[f][corner]][random.below(3)] =
                 random.below(2) ? infinity : std::numeric_limits<double>::quiet_NaN();
     }
@@ -280,18 +286,18 @@ DirtyMesh dirty_mesh(std::uint32_t number) {
     Random random(number);
     DirtyMesh dirty;
     const double size = number % 1000 == 999 ? 16 : 1;
-    dirty.mesh = shape(random, size, dirty.story);
+    dirty.mesh = shape(random, size, dirty.description);
     for (Index i = 1 + random.below(4); i > 0; --i) {
-        const Damage& damage = kinds[random.below(std::size(kinds))];
-        dirty.story += std::string(", ") + damage.name;
-        damage.do_it(dirty.mesh, random);
+        const Defect& defect = defects[random.below(std::size(defects))];
+        dirty.description += std::string(", ") + defect.name;
+        defect.apply(dirty.mesh, random);
     }
     if (random.below(5) == 0) {
         for (std::size_t f = 0; f < dirty.mesh.triangles.size(); ++f)
             dirty.mesh.face_groups.push_back(f < dirty.mesh.triangles.size() / 2 ? 0 : random.below(3));
     }
     if (random.below(5) == 0) add_attributes(dirty.mesh, random);
-    if (random.below(25) == 0) make_wrong(dirty, random);
+    if (random.below(25) == 0) make_invalid(dirty, random);
     return dirty;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Procedural shapes, damaged in the ways that real models are.
+/// Procedural shapes with the defects of real models.
 
 #include <cstdint>
 #include <string>
@@ -9,15 +9,17 @@
 
 namespace faqem::soak {
 
+/// A generated mesh with defects.
 struct DirtyMesh {
     TriangleMesh mesh;
-    std::string story;  ///< the shape and what was done to it
-    bool is_wrong =
-        false;  ///< simplify() has to refuse it: an index out of range, a position that is no number
+    std::string description;  ///< the shape and its defects
+    bool is_invalid =
+        false;  ///< simplify() must refuse the mesh: an index out of range, a position that is not finite
 };
 
-/// A shape of some hundred to some thousand faces, one in 1000 of some ten thousand and more, with up to four
-/// kinds of damage; one in 25 is wrong. The same for the same number with every compiler.
+/// Creates a shape with up to four defects. It has some hundred to some thousand faces; one mesh in 1000 has
+/// more than ten thousand. One mesh in 25 is invalid. The result depends only on `number`, not on the
+/// compiler.
 DirtyMesh dirty_mesh(std::uint32_t number);
 
 }  // namespace faqem::soak

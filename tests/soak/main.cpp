@@ -1,5 +1,6 @@
-// Dirty meshes to 1% with every preset: `faqem_soak COUNT [FIRST]`, from the mesh of that number on. Prints
-// what failed, by number, then a table. Each processor has runs of its own, with one to three threads.
+// Simplifies COUNT defective meshes to 1% with every preset: `faqem_soak COUNT [FIRST]`, beginning with
+// number FIRST. Prints each failure with the number of its mesh, then a table. There is one worker thread per
+// processor; each run uses one to three threads.
 
 #include <algorithm>
 #include <atomic>
@@ -21,16 +22,16 @@ namespace {
 
 constexpr double share = 0.01;
 
-/// What became of the meshes under one preset.
+/// Counts of the results of one preset.
 struct Row {
     std::uint64_t tried = 0;
-    std::uint64_t refused = 0;    ///< wrong ones
-    std::uint64_t on_target = 0;  ///< of the others
-    std::uint64_t stopped = 0;    ///< above the target, with a reason
-    std::uint64_t repaired = 0;   ///< of both: faces without area, or doubles, were left out
-    std::uint64_t empty = 0;      ///< nothing was left: there was no area
+    std::uint64_t refused = 0;    ///< invalid meshes
+    std::uint64_t on_target = 0;  ///< the target was reached
+    std::uint64_t stopped = 0;    ///< ended above the target
+    std::uint64_t repaired = 0;   ///< degenerate or duplicate faces were removed
+    std::uint64_t empty = 0;      ///< the result is empty, because no face had area
     std::uint64_t failed = 0;
-    double outside = 0;  ///< the farthest vertex, in diagonals
+    double outside = 0;  ///< largest distance of a vertex from the bounding box, in diagonals
 
     Row& operator+=(const Row& o) {
         tried += o.tried, refused += o.refused, on_target += o.on_target, stopped += o.stopped;
@@ -40,18 +41,19 @@ struct Row {
     }
 };
 
-/// \return what is wrong; empty if nothing is
+/// Simplifies one mesh and counts the result.
+/// \return a description of the fault; empty if there is none
 std::string run(const soak::DirtyMesh& dirty, const Options& options, Row& row) try {
     const SimplifyResult result = simplify(dirty.mesh.view(), options);
-    if (dirty.is_wrong) return "is not refused";
+    if (dirty.is_invalid) return "the mesh is invalid, but was not refused";
     ++(result.report.stop == StopReason::reached_target ? row.on_target : row.stopped);
     row.repaired += result.report.faces_dropped > 0;
     row.empty += result.mesh.triangles.empty();
     row.outside = soak::outside_box(dirty.mesh, result.mesh);
     return soak::fault(dirty.mesh, share, result);
 } catch (const InputError& error) {
-    row.refused += dirty.is_wrong;
-    return dirty.is_wrong ? "" : error.what();
+    row.refused += dirty.is_invalid;
+    return dirty.is_invalid ? "" : error.what();
 } catch (const std::exception& error) {
     return error.what();
 }
@@ -73,12 +75,12 @@ public:
             const std::lock_guard lock(mutex_);
             rows_[static_cast<std::size_t>(preset)] += row;
             if (fault.empty()) continue;
-            std::printf("%u (%s), %zu faces, %s: %s\n", number, dirty.story.c_str(),
+            std::printf("%u (%s), %zu faces, %s: %s\n", number, dirty.description.c_str(),
                         dirty.mesh.triangles.size(), name(preset).data(), fault.c_str());
         }
     }
 
-    /// \return whether nothing failed
+    /// Prints the table. \return true if nothing failed
     bool print() const {
         bool is_good = true;
         std::puts(

@@ -1,8 +1,8 @@
-"""Models of a folder, each with every preset at several ratios, and baked once: crashes and wrong results are failures.
+"""Simplifies all models of a folder with every preset at several ratios, and bakes each model once.
 
-Usage: models.py TOOL FOLDER [--seconds N] [--only NAME...] [--record FILE]; meant for the tool of the preset `sanitize`
-or `fuzz`. The smallest files come first. Interrupted, it prints the table of what it has done; with --record the next
-run goes on from there.
+Crashes and invalid results are failures. Usage: models.py TOOL FOLDER [--seconds N] [--only NAME...] [--record FILE];
+meant for the tool of a build with sanitizers (CMake preset `sanitize` or `fuzz`). The smallest files come first. If the
+program is interrupted, it prints the table of the completed runs; with --record the next call continues from there.
 """
 
 import argparse
@@ -23,7 +23,7 @@ REFUSED = (3, 4)  # exit codes: bad input, unsupported input
 
 
 def run(*words, seconds):
-    """Standard output, standard error and the exit code, None where the time was up."""
+    """Runs a command. Returns standard output, standard error and the exit code; the code is None after a timeout."""
     suppressions = pathlib.Path(__file__).resolve().parent.parent / "support/lsan-suppressions.txt"
     environment = {**os.environ, "LSAN_OPTIONS": f"suppressions={suppressions}:print_suppressions=0"}
     try:
@@ -35,31 +35,32 @@ def run(*words, seconds):
 
 
 def fault(arguments, report, out, ratio):
-    """What is wrong with a result; empty if nothing is."""
+    """Checks the result of a run. Returns a description of the fault, or an empty string."""
     if (report["faces_out"] <= report["target_faces"]) != (report["stop_reason"] == "reached_target"):
-        return "the reason to stop does not fit the faces"
+        return "the stop reason does not fit the face count"
     if report["faces_out"] == 0:
-        return "nothing is left"
+        return "the result is empty"
     if ratio == 1 and report["collapses"] > 0:
-        return "something was collapsed"
+        return "there were collapses at ratio 1"
     if report["faces_dropped"] > 0 and not report["warnings"]:
-        return "no warning"
+        return "faces were removed without a warning"
     text, errors, code = run(arguments.tool, "info", out, "--json", seconds=arguments.seconds)
     if code != 0:
-        return f"cannot be read again: {last_line(errors)}"
+        return f"the output cannot be read: {last_line(errors)}"
     total = json.loads(text)["total"]
-    faces = total["faces"] + total["degenerate_faces"]  # a format with floats may close some up, and says so
-    return "" if faces >= report["faces_out"] else f"has {faces} faces, the report {report['faces_out']}"
+    faces = total["faces"] + total["degenerate_faces"]  # rounding to float can make faces degenerate
+    return "" if faces >= report["faces_out"] else f"the output has {faces} faces, the report {report['faces_out']}"
 
 
 def last_line(errors):
+    """The most informative line of standard error."""
     lines = [line for line in errors.splitlines() if line.strip()]
-    told = [line for line in lines if line.startswith(("SUMMARY:", "faqem:")) or "runtime error" in line]
-    return (told or lines or ["nothing is said"])[0]
+    important = [line for line in lines if line.startswith(("SUMMARY:", "faqem:")) or "runtime error" in line]
+    return (important or lines or ["no message"])[0]
 
 
 def judge(arguments, file, options, ratio, row):
-    """Counts one run. Returns what is wrong; empty if nothing is."""
+    """Runs the tool once and updates the counts in `row`. Returns a description of the fault, or an empty string."""
     with tempfile.TemporaryDirectory() as folder:
         out, report = pathlib.Path(folder) / "out.glb", pathlib.Path(folder) / "report.json"
         _, errors, code = run(arguments.tool, "simplify", file, out, *options.split(), "--report", report, "--quiet",
@@ -73,14 +74,14 @@ def judge(arguments, file, options, ratio, row):
             return ""
         if code != 0:
             return f"exit code {code}: {last_line(errors)}"
-        told = json.loads(report.read_text(encoding="utf-8"))
-        row["on target" if told["stop_reason"] == "reached_target" else "stopped above"] += 1
-        row["repaired"] += told["faces_dropped"] > 0
-        return fault(arguments, told, out, ratio)
+        result = json.loads(report.read_text(encoding="utf-8"))
+        row["on target" if result["stop_reason"] == "reached_target" else "stopped above"] += 1
+        row["repaired"] += result["faces_dropped"] > 0
+        return fault(arguments, result, out, ratio)
 
 
 def load(record):
-    """What earlier runs have come to, by file and options."""
+    """Entries of earlier runs by file and options."""
     if not record or not record.exists():
         return {}
     entries = map(json.loads, record.read_text(encoding="utf-8").splitlines())
@@ -88,7 +89,7 @@ def load(record):
 
 
 def try_one(arguments, file, options, ratio):
-    """One run as it is recorded: its counts, and what is to be said of it."""
+    """Runs the tool once. Returns the entry for the record: file, options, counts and fault."""
     row = collections.Counter()
     found = judge(arguments, file, options, ratio, row)
     row["failed"] += found != ""
@@ -101,13 +102,13 @@ def try_one(arguments, file, options, ratio):
 
 
 def size(file):
-    """Bytes of the geometry: a .gltf has it in buffers beside it."""
+    """Size of a model in bytes, for .gltf including its buffers."""
     buffers = file.parent.rglob("*.bin") if file.suffix.lower() == ".gltf" else ()
     return sum(part.stat().st_size for part in (file, *buffers))
 
 
 def models(folder):
-    """The smallest first."""
+    """The models of a folder, the smallest first."""
     found = [file for file in pathlib.Path(folder).rglob("*") if file.suffix.lower() in KINDS and file.is_file()]
     return sorted(found, key=lambda file: (size(file), file))
 
@@ -116,9 +117,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("tool")
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seconds", type=float, default=120, help="for one run (default 120)")
-    parser.add_argument("--only", nargs="+", help="names of files")
-    parser.add_argument("--record", type=pathlib.Path, help="a file of what has been done, which is not done again")
+    parser.add_argument("--seconds", type=float, default=120, help="limit for one run (default 120)")
+    parser.add_argument("--only", nargs="+", help="names of the files to run")
+    parser.add_argument("--record", type=pathlib.Path, help="file of completed runs, which are not repeated")
     arguments = parser.parse_args()
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     work = [(preset, ratio, f"--preset {preset} --ratio {ratio} --bake none") for ratio in RATIOS for preset in PRESETS]

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Distances without a search structure, to compare with.
+/// Brute-force distances between meshes, for comparison.
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,9 @@
 
 namespace faqem::test {
 
-/// Largest distance of a grid of points on each face of `from`, corners included, to all faces of `to`.
-/// \param steps  of the grid along an edge, > 0
+/// Largest distance from the points of a regular grid on each face of `from`, including corners, to the faces
+/// of `to`.
+/// \param steps  number of intervals along an edge, > 0
 inline double sampled_distance(const TriangleMesh& from, const TriangleMesh& to, int steps) {
     const auto corner = [](const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
         return engine::to_eigen(mesh.positions[t[k]]);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes as the chart atlas sees them, and an independent look at what it made of them.
+/// Input meshes for the chart atlas, and independent checks of its results.
 
 #include <algorithm>
 #include <map>
@@ -14,8 +14,8 @@ namespace faqem::test {
 
 using FlatTriangle = std::array<detail::ChartPoint, 3>;
 
-/// Faces with their neighbours over edges of exactly two faces, wound alike. \param density  texels per
-/// length
+/// The faces of a mesh with their neighbours across edges of exactly two consistently oriented faces.
+/// \param density  texels per unit of length
 inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, double density) {
     std::vector<detail::ChartFace> result(mesh.triangles.size());
     std::map<std::pair<Index, Index>, std::vector<std::pair<Index, std::uint8_t>>> edges;
@@ -39,7 +39,7 @@ inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, doub
     return result;
 }
 
-/// A band of `around` x `across` quads with half a twist: one side only.
+/// A Moebius strip of `around` x `across` quads.
 inline TriangleMesh moebius(Index around, Index across) {
     TriangleMesh mesh;
     for (Index i = 0; i < around; ++i) {
@@ -59,7 +59,7 @@ inline TriangleMesh moebius(Index around, Index across) {
     return mesh;
 }
 
-/// Area that two triangles share, by cutting one with the sides of the other (Sutherland and Hodgman 1974).
+/// Area of the intersection of two triangles, by clipping (Sutherland and Hodgman 1974).
 inline double shared_area(const FlatTriangle& a, const FlatTriangle& b) {
     std::vector<detail::ChartPoint> polygon(a.begin(), a.end());
     for (std::size_t i = 0; i < 3; ++i) {
@@ -81,7 +81,7 @@ inline double shared_area(const FlatTriangle& a, const FlatTriangle& b) {
     return twice / 2;
 }
 
-/// The largest share of a triangle that lies under another one. Looks at all pairs.
+/// The largest overlap of two triangles, relative to the smaller one of the two. Brute force over all pairs.
 inline double worst_overlap(const std::vector<FlatTriangle>& triangles) {
     double worst = 0;
     const auto box = [](const FlatTriangle& t, bool high, bool up) {

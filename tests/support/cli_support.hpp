@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Running the faqem command in a folder of its own, and small models to run it on.
+/// Runs the faqem command in a temporary folder, and creates small models for it.
 
 #include <signal.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ namespace tool_test {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone afterwards.
+/// A temporary folder that is removed by the destructor.
 class Folder : public faqem::cli::TemporaryFolder {
 public:
     Folder() : TemporaryFolder("faqem-tool") {}
@@ -37,12 +37,14 @@ inline void write(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
+/// Exit code (-1 if ended by a signal) and output of a command.
 struct Outcome {
     int code = -1;
     std::string out, err;
 };
 
-/// Runs `faqem ARGUMENTS` in the folder. \param arguments  as typed in a shell
+/// Runs `faqem ARGUMENTS` in the folder.
+/// \param arguments  in shell syntax
 inline Outcome run(const Folder& folder, const std::string& arguments) {
     const Folder streams;
     const std::string command = "cd '" + folder.path().string() + "' && '" FAQEM_TOOL "' " + arguments +
@@ -52,12 +54,12 @@ inline Outcome run(const Folder& folder, const std::string& arguments) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(streams / "out"), read(streams / "err")};
 }
 
-/// Whether a process has become the command and has a handler of its own for a signal.
+/// True if the process has executed the faqem command and has installed a handler for the signal.
 inline bool handles(pid_t process, int number) {
     std::ifstream name("/proc/" + std::to_string(process) + "/comm");
     std::string running;
     if (!(name >> running) || running != "faqem")
-        return false;  // still a copy of the test, with its handlers
+        return false;  // still the forked test program with its own handlers
     std::ifstream status("/proc/" + std::to_string(process) + "/status");
     std::string line;
     while (std::getline(status, line)) {
@@ -68,17 +70,18 @@ inline bool handles(pid_t process, int number) {
     return false;
 }
 
-/// Sends a signal to a running command as soon as it has a handler for it. \return its status, as waitpid()
+/// Sends a signal to a running command as soon as it has a handler for it, and waits for its end.
+/// \return the status of waitpid()
 inline int signal_and_wait(pid_t process, int number) {
     int status = 0;
-    // A process that ended before its handler was there would make this wait for ever: ask for both.
+    // Also stops if the process has ended before it installed its handler.
     while (!handles(process, number) && waitpid(process, &status, WNOHANG) == 0) std::this_thread::yield();
     kill(process, number);
     waitpid(process, &status, 0);
     return status;
 }
 
-/// Left half red, right half blue.
+/// An image whose left half is red and right half is blue.
 inline faqem::Image two_colours() {
     faqem::Pixels pixels;
     pixels.width = 64;
@@ -92,7 +95,8 @@ inline faqem::Image two_colours() {
     return faqem::encode_png(pixels, "two");
 }
 
-/// A bumpy n x n grid of quads over [-1, 1]^2 that looks to +z, red on the left and blue on the right.
+/// A bumpy grid of n x n quads over [-1, 1]^2 with normals near +z, red on the left and blue on the right.
+/// \param bumps  amplitude
 inline faqem::Asset sheet(faqem::Index n, double bumps = 0.05) {
     faqem::Asset asset;
     faqem::Part part;

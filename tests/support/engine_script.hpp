@@ -1,5 +1,5 @@
 #pragma once
-// Metrics that a test writes down, and the engine run with them.
+// Metrics with given costs and positions, and runs of the engine with them.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ inline std::uint64_t refused(const LoopResult& result, Refusal why) {
     return result.refusals[static_cast<std::size_t>(why)];
 }
 
-// A metric that offers what the test says: a point for each pair of original vertices, cost by order.
+// A metric with a given position for each pair of original vertices. Costs are in the order of the pairs;
+// pairs without an entry are not collapsed.
 struct Script {
     std::map<Ends, Vector3> offers;
 
@@ -47,7 +48,7 @@ struct Script {
     Reevaluation reevaluation(const PairTable::Change&) const { return Reevaluation::none; }
 };
 
-// A run of the engine over a mesh, with everything that it changed.
+// The engine with a mesh, and all data that a run changes.
 template <class Metric>
 struct Play {
     Play(const TriangleMesh& mesh, Metric m, const std::vector<Ends>& extra = {})
@@ -78,7 +79,7 @@ struct Play {
     LoopResult result;
 };
 
-// Triangle 0 1 2 stays, vertex 2 is joined with 3; the new point turns it about the x axis.
+// Vertices 2 and 3 are collapsed, and triangle 0 1 2 remains; the new position rotates it about the x axis.
 inline const TriangleMesh hinge = make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
 
 inline Script turn_hinge(double degrees) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the file formats share.
+// Helpers for the tests of the file formats.
 
 #include <unistd.h>
 #include <cstdlib>
@@ -17,12 +17,12 @@
 
 namespace faqem::testing {
 
-/// A new folder that goes away with the object.
+/// A new folder that is removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::string path = (std::filesystem::temp_directory_path() / "faqem-formats-XXXXXX").string();
-        if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
+        if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot create the folder");
         path_ = path;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -53,7 +53,7 @@ inline std::span<const std::uint8_t> bytes_of(std::string_view text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// Message of the Exception that the call throws; of nothing else.
+/// Message of the Exception that the call throws. Other exceptions are passed on.
 template <class Exception = InputError, class Call>
 std::string message_of(Call&& call) {
     try {
@@ -74,7 +74,7 @@ inline bool any_contains(const std::vector<std::string>& texts, const std::strin
     return false;
 }
 
-/// One part whose faces all have no material.
+/// An asset of one part whose faces have no material.
 inline Asset one_part(std::vector<Vec3> positions, std::vector<Triangle> triangles) {
     Asset asset;
     Part& part = asset.parts.emplace_back();

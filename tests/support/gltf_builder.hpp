@@ -1,5 +1,5 @@
 #pragma once
-// Builds small glTF documents in memory, right or wrong.
+// Builds small glTF documents in memory, valid or invalid.
 
 #include <cstdint>
 #include <cstring>
@@ -15,13 +15,13 @@ using detail::Json;
 
 inline constexpr int u8 = 5121, i8 = 5120, u16 = 5123, i16 = 5122, u32 = 5125, f32 = 5126;
 
-/// A document with one buffer. Change `json` and `bin` at will before glb() or gltf().
+/// A document with one buffer. `json` and `bin` may be changed before text() or glb() is called.
 class GltfBuilder {
 public:
     Json json = {{"asset", {{"version", "2.0"}}}};
     std::string bin;
 
-    /// A view of the raw values, at a multiple of 4. \return its index
+    /// Adds a bufferView of the raw values at an offset that is a multiple of 4. \return its index
     template <class T>
     std::size_t view(const std::vector<T>& values) {
         bin.resize((bin.size() + 3) / 4 * 4);
@@ -30,7 +30,7 @@ public:
         return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
     }
 
-    /// An accessor of scalars or, for arrays, vectors, with a view of its own. \return its index
+    /// Adds an accessor of scalars or vectors with its own bufferView. \return its index
     template <class T>
     std::size_t accessor(const std::vector<T>& values, int component, const std::string& type) {
         return add("accessors", {{"bufferView", view(values)},
@@ -39,12 +39,14 @@ public:
                                  {"count", values.size()}});
     }
 
+    /// Appends a value to a top-level array of the document. \return its index
     std::size_t add(const char* array, Json value) {
         json[array].push_back(std::move(value));
         return json[array].size() - 1;
     }
 
-    /// A mesh of one primitive, and a node of the scene that shows it. \return the mesh
+    /// Adds a mesh of one primitive, and a root node of the scene with this mesh. \return the index of the
+    /// mesh
     std::size_t mesh(Json primitive) {
         const std::size_t index = add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
         const std::size_t node = add("nodes", {{"mesh", index}});
@@ -66,7 +68,7 @@ public:
         for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(value >> shift));
     }
 
-    /// A GLB around any text and bytes.
+    /// A GLB file with the given JSON chunk and BIN chunk (none if `bytes` is empty).
     static std::string glb_of(std::string text, std::string bytes) {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -82,7 +84,7 @@ public:
 };
 
 /// 2---3
-/// | \ |   in the plane z = 0, seen from +z; triangles 0 1 2 and 2 1 3
+/// | \ |   A square in the plane z = 0, seen from +z, with triangles 0 1 2 and 2 1 3.
 /// 0---1
 inline const std::vector<Vec3f> square = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
 inline const std::vector<std::uint16_t> square_corners = {0, 1, 2, 2, 1, 3};
@@ -96,7 +98,7 @@ inline GltfBuilder square_gltf() {
     return builder;
 }
 
-/// Loads a builder's GLB through a file named a.glb.
+/// Loads a GLB from a file named a.glb.
 inline Asset load_glb(const std::string& glb) {
     const TemporaryFolder folder;
     put(folder / "a.glb", glb);
@@ -105,7 +107,7 @@ inline Asset load_glb(const std::string& glb) {
 
 inline Asset load_glb(const GltfBuilder& builder) { return load_glb(builder.glb()); }
 
-/// What load_glb() says against it.
+/// Message of the exception that load_glb() throws.
 template <class Exception = InputError>
 std::string refusal(const std::string& glb) {
     return message_of<Exception>([&] { load_glb(glb); });
@@ -116,38 +118,38 @@ std::string refusal(const GltfBuilder& builder) {
     return refusal<Exception>(builder.glb());
 }
 
-/// The JSON of a GLB.
+/// The JSON chunk of a GLB.
 inline Json json_of(const std::string& glb) {
     std::uint32_t size = 0;
     std::memcpy(&size, glb.data() + 12, 4);
     return Json::parse(glb.substr(20, size));
 }
 
-/// The asset as save() writes it to a .glb.
+/// The bytes that save() writes to a .glb file.
 inline std::string saved(const Asset& asset) {
     const TemporaryFolder folder;
     save(asset, folder / "out.glb");
     return get(folder / "out.glb");
 }
 
-/// A 2 x 2 image.
+/// An opaque PNG of 2 x 2 pixels.
 inline Image small_png(std::uint8_t shade = 100) {
     Pixels pixels{2, 2, std::vector<std::uint8_t>(16, shade), false};
     for (std::size_t i = 3; i < 16; i += 4) pixels.rgba[i] = 255;
     return encode_png(pixels, "");
 }
 
-/// The document's JSON after loading and saving.
+/// The JSON of the document after loading and saving.
 inline Json through(const GltfBuilder& builder) { return json_of(saved(load_glb(builder))); }
 
-/// A material of one colour texture, with a PNG in a view of its own.
+/// Adds a texture whose image is a PNG in its own bufferView.
 inline void add_texture(GltfBuilder& builder, std::uint8_t shade) {
     const auto view = builder.view(small_png(shade).encoded);
     const auto image = builder.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
     builder.add("textures", {{"source", image}});
 }
 
-/// Two faces.
+/// An asset of one part, a square of two faces, that was not loaded from a file.
 inline Asset new_square() {
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
     asset.parts[0].name = "square";

@@ -1,5 +1,5 @@
 #pragma once
-// Builds glTF documents with compressed data, right or wrong.
+// Builds glTF documents with compressed data, valid or invalid.
 
 #include <array>
 #include <memory>
@@ -17,8 +17,11 @@
 
 namespace faqem::testing {
 
-// A view for `count` elements of `stride` bytes that lies in buffer 1, which has no bytes, and is packed in
-// buffer 0.
+// Adds a bufferView compressed with meshopt: its uncompressed range is in the fallback buffer 1, which has no
+// data, and its compressed data in buffer 0.
+// \param count, stride  number of elements and bytes per element
+// \param end            size of buffer 1; updated
+// \return the index of the bufferView
 inline std::size_t packed_view(GltfBuilder& builder, const std::vector<unsigned char>& packed,
                                std::size_t count, std::size_t stride, const char* mode, std::size_t& end) {
     const Json from = builder.json["bufferViews"][builder.view(packed)];
@@ -37,6 +40,7 @@ inline std::size_t packed_view(GltfBuilder& builder, const std::vector<unsigned 
                                        {"extensions", {{"EXT_meshopt_compression", extension}}}});
 }
 
+// The EXT_meshopt_compression extension of a bufferView.
 inline Json& packed_of(GltfBuilder& builder, std::size_t view) {
     return builder.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
 }
@@ -47,7 +51,7 @@ inline void name_extension(GltfBuilder& builder, const char* name) {
 
 #ifdef FAQEM_WITH_MESHOPT
 
-// The square, its vertices and indices packed.
+// The square with vertices and indices compressed with meshopt.
 inline GltfBuilder packed_square() {
     GltfBuilder builder;
     std::vector<unsigned char> vertices(meshopt_encodeVertexBufferBound(4, 12)), indices;
@@ -81,8 +85,8 @@ inline GltfBuilder packed_square() {
 
 enum class Method { edgebreaker = 1, sequential = 0 };
 
-// Triangles of points in Draco, no plain data beside it.
-// \param bits  that positions are rounded to; 0: they are kept
+// A mesh of separate triangles compressed with Draco, without uncompressed data.
+// \param bits  quantization of positions; 0: none
 inline GltfBuilder draco_gltf(const std::vector<std::array<Vec3f, 3>>& triangles, Method method, int bits) {
     draco::TriangleSoupMeshBuilder soup;
     soup.Start(static_cast<int>(triangles.size()));
@@ -96,7 +100,8 @@ inline GltfBuilder draco_gltf(const std::vector<std::array<Vec3f, 3>>& triangles
     encoder.SetEncodingMethod(int(method));
     if (bits > 0) encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
     draco::EncoderBuffer buffer;
-    if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok()) throw std::runtime_error("Draco does not encode");
+    if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok())
+        throw std::runtime_error("Draco cannot encode the mesh");
     GltfBuilder builder;
     const auto view = builder.view(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
     const auto positions =
@@ -117,7 +122,7 @@ inline GltfBuilder draco_square(Method method, int bits = 0) {
     return draco_gltf({{corner(0), corner(1), corner(2)}, {corner(3), corner(4), corner(5)}}, method, bits);
 }
 
-// Triangles side by side.
+// A strip of `count` triangles.
 inline GltfBuilder draco_strip(std::size_t count) {
     const auto point = [](std::size_t i) { return Vec3f{float(i / 2), float(i % 2), 0}; };
     std::vector<std::array<Vec3f, 3>> triangles;
@@ -131,12 +136,12 @@ inline Json& draco_of(GltfBuilder& builder) {
 
 #endif
 
-// 1 x 1, lossless, one red pixel.
+// A lossless WebP image of one red pixel.
 inline const std::vector<std::uint8_t> small_webp = {
     'R', 'I', 'F', 'F',  0x1a, 0, 0, 0,    'W', 'E',  'B',  'P',  'V',  'P',  '8',  'L', 0x0d,
     0,   0,   0,   0x2f, 0,    0, 0, 0x10, 7,   0x10, 0x11, 0x11, 0x88, 0x88, 0xfe, 7,   0};
 
-// The square with a texture whose only image is WebP.
+// The square with a texture that has only a WebP image.
 inline GltfBuilder webp_square() {
     GltfBuilder builder = square_gltf();
     builder.add("images", {{"bufferView", builder.view(small_webp)}, {"mimeType", "image/webp"}});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Collapse histories made by hand, by brute force over all faces.
+/// Collapse histories with given collapses, recorded by brute force over all faces.
 
 #include <numeric>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace faqem::test {
 
-/// Starts with an original and records collapses of whatever vertices it is told to.
+/// Records given collapses of an original mesh.
 class HandHistory {
 public:
     HandHistory(std::vector<Vec3> positions, std::vector<Triangle> triangles, std::vector<Index> groups = {})
@@ -20,7 +20,7 @@ public:
         history_.patch_begin = {0};
     }
 
-    /// Joins versions a and b. Returns the version made.
+    /// Collapses versions a and b. \return the new version
     Index collapse(Index a, Index b, const Vec3& position) {
         const Index made = static_cast<Index>(history_.positions.size() + history_.collapses.size());
         history_.collapses.push_back({a, b, position});
@@ -37,7 +37,7 @@ public:
         return made;
     }
 
-    /// The history, with what is left as the small mesh.
+    /// The history, with the remaining faces as the simplified mesh.
     CollapseHistory finish() {
         std::vector<bool> used(history_.positions.size() + history_.collapses.size(), false);
         for (Index f = 0; f < now_.size(); ++f) {
@@ -51,7 +51,7 @@ public:
         return history_;
     }
 
-    /// Corner versions of an input face now.
+    /// Current corner versions of an input face.
     const Triangle& corners(Index f) const { return now_[f]; }
 
 private:
@@ -60,7 +60,7 @@ private:
     std::vector<bool> alive_;
 };
 
-/// The small mesh of a finished history: corner versions of its faces, by kept face.
+/// The simplified mesh of a finished history.
 inline TriangleMesh small_mesh(const CollapseHistory& history) {
     TriangleMesh mesh;
     std::vector<Index> number(history.positions.size() + history.collapses.size(), no_index);

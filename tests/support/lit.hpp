@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals as viewers make them of a normal map.
+/// Shading normals from a normal map, as viewers compute them.
 
 #include <numbers>
 
@@ -25,7 +25,8 @@ inline double degrees_between(const Direction& a, const Direction& b) {
     return std::atan2(std::hypot(c[0], c[1], c[2]), dot) * 180 / std::numbers::pi;
 }
 
-/// What a viewer lights a point with: the normal map in the frame of NORMAL and TANGENT.
+/// The shading normal at a point of a face: the normal map in the frame of NORMAL and TANGENT (glTF).
+/// \param w  barycentric coordinates
 inline Direction lit_normal(const Part& part, const Pixels& map, std::size_t face, const Vec3& w) {
     const Triangle& t = part.triangles[face];
     const auto n = blend(part.normals, t, w);

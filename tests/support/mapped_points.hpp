@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points of a small mesh and of the original, for tests of the map between them.
+/// Points on a simplified mesh and on the original, for tests of the map between them.
 
 #include <cmath>
 #include <vector>
@@ -9,17 +9,20 @@
 
 namespace faqem::test {
 
+/// The linear combination of three points with weights w.
 inline Vec3 mix(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) {
     Vec3 p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = w[0] * a[i] + w[1] * b[i] + w[2] * c[i];
     return p;
 }
 
+/// The point with barycentric coordinates w on a face of the simplified mesh.
 inline Vec3 small_point(const TriangleMesh& mesh, Index face, const Vec3& w) {
     const Triangle& t = mesh.triangles[face];
     return mix(w, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
 }
 
+/// The position of a point on the original.
 inline Vec3 original_point(const CollapseHistory& history, const SurfacePoint& p) {
     const Triangle& t = history.triangles[p.face];
     return mix(p.barycentric, history.positions[t[0]], history.positions[t[1]], history.positions[t[2]]);
@@ -29,7 +32,8 @@ inline double distance(const Vec3& a, const Vec3& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Barycentrics spread over a triangle, corners included.
+/// Barycentric coordinates of a regular grid over a triangle, including its edges and corners.
+/// \param n  number of intervals along an edge, > 0
 inline std::vector<Vec3> spread(int n) {
     std::vector<Vec3> result;
     for (int i = 0; i <= n; ++i) {
@@ -40,7 +44,8 @@ inline std::vector<Vec3> spread(int n) {
     return result;
 }
 
-// Faces of an n x n grid over vertices numbered by vertex(i, j); even faces below their diagonal.
+/// Faces of a grid of n x n squares with vertices vertex(i, j). Of each square, the even face is below the
+/// diagonal.
 template <class Vertex>
 std::vector<Triangle> grid_faces(Index n, Vertex&& vertex) {
     std::vector<Triangle> faces;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Tiny meshes for the tests of the engine, and brute-force facts about meshes.
+/// Small meshes for tests, and brute-force queries on meshes.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace faqem::test {
 
 inline const double pi = std::acos(-1.0);
 
-/// Same numbers with every standard library.
+/// Random numbers that are the same with every standard library.
 class Random {
 public:
     explicit Random(std::uint32_t seed) : bits_(seed) {}
@@ -41,19 +41,19 @@ inline TriangleMesh make(std::vector<Vec3> positions, std::vector<Triangle> tria
     return mesh;
 }
 
-/// The positions of a mesh.
+/// The positions of a mesh as Eigen vectors.
 inline std::vector<engine::Vector3> vectors(const TriangleMesh& mesh) {
     std::vector<engine::Vector3> all;
     for (const Vec3& p : mesh.positions) all.push_back(engine::to_eigen(p));
     return all;
 }
 
-/// The corner of the unit cube cut off; four faces seen from outside.
+/// The tetrahedron of the origin and the three unit vectors, with outward normals.
 inline TriangleMesh tetrahedron() {
     return make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
 }
 
-/// [0, 1]^3 in twelve triangles; vertex x + 2 y + 4 z.
+/// The cube [0, 1]^3 with twelve triangles; the vertex at (x, y, z) has index x + 2 y + 4 z.
 inline TriangleMesh cube() {
     return make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}},
                 {{0, 2, 3},
@@ -70,7 +70,8 @@ inline TriangleMesh cube() {
                  {1, 7, 5}});
 }
 
-/// n x n unit squares in the plane z = 0, vertex x + (n + 1) y, each square cut from low left to high right.
+/// n x n unit squares in the plane z = 0; the vertex at (x, y) has index x + (n + 1) y. The diagonal of each
+/// square is from its lower left to its upper right vertex.
 inline TriangleMesh grid(Index n) {
     TriangleMesh mesh;
     for (Index y = 0; y <= n; ++y) {
@@ -86,15 +87,15 @@ inline TriangleMesh grid(Index n) {
     return mesh;
 }
 
-/// grid(n), the square [0, side]^2 at a height.
+/// grid(n) scaled to the square [0, side]^2 at z = height.
 inline TriangleMesh square(Index n, double side, double height) {
     TriangleMesh mesh = grid(n);
     for (Vec3& p : mesh.positions) p = {side * p[0] / n, side * p[1] / n, height};
     return mesh;
 }
 
-/// A sphere around the origin of rings x 2 rings quads from pole to pole, two triangles each, outside out;
-/// the poles are many vertices at one place.
+/// A sphere around the origin of rings x 2 rings quads of two triangles, with outward normals. Each pole
+/// consists of many vertices at the same position.
 inline TriangleMesh globe(Index rings, double radius) {
     TriangleMesh mesh;
     const Index segments = 2 * rings;
@@ -113,7 +114,7 @@ inline TriangleMesh globe(Index rings, double radius) {
     return mesh;
 }
 
-/// A disc of n triangles around vertex 0; the rim is the unit circle.
+/// A disc of n triangles around vertex 0; its boundary is on the unit circle.
 inline TriangleMesh fan(Index n) {
     TriangleMesh mesh;
     mesh.positions.push_back({0, 0, 0});
@@ -124,7 +125,7 @@ inline TriangleMesh fan(Index n) {
     return mesh;
 }
 
-/// A tube of unit radius along z with both rims open; vertex i + n * ring, outside out.
+/// An open cylinder of unit radius along z with outward normals; vertex i of a ring has index i + n * ring.
 inline TriangleMesh cylinder(Index n, Index rings, double height) {
     TriangleMesh mesh;
     for (Index r = 0; r <= rings; ++r) {
@@ -140,7 +141,7 @@ inline TriangleMesh cylinder(Index n, Index rings, double height) {
     return mesh;
 }
 
-/// The icosahedron, each face cut in four `level` times, on the unit sphere.
+/// The unit sphere: an icosahedron whose faces are split into four `level` times.
 inline TriangleMesh icosphere(int level) {
     const double g = (1 + std::sqrt(5.0)) / 2;
     TriangleMesh mesh =
@@ -184,7 +185,7 @@ inline TriangleMesh icosphere(int level) {
     return mesh;
 }
 
-/// m steps around the axis, n around the tube of radius 0.4; genus 1.
+/// A torus with major radius 1 and minor radius 0.4, of m x n quads of two triangles.
 inline TriangleMesh torus(Index m, Index n) {
     TriangleMesh mesh;
     for (Index i = 0; i < m; ++i) {
@@ -200,25 +201,26 @@ inline TriangleMesh torus(Index m, Index n) {
     return mesh;
 }
 
-/// The unit square:  3 - 2
+/// A unit square:    3 - 2
 ///                   | / |
 ///                   0 - 1
 inline TriangleMesh quad() {
     return make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
-/// Two triangles that meet in vertex 0 only.
+/// Two triangles that share only vertex 0.
 inline TriangleMesh bow_tie() {
     return make({{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
 }
 
-/// Three triangles on the edge 0-1, like the pages of a book.
+/// Three triangles that share the edge 0-1.
 inline TriangleMesh book() {
     return make({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
                 {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
 }
 
-/// Random faces over random vertices: edges with many faces, doubles, fins, everything but equal corners.
+/// Random faces over random vertices, with non-manifold edges and duplicate faces; corners of a face are
+/// distinct.
 inline TriangleMesh soup(std::uint32_t seed, std::size_t vertices, std::size_t faces) {
     Random random(seed);
     TriangleMesh mesh;
@@ -232,7 +234,7 @@ inline TriangleMesh soup(std::uint32_t seed, std::size_t vertices, std::size_t f
     return mesh;
 }
 
-/// A mesh whose vertices are moved at random by up to `amount` along each axis.
+/// A copy of the mesh with random offsets in [-amount, amount] along each axis.
 inline TriangleMesh shaken(TriangleMesh mesh, double amount, std::uint32_t seed) {
     Random random(seed);
     for (Vec3& p : mesh.positions) {
@@ -270,7 +272,7 @@ inline engine::CollapseMesh collapse_mesh_of(const TriangleMesh& mesh) {
     return {positions, mesh.triangles};
 }
 
-/// The living pair of u and v, in any order; no_index where there is none.
+/// The pair of vertices u and v, in any order; no_index if there is none.
 inline Index pair_of(const engine::PairTable& pairs, Index u, Index v) {
     Index found = no_index;
     pairs.for_each_pair(u, [&](engine::Neighbour n) {
@@ -279,7 +281,7 @@ inline Index pair_of(const engine::PairTable& pairs, Index u, Index v) {
     return found;
 }
 
-/// Number of faces of each edge, smaller vertex first.
+/// Number of faces of each edge; the smaller vertex comes first.
 using Edges = std::map<std::pair<Index, Index>, std::uint32_t>;
 
 inline Edges edges(const std::vector<Triangle>& triangles) {
@@ -291,7 +293,7 @@ inline Edges edges(const std::vector<Triangle>& triangles) {
     return found;
 }
 
-/// Vertices used minus edges plus faces.
+/// Euler characteristic: referenced vertices minus edges plus faces.
 inline int euler(const std::vector<Triangle>& triangles) {
     std::set<Index> used;
     for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
@@ -299,7 +301,7 @@ inline int euler(const std::vector<Triangle>& triangles) {
            static_cast<int>(triangles.size());
 }
 
-/// Has every edge exactly two faces?
+/// True if every edge has exactly two faces.
 inline bool closed_manifold(const std::vector<Triangle>& triangles) {
     const Edges all = edges(triangles);
     return std::all_of(all.begin(), all.end(), [](const auto& edge) { return edge.second == 2; });
@@ -307,7 +309,7 @@ inline bool closed_manifold(const std::vector<Triangle>& triangles) {
 
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Twice the area, along the normal.
+/// Normal of a face whose length is twice the area.
 inline Vec3 normal(const TriangleMesh& mesh, const Triangle& t) {
     const Vec3 e = minus(mesh.positions[t[1]], mesh.positions[t[0]]);
     const Vec3 f = minus(mesh.positions[t[2]], mesh.positions[t[0]]);

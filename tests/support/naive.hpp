@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A simplifier to compare with: slow, and simple enough to be read against the paper.
+/// A slow reference implementation of the simplifier, written directly from the equations of the paper.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -26,8 +26,8 @@ using engine::Rules;
 using engine::to_eigen;
 using engine::Vector3;
 
-/// Algorithm 1 of the paper from its equations, with 4 x 4 matrices and no cleverness: each collapse makes a
-/// vertex with a new number, all adjacency is counted anew.
+/// Algorithm 1 of the paper with 4 x 4 matrices. Each collapse creates a vertex with a new index, and all
+/// adjacency is recomputed.
 class Naive {
 public:
     Naive(const TriangleMesh& mesh, const CompositeWeights& weights, const Rules& rules)
@@ -41,7 +41,7 @@ public:
         for (const auto& edge : all) evaluate(edge.first.first, edge.first.second);
     }
 
-    // The collapses down to the target, or until no pair is left to try.
+    // The collapses until the target is reached or no pair is left.
     std::vector<Collapse> run(std::size_t target) {
         while (faces_.size() > target && !queue_.empty()) {
             const auto best =
@@ -116,7 +116,8 @@ private:
         const Eigen::Matrix3d a = q.topLeftCorner<3, 3>();
         const Vector3 b = q.topRightCorner<3, 1>();
         Vector3 p = a.fullPivLu().solve(-b);
-        // Not in the paper: a minimum farther outside of the box than a tenth of its diagonal counts as none.
+        // Not in the paper: a minimum outside the bounding box by more than a tenth of its diagonal is
+        // rejected.
         const double outside = std::max((box_.min() - p).maxCoeff(), (p - box_.max()).maxCoeff());
         const bool is_near = outside <= 0.1 * box_.diagonal().norm();
         if (!(a.determinant() > 1e-9 * std::pow(a.trace(), 3)) || !is_near) {
@@ -165,7 +166,7 @@ private:
             return at != all.end() && at->second == 1;
         };
         for (const auto& [edge, count] : after) {
-            if (edge.second == made) evaluate(edge.first, made);  // it has the largest number
+            if (edge.second == made) evaluate(edge.first, made);  // the new vertex has the largest index
         }
         if (weights_.area == 0) return;
         for (Index n = 0; n < made; ++n) {

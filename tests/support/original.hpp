@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The original of a test mesh, with the arrays it looks at.
+/// An OriginalSurface together with the arrays that it references.
 
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "support/meshes.hpp"
@@ -17,7 +17,7 @@ struct OriginalOf {
     std::vector<engine::Vector3> positions;
     std::vector<Triangle> triangles;
     engine::OriginalSurface surface;
-    engine::TrackedVertices tracked;  ///< before the first collapse
+    engine::TrackedVertices tracked;  ///< every vertex maps to itself
 };
 
 }  // namespace faqem::test

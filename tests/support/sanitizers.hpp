@@ -1,5 +1,5 @@
 #pragma once
-// FAQEM_SANITIZED where the tests run under a sanitizer that takes memory or address space of its own.
+// Defines FAQEM_SANITIZED if the tests run under a sanitizer that needs additional memory or address space.
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define FAQEM_SANITIZED

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small textured scenes, and small parts that equal the source.
+/// Small textured scenes, and simplified parts that equal the source.
 
 #include <cmath>
 #include <functional>
@@ -14,6 +14,7 @@ namespace faqem::test {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
+/// An image with the colours color(x, y).
 inline Pixels paint(std::uint32_t width, std::uint32_t height,
                     const std::function<Rgba(std::uint32_t x, std::uint32_t y)>& color) {
     Pixels pixels{width, height, {}, false};
@@ -26,7 +27,7 @@ inline Pixels paint(std::uint32_t width, std::uint32_t height,
     return pixels;
 }
 
-// A gentle ramp: red rises with x, green with y.
+// A square image in which red increases with x and green with y.
 inline Pixels ramp(std::uint32_t size) {
     return paint(size, size, [&](std::uint32_t x, std::uint32_t y) {
         return Rgba{static_cast<std::uint8_t>(60 + x * 180 / (size - 1)),
@@ -39,7 +40,7 @@ inline Index add_texture(Asset& asset, const Pixels& pixels) {
     return static_cast<Index>(asset.images.size() - 1);
 }
 
-// 3--2   A unit square in z = 0 with v down: vertex 3 has uv (0, 0).
+// 3--2   A unit square in the plane z = 0; vertex 3 has UV (0, 0), and v points down.
 // | /|
 // 0--1
 inline Part square() {
@@ -52,7 +53,7 @@ inline Part square() {
     return part;
 }
 
-// A sheet of 2 n^2 faces: the point (x, y) of the square [0, n]^2 is at place(x, y).
+// A surface of 2 n^2 faces: the grid point (x, y) in [0, n]^2 has the position place(x, y).
 inline Part sheet(Index n, const std::function<Vec3(double x, double y)>& place) {
     const TriangleMesh flat = grid(n);
     Part part;
@@ -73,19 +74,19 @@ inline Asset textured_square(const Pixels& pixels) {
     return asset;
 }
 
-/// Small parts without a single collapse. Vertices are not welded.
+/// The parts of an asset as simplified parts without collapses. Vertices are not welded.
 inline SimplifiedParts unchanged(const Asset& asset) {
-    SimplifiedParts small;
+    SimplifiedParts simplified;
     for (const Part& part : asset.parts) {
         SimplifyResult result;
         result.history = HandHistory(part.positions, part.triangles).finish();
         result.mesh = small_mesh(result.history);
-        small.parts.push_back(std::move(result));
+        simplified.parts.push_back(std::move(result));
     }
-    return small;
+    return simplified;
 }
 
-/// The same, corners at equal positions welded as simplify() does.
+/// As unchanged(), with vertices at equal positions welded as in simplify().
 inline SimplifiedParts unchanged_welded(const Asset& asset) {
     Asset welded = asset;
     for (Part& part : welded.parts) {
@@ -100,7 +101,7 @@ inline SimplifiedParts unchanged_welded(const Asset& asset) {
     return unchanged(welded);
 }
 
-/// Bilinear reading of an image, 0..255, as a viewer without mipmaps does it.
+/// Bilinear sample of an image in [0, 255], without mipmaps.
 inline std::array<double, 4> read(const Pixels& pixels, double u, double v) {
     const double x = u * pixels.width - 0.5, y = v * pixels.height - 0.5;
     const double x0 = std::floor(x), y0 = std::floor(y), s = x - x0, t = y - y0;
@@ -117,6 +118,8 @@ inline std::array<double, 4> read(const Pixels& pixels, double u, double v) {
     return result;
 }
 
+/// Interpolates values per vertex at a point of a triangle.
+/// \param w  barycentric coordinates
 template <class V>
 auto blend(const std::vector<V>& values, const Triangle& t, const Vec3& w) {
     std::array<double, std::tuple_size_v<V>> result{};
@@ -126,13 +129,15 @@ auto blend(const std::vector<V>& values, const Triangle& t, const Vec3& w) {
     return result;
 }
 
-/// What a texture shows at a point of a face of the result.
+/// The texture colour at a point of a face, in [0, 255].
+/// \param w  barycentric coordinates
 inline std::array<double, 4> look(const Part& part, const Pixels& pixels, std::size_t face, const Vec3& w) {
     const auto uv = blend(part.uvs[0], part.triangles[face], w);
     return read(pixels, uv[0], uv[1]);
 }
 
-/// Barycentrics over a triangle, borders and corners included.
+/// Barycentric coordinates of a regular grid over a triangle, including its edges and corners.
+/// \param n  number of intervals along an edge, > 0
 inline std::vector<Vec3> spread(int n) {
     std::vector<Vec3> result;
     for (int i = 0; i <= n; ++i) {

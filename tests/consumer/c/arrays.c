@@ -1,4 +1,4 @@
-/* Flat arrays in, flat arrays out, from C. */
+/* Simplifies a mesh in flat arrays from C. */
 #include <faqem/faqem.h>
 #include <stdio.h>
 

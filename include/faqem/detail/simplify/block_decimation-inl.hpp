@@ -24,11 +24,11 @@ using engine::CancellationCheck;
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// Blocks are worn down to this part of the share that the whole keeps: those with little detail can give
-// more.
+// Each block is simplified to this part of the share that the whole surface keeps, so that blocks with little
+// detail can contribute more collapses than others.
 inline constexpr double local_share = 0.8;
 
-/// The faces of all blocks: those with a corner in it. One between blocks belongs to each of them.
+/// The faces of all blocks. A face belongs to every block that contains one of its corners.
 struct Blocks {
     Blocks(const BlockInput& input, CancellationCheck check_cancelled)
         : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
@@ -56,11 +56,11 @@ struct Blocks {
         return std::span(faces).subspan(begin[b], begin[b + 1] - begin[b]);
     }
 
-    std::vector<std::size_t> begin;  ///< of each block in faces
+    std::vector<std::size_t> begin;  ///< first index of each block in `faces`, and the end
     std::vector<Index> faces;
 };
 
-/// Number of faces with a vertex that must stay because it has faces in several blocks.
+/// Number of faces with a vertex that is fixed because it has faces in several blocks.
 inline std::size_t count_waiting(const BlockInput& input) {
     std::vector<std::uint8_t> waits(input.positions.size(), 0);
     for (const Triangle& t : input.triangles) {
@@ -72,7 +72,7 @@ inline std::size_t count_waiting(const BlockInput& input) {
                       [&](const Triangle& t) { return waits[t[0]] || waits[t[1]] || waits[t[2]]; }));
 }
 
-/// One block as a complex of its own: its vertices, then those of others that its faces have.
+/// The mesh of one block: its own vertices, followed by vertices of other blocks that its faces refer to.
 class Block {
 public:
     Block(const BlockInput& input, const Blocks& blocks, std::size_t b)
@@ -103,22 +103,23 @@ public:
     }
 
     Index own() const { return own_; }
-    /// Of the whole.
+    /// The vertex slot of the whole surface for a vertex of the block.
     Index slot(Index v) const { return v < own_ ? first_ + v : others_[v - own_]; }
 
-    /// Gives back the memory of what a complex has copied.
+    /// Releases positions and triangles after a CollapseMesh has copied them.
     void forget_surface() {
         std::vector<Vector3>().swap(positions);
         std::vector<Triangle>().swap(triangles);
     }
 
-    std::span<const Index> faces;  ///< of the whole
+    std::span<const Index> faces;  ///< face slots of the whole surface
     std::vector<Vector3> positions;
     std::vector<Triangle> triangles;
     std::vector<std::uint8_t> locked;
-    std::size_t between = 0;  ///< faces that have a corner elsewhere
+    std::size_t between = 0;  ///< number of faces with a corner in another block
 
-    /// \param v  a vertex of the whole that the block has
+    /// The vertex of the block for a vertex slot of the whole surface.
+    /// \param v  must belong to the block
     Index local(Index v) const {
         if (is_own(v)) return v - first_;
         const auto at = std::lower_bound(others_.begin(), others_.end(), v);
@@ -132,28 +133,28 @@ private:
     std::vector<Index> others_;
 };
 
-/// What was done in a block.
+/// The collapses of one block.
 struct Done {
     std::vector<BlockStep> steps;
-    /// After each step: the largest cost so far, and the number of faces that had gone.
-    std::vector<double> costs;
-    std::vector<std::uint32_t> removed;
-    std::vector<Index> patch_faces;  ///< of the whole
+    std::vector<double> costs;           ///< after each step: largest cost so far
+    std::vector<std::uint32_t> removed;  ///< after each step: number of removed faces
+    std::vector<Index> patch_faces;      ///< face slots of the whole surface
     std::vector<std::size_t> patch_begin;
     engine::LoopResult result;
 
-    /// In patch_faces, of so many of the steps.
+    /// End of the first `count` steps in patch_faces.
     std::size_t patch_end(std::size_t count) const {
         return count < patch_begin.size() ? patch_begin[count] : patch_faces.size();
     }
 };
 
+/// Records the collapses of one block.
 class StepRecorder {
 public:
-    /// \param faces  that will go, about; two with each step, mostly
+    /// \param faces  approximate number of faces that will be removed; most steps remove two
     StepRecorder(const Block& block, Recording patches, std::size_t faces, Done& done)
         : block_(block), patches_(patches), done_(done) {
-        const std::size_t steps = faces / 2 + faces / 32;  // to grow would take twice the memory
+        const std::size_t steps = faces / 2 + faces / 32;  // growing the arrays would need twice the memory
         done.steps.reserve(steps);
         done.costs.reserve(steps);
         done.removed.reserve(steps);
@@ -179,7 +180,7 @@ public:
     void before_deletion(Index) {}
 
 private:
-    /// Faces around an edge, and some more.
+    /// Faces around an edge, with a margin.
     static constexpr std::size_t usual_patch = 10;
 
     const Block& block_;
@@ -188,13 +189,16 @@ private:
     std::size_t before_ = 0;
 };
 
-/// Tells the user's callback on the calling thread how far all blocks are; the others ask their poll.
+/// Progress of all blocks. The user's callback is called on the calling thread only; other threads use their
+/// cancellation check.
 class SharedProgress {
 public:
+    /// \param all  number of faces to remove in all blocks
     SharedProgress(const engine::LoopOptions& loop, std::size_t all) : loop_(loop), all_(all) {}
 
-    /// \param known  what the caller had removed when it called last
-    /// \throws what the poll throws, and what the callback does
+    /// \param removed  number of faces that the block has removed
+    /// \param known    the value of `removed` at the last call for this block; updated
+    /// \throws whatever `check_cancelled` and the callback throw
     Continue operator()(std::size_t removed, std::size_t& known, CancellationCheck check_cancelled) {
         removed_ += removed - std::exchange(known, removed);
         if (std::this_thread::get_id() != caller_)
@@ -227,7 +231,7 @@ private:
     std::atomic<bool> is_cancelled_{false};
 };
 
-/// Of each original vertex: nonzero is looked after.
+/// One per original vertex: nonzero if its distance is tracked.
 inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
     const bool all = tracking.watched == Watched::borders_and_surface;
     std::vector<std::uint8_t> watched(tracking.vertex_map.size(), all);
@@ -238,7 +242,7 @@ inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking)
     return watched;
 }
 
-/// Which original vertices have gone into those of each block.
+/// The tracked original vertices that were merged into vertices of each block.
 struct Lineages {
     Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
         : begin(blocks + 1, 0), vertex_map(tracking ? tracking->vertex_map : std::span<const Index>()) {
@@ -263,11 +267,12 @@ struct Lineages {
         return tracked;
     }
 
-    std::vector<std::size_t> begin;  ///< of each block in vertices
+    std::vector<std::size_t> begin;  ///< first index of each block in `vertices`, and the end
     std::vector<Index> vertices;
     std::span<const Index> vertex_map;
 };
 
+/// Simplifies one block with an engine of its own.
 template <class Metric>
 Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
                     Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
@@ -293,7 +298,8 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     return done;
 }
 
-/// Which steps are kept: those below a cost, and so many of those at it, in millionths of each block's.
+/// Selects the steps that are kept: all below a cost, and in each block a fraction of those with exactly that
+/// cost.
 struct Cut {
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t millionths = 1'000'000;
@@ -313,8 +319,8 @@ struct Cut {
     }
 };
 
-/// The last number in [0, last] for which `is_kept` is true. \pre it is for 0, and for none after the first
-/// for which it is not
+/// The largest number in [0, last] for which `is_kept` is true (bisection).
+/// \pre is_kept(0) is true, and `is_kept` is monotone
 template <class IsKept>
 std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
     std::uint64_t low = 0;
@@ -325,9 +331,9 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
     return low;
 }
 
-/// Keeps as many steps as remove no more than `most` faces. The cost at the cut is one that some blocks have.
+/// The largest selection of steps that removes at most `most` faces.
 inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
-    // Doubles >= 0 are in the order of their bits.
+    // Non-negative doubles have the order of their bit patterns.
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
     const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
     const std::uint64_t bits = last_kept(infinity, [&](std::uint64_t b) {
@@ -340,7 +346,7 @@ inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
     return {cost, static_cast<std::uint32_t>(millionths)};
 }
 
-/// Appends the first steps of a block, and what was counted.
+/// Appends the first `steps` steps of a block, and its counts.
 inline void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& to) {
     to.steps.insert(to.steps.end(), block.steps.begin(),
                     block.steps.begin() + static_cast<std::ptrdiff_t>(steps));

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Large surfaces: blocks of them are simplified side by side, as far as that is the same as simplifying the
-/// whole.
+/// Parallel decimation of large surfaces in blocks, before one engine simplifies the rest.
 
 #include <array>
 #include <cstdint>
@@ -19,21 +18,23 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A collapse in a block, in slots of the whole.
+/// A collapse in a block: `survivor` and `gone` (vertex slots of the whole surface) merge into `survivor` at
+/// `to`.
 struct BlockStep {
     Index survivor, gone;
     engine::Vector3 to;
 };
 
-/// What can be done in blocks.
+/// The collapses found in all blocks.
 struct BlockSteps {
-    /// In the order in which they may be done.
+    /// In an order in which they can be applied.
     std::vector<BlockStep> steps;
-    /// Where asked for: the faces with one of the two vertices, and where those of each step begin.
+    /// If requested: face slots with one of the two vertices of a step, just before it.
     std::vector<Index> patch_faces;
+    /// If requested, one per step: the index of its first face in patch_faces.
     std::vector<std::size_t> patch_begin;
-    /// What the engines of the blocks counted, what they did beyond these steps included; but no pairs
-    /// between locked vertices.
+    /// Sums over the engines of the blocks, including collapses that were discarded. Pairs of locked vertices
+    /// are not counted.
     std::array<std::uint64_t, refusal_kinds> refusals = {};
     std::array<std::uint64_t, rung_kinds> rungs = {};
     bool is_cancelled = false;
@@ -41,40 +42,44 @@ struct BlockSteps {
 
 inline constexpr std::size_t max_vertices_per_block = 1 << 15;
 
-/// The size of blocks for so many vertices: all of them where they are few, else a part of four, eight,
-/// twelve ... alike, so that two or four threads end together. More blocks would leave more faces between
-/// them, which wait; fewer take more memory.
-/// \param few  up to which they are not cut
+/// Number of vertices per block. The number of blocks is a multiple of four, so that two or four threads
+/// finish at the same time. More blocks would leave more faces between blocks, which cannot be simplified;
+/// fewer need more memory.
+/// \param vertices  number of vertices of the surface
+/// \param few       surfaces with at most this number of vertices are a single block
 std::size_t vertices_per_block(std::size_t vertices, std::size_t few = max_vertices_per_block);
 
-/// What is left inside of the blocks, over the share of all faces that is wanted. It should be no coarser
-/// than the result: the faces that did not take part are denser, and will go first.
+/// Factor on the share of faces that is kept inside the blocks. It is above 1 because the interior of the
+/// blocks should not become coarser than the final result: faces between blocks are still dense and are
+/// collapsed first afterwards.
 inline constexpr double spare_share = 1.15;
 
-/// What the engine of a block is told.
-/// \param faces, between  of the block: all, and those that have a corner elsewhere
-/// \param share           of the others that will stay
+/// Loop options for the engine of one block.
+/// \param loop     options for the whole surface
+/// \param faces    number of faces of the block
+/// \param between  number of these that have a corner in another block
+/// \param share    share of the other faces that the whole surface keeps
 engine::LoopOptions block_options(const engine::LoopOptions& loop, std::size_t faces, std::size_t between,
                                   double share);
 
-/// What is watched for its distance to the original.
+/// The parts of the surface whose distance to the original is tracked.
 enum class Watched { borders, borders_and_surface };
 
-/// What the blocks need for it.
+/// Data for distance tracking in blocks. References its arguments.
 struct BlockTracking {
     const engine::OriginalSurface& original;
     std::span<const Index>
-        vertex_map;  ///< vertex of the input that each original one has gone into, or no_index
+        vertex_map;  ///< one per vertex of `original`: the vertex slot it was merged into, or no_index
     Watched watched = Watched::borders_and_surface;
 };
 
-/// A surface without attributes, groups or virtual pairs. Borrows. Vertices that are near should have numbers
-/// that are near.
+/// A surface without attributes, groups or virtual edges. References its arguments. Vertices that are close
+/// in space should have close indices, because blocks are ranges of indices.
 struct BlockInput {
-    std::span<const engine::Vector3> positions;
-    std::span<const Triangle> triangles;   ///< of different corners
-    std::span<const std::uint8_t> locked;  ///< one per vertex
-    std::size_t per_block;                 ///< vertices
+    std::span<const engine::Vector3> positions;  ///< one per vertex slot, engine units
+    std::span<const Triangle> triangles;         ///< each with three different corners
+    std::span<const std::uint8_t> locked;        ///< one per vertex; nonzero: must not move
+    std::size_t per_block;                       ///< vertices per block
 
     std::size_t block_of(Index v) const { return v / per_block; }
     bool is_between_blocks(const Triangle& t) const {
@@ -82,25 +87,29 @@ struct BlockInput {
     }
 };
 
-/// Finds the collapses that an engine would do first.
+/// Finds collapses for all blocks in parallel.
 ///
-/// A block is a range of vertices, and the faces with a corner in it. Faces with corners in two blocks stay,
-/// and so do their vertices. Each block is simplified farther than needed; then what was done at the highest
-/// costs is given up everywhere, so that the whole keeps as many faces as wanted, and no block is worn more
-/// than another.
-/// \param loop     as for the whole; progress is called on this thread, with the share of this function
-/// \param least    faces to keep, at least: of what is dense between the blocks, a share only
-/// \param tracking null: with the memoryless metric
-/// \param patches  whether to collect the faces of each step
-/// \param workers  the result does not depend on how many
-/// \return no steps for a surface of one or two blocks, or where little would be gained
-/// O(n) on each thread, for all their vertices
+/// A block is a range of vertices and the faces with a corner in it. Faces with corners in two blocks, and
+/// their vertices, are not changed. Each block is simplified farther than necessary; then the collapses with
+/// the highest costs are discarded in all blocks, so that the whole surface keeps the requested number of
+/// faces and all blocks are simplified up to the same cost.
+/// \param input     the surface
+/// \param loop      options for the whole surface; `progress` is called on the calling thread with the share
+///                  of this function
+/// \param least     number of faces that are kept at least; the interior of the blocks keeps the share
+///                  spare_share * least / faces
+/// \param tracking  null: the memoryless metric is used; otherwise the tracked metric
+/// \param patches   whether patch_faces and patch_begin are filled
+/// \param workers   the result does not depend on the number of threads
+/// \return no steps if there are at most two blocks, or if less than a quarter of the faces could be removed
+/// \throws whatever `loop.progress` and `workers.check_cancelled` throw
+/// Complexity: O(n log n) time, distributed over the threads; O(n) memory
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
                               const BlockTracking* tracking, Recording patches, Workers workers);
 
-/// Does the steps.
-/// \throws what the poll throws.
-/// O(n)
+/// Applies the steps and compacts the result.
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n)
 CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps,
                           engine::CancellationCheck check_cancelled = {});
 

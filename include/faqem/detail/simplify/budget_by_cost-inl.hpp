@@ -14,7 +14,8 @@ namespace detail {
 FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
                                                                std::span<const double> weights,
                                                                std::uint64_t face_budget) {
-    // Costs of a mesh grow with the fourth power of its size. The largest is 1: nothing overflows.
+    // Costs grow with the fourth power of the size of a mesh. Relative to the largest mesh they cannot
+    // overflow.
     std::vector<double> size;
     for (std::size_t m = 0; m < curves.size(); ++m)
         size.push_back(curves[m].diagonal * std::sqrt(std::sqrt(weights[m])));
@@ -23,7 +24,7 @@ FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const C
     struct Reduction {
         double cost;
         std::uint32_t mesh;
-        std::uint64_t faces;  // that the mesh has after it
+        std::uint64_t faces;  // number of faces of the mesh after the reduction
     };
     std::vector<Reduction> reductions;
     std::vector<std::uint64_t> share;
@@ -47,7 +48,7 @@ FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const C
         std::uint64_t& faces = share[reduction.mesh];
         sum -= faces - reduction.faces;
         faces = reduction.faces;
-        // The last step may take more than was to go: what is left over is its mesh's.
+        // The last reduction may remove more faces than necessary: its mesh gets the remaining budget.
         if (sum < face_budget) {
             faces += face_budget - sum;
             sum = face_budget;

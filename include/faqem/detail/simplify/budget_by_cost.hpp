@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the faces of a mesh are worth: how a face budget is spread over several meshes.
+/// Distributes a face budget over several meshes by the cost of their collapses.
 
 #include <cstdint>
 #include <span>
@@ -13,30 +13,36 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The way of one mesh from all its faces to the fewest, and what each step costs.
+/// Cost of each collapse when one mesh is simplified as far as possible.
 struct CostCurve {
     struct Step {
-        std::uint64_t faces;  ///< there are before the step
-        /// Largest cost of a collapse so far, on a model of diagonal 1: an area times a squared distance.
+        std::uint64_t faces;  ///< number of faces before the collapse
+        /// Largest cost of this and all earlier collapses, an area times a squared distance, on the mesh
+        /// scaled to a bounding-box diagonal of 1. Infinite once whole components have been deleted.
         double cost;
     };
-    std::vector<Step> steps;      ///< faces descend, costs ascend
-    std::uint64_t min_faces = 0;  ///< faces after the last step
-    double diagonal = 0;          ///< of the mesh, model units
-    bool is_complete = true;      ///< false: the progress callback cancelled
+    std::vector<Step> steps;      ///< face counts descend, costs ascend
+    std::uint64_t min_faces = 0;  ///< number of faces after the last step
+    double diagonal = 0;          ///< bounding-box diagonal of the mesh, model units
+    bool is_complete = true;      ///< false if the progress callback cancelled
 };
 
-/// Collapses a copy of the mesh as far as its locks and seams let it, with preset fast. Weights, target and
-/// history of the options do not count. Defined in simplify.cpp: it is the first half of a run.
-/// \throws as simplify()
-/// O(n log n)
+/// Simplifies a copy of the mesh with preset fast as far as its locks and seams permit, and records the
+/// costs. Defined in simplify-inl.hpp.
+/// \param mesh     see simplify(); read only during the call
+/// \param options  of the run; preset, weights, target, max_error and history are ignored
+/// \throws OptionError, InputError  as simplify()
+/// \throws whatever the progress callback throws
+/// Complexity: O(n log n)
 FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
-/// How many faces each mesh keeps so that all have `face_budget` at most, the dearest being kept.
-/// \param curves   of the meshes
-/// \param weights  how much a squared distance times an area in model units counts, per mesh, > 0
-/// \return per mesh; their sum is above `face_budget` only where no curve goes lower.
-/// O(n log n)
+/// Computes how many faces each mesh keeps so that the total is at most `face_budget`. The cheapest collapses
+/// of all meshes are taken first.
+/// \param curves       one per mesh
+/// \param weights      one per mesh, > 0: factor on costs in model units (an area times a squared distance)
+/// \param face_budget  total number of faces
+/// \return face count per mesh. The sum exceeds `face_budget` only if no curve permits fewer faces.
+/// Complexity: O(n log n) in the number of steps of all curves
 FAQEM_EXPORT std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
                                                                std::span<const double> weights,
                                                                std::uint64_t face_budget);

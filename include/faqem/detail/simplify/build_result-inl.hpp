@@ -65,8 +65,8 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
     return slots;
 }
 
-// What has the place of an original vertex to the last bit has it in model units, too: as build_result() says, and
-// whichever level of a chain comes first to ask.
+// A vertex that has exactly the position of an original vertex gets that position in model units, without
+// rounding. This is consistent with build_result() for every level of a chain.
 FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled,
                                  std::vector<Collapse>& collapses) {
     std::vector<engine::Vector3> at = prepared.engine_positions(check_cancelled);
@@ -93,7 +93,7 @@ FAQEM_INLINE void finish_history(const MeshView& mesh, const PruneResult& pruned
     CollapseHistory& history = result.history;
     history.positions = std::move(positions);
     history.triangles = std::move(triangles);
-    // What was pruned is deleted before the first collapse.
+    // Pruned faces are deleted before the first collapse.
     std::vector<DeletedFace> pruned_faces;
     for (const PrunedFace& face : pruned.faces) {
         history.triangles[face.face] = face.corners;
@@ -142,20 +142,20 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
     const Weights& w = options.weights;
     if (settings.quadric_policy != Settings::QuadricPolicy::memory &&
         (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
-        report.warnings.push_back("the weights are those of qem, paper and stmw: preset " +
-                                  std::string(name(options.preset)) + " has none of their terms");
+        report.warnings.push_back("weights are ignored: preset " + std::string(name(options.preset)) +
+                                  " does not use them (qem, paper and stmw do)");
     }
     report.faces_out = result.mesh.triangles.size();
     report.vertices_out = result.mesh.positions.size();
     if (report.faces_dropped > 0) {
         report.warnings.push_back(std::to_string(report.faces_dropped) +
-                                  " faces without area, or doubles of another face, were dropped");
+                                  " degenerate or duplicate faces were removed");
     }
     report.components_pruned = prepared.pruned.components;
     report.faces_pruned = prepared.pruned.faces.size();
     if (report.components_pruned > 0) {
         report.warnings.push_back(std::to_string(report.components_pruned) +
-                                  " components smaller than asked for were pruned, with " +
+                                  " components smaller than the given size were pruned, with " +
                                   std::to_string(report.faces_pruned) + " faces");
     }
     if (report.components_deleted > 0) {
@@ -163,7 +163,7 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
                                   " small components were deleted to reach the target");
     }
     if (report.faces_out == 0 && report.faces_in > 0 && report.stop != StopReason::cancelled)
-        report.warnings.push_back("nothing is left: no face that remained had an area");
+        report.warnings.push_back("the result is empty: all remaining faces are degenerate");
 }
 
 }  // namespace detail

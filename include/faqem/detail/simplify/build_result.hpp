@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From what the engine leaves to what the caller gets.
+/// Converts the final state of the engine to a SimplifyResult.
 
 #include <span>
 #include <vector>
@@ -18,47 +18,69 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Fills the mesh of the result, and whose its vertices and faces were: both in input order; what has no area
-/// is left out and counted.
-/// \param now     the slots of the complex
-/// \param source_vertices  of each vertex slot: the vertex of the prepared mesh whose place it has, or no_index
-/// \return the slot of each vertex of the result
-/// \throws what the poll throws.
-/// O(n)
+/// Fills mesh, vertex_origin and face_origin of the result, with vertices and faces in input order. Faces of
+/// zero area are left out and added to Report::faces_dropped.
+/// \param mesh             input of simplify(): groups and the number of faces are read
+/// \param prepared         `mesh` after preprocess()
+/// \param reordered        maps the slots of `collapse_mesh` to vertices and faces of `prepared`
+/// \param collapse_mesh    the simplified surface, in engine units
+/// \param wedges           corner attributes of `collapse_mesh`, or empty
+/// \param source_vertices  one per vertex slot: the vertex of `prepared` that has exactly the same position,
+///                         or no_index
+/// \param check_cancelled  called once per element
+/// \param result           filled; its report is updated
+/// \return for each vertex of the result its slot in `collapse_mesh`
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n)
 std::vector<Index> build_result(const MeshView& mesh, const PreprocessedMesh& prepared,
                                 const ReorderedMesh& reordered, const engine::CollapseMesh& collapse_mesh,
                                 const engine::Wedges& wedges, std::span<const Index> source_vertices,
                                 engine::CancellationCheck check_cancelled, SimplifyResult& result);
 
-/// Brings what an engine recorded to model units.
-/// \throws what the poll throws.
-/// O(n)
+/// Converts the positions of recorded collapses from engine units to model units.
+/// \param prepared         defines the scale and the vertices that the collapses start from
+/// \param check_cancelled  called once per collapse
+/// \param collapses        all collapses of the run in order; changed in place
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n)
 void to_model_units(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled,
                     std::vector<Collapse>& collapses);
 
-/// Fills what the recorder left open in the history of the result.
-/// \param pruned                those of the prepared mesh, as are the next two
-/// \param positions, triangles  taken over
-/// \param result                its mesh not fitted; of its history the collapses, their patches, the deleted
-///                              faces and the kept versions
-/// O(n)
+/// Completes the history of the result: original mesh, pruned faces, face groups and kept faces.
+/// \param mesh       input of simplify()
+/// \param pruned     PreprocessedMesh::pruned; these faces become deleted faces with time 0
+/// \param positions  PreprocessedMesh::positions; moved into the history
+/// \param triangles  PreprocessedMesh::triangles; moved into the history
+/// \param result     its mesh must not be fitted yet, and its history must hold the collapses, their patches,
+///                   the deleted faces and the kept versions
+/// Complexity: O(n)
 void finish_history(const MeshView& mesh, const PruneResult& pruned, std::vector<Vec3> positions,
                     std::vector<Triangle> triangles, SimplifyResult& result);
 
-/// Puts vertices of faces that have no area back to where they were, until all have one: moves and roundings
-/// of the relaxation are not to make what build_result() has left out.
-/// \return false: some have none with all their vertices back
+/// Reverts the vertices of faces that have zero area, until no such face is left. Vertex fitting and the
+/// rounding of its positions must not create degenerate faces, since build_result() has removed them.
+/// \param before     one position per vertex before fitting, model units
+/// \param triangles  faces, after edge flips
+/// \param now        one position per vertex after fitting; vertices of degenerate faces are set back to
+///                   `before`
+/// \return false if a face has zero area even with all its vertices reverted
+/// Complexity: O(faces) per pass; each pass but the last reverts at least one vertex
 bool revert_degenerate_faces(std::span<const Vec3> before, std::span<const Triangle> triangles,
                              std::vector<Vec3>& now);
 
-/// Adds to the history of the result where its vertices went in the end, and which edges were flipped.
-/// \param flips  of faces of the result
+/// Adds the fitted positions and the edge flips to the history of the result.
+/// \param flips   pairs of face indices of the result, in the order in which the flips were made
+/// \param result  its mesh and report.vertices_fitted must be final
 void record_fitting(std::span<const EdgeFlip> flips, SimplifyResult& result);
 
-/// Adds what an engine counted.
+/// Adds the counters of an engine run to those of the report.
 void add_counts(const engine::LoopResult& loop_result, Report& report);
 
-/// Counts the mesh of the result and what was prepared, and says in words what the user should know.
+/// Sets the counts of the result and of preprocessing in the report, and adds warnings.
+/// \param options   the options of the run
+/// \param settings  the settings derived from them
+/// \param prepared  the preprocessed input
+/// \param result    its mesh must be final; its report is completed
 void finish_report(const Options& options, const Settings& settings, const PreprocessedMesh& prepared,
                    SimplifyResult& result);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What collapses have left of a surface in slots, and how the next round begins with it.
+/// Removes the unused slots of a simplified surface, for use by the next engine.
 
 #include <span>
 #include <vector>
@@ -12,53 +12,55 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// What is left after some steps.
+/// The remaining vertices and faces after some collapses, numbered consecutively.
 struct CompactedMesh {
-    std::vector<Index> vertices, faces;  ///< slots that are left, in order
+    std::vector<Index> vertices, faces;  ///< the old slot of each new vertex and face, ascending
     std::vector<Index>
-        vertex_map;  ///< of each vertex slot: which of `vertices` it has gone into, or no_index
-    std::vector<Index> source_slots;  ///< of each of `vertices`: the slot whose place it has, or no_index
-    std::vector<engine::Vector3> positions;
-    std::vector<Triangle> triangles;
+        vertex_map;  ///< one per old vertex slot: new vertex that it was merged into, or no_index
+    std::vector<Index> source_slots;         ///< one per new vertex: old slot with its position, or no_index
+    std::vector<engine::Vector3> positions;  ///< one per new vertex
+    std::vector<Triangle> triangles;         ///< one per new face, of new vertices
 };
 
-/// Follows vertex slots through collapses.
+/// Tracks into which slot each vertex slot is merged by collapses, and which slots keep an original position.
 class SlotTrace {
 public:
+    /// \param slots  number of vertex slots
     explicit SlotTrace(std::size_t slots);
 
-    /// Both are about to become `survivor` at `to`.
-    /// \param at_survivor, at_removed  where they are
+    /// Called before `survivor` and `removed` are merged into `survivor` at position `to`.
+    /// \param at_survivor, at_removed  their positions before the collapse
     void before_collapse(Index survivor, Index removed, const engine::Vector3& at_survivor,
                          const engine::Vector3& at_removed, const engine::Vector3& to) {
         next_[removed] = survivor;
         if (to != at_survivor) source_slots_[survivor] = to == at_removed ? source_slots_[removed] : no_index;
     }
 
-    /// Of each slot: the slot whose place it has to the last bit, or no_index.
+    /// One per slot: the slot whose initial position it has exactly, or no_index.
     const std::vector<Index>& source_slots() const { return source_slots_; }
 
-    /// The slot that this one has gone into. O(log n) amortised; shortens the way for the next one.
+    /// The slot that this slot has been merged into. O(log n) amortised, with path compression.
     Index root(Index slot);
 
 private:
     std::vector<Index> next_, source_slots_;
 };
 
-/// Numbers the vertices of what is left.
-/// \param faces      slots that are left, in order
-/// \param triangles  of vertex slots that are left, one per face
-/// \param positions  of all vertex slots
-/// \throws what the poll throws.
-/// O(n)
+/// Numbers the vertices of the remaining faces consecutively.
+/// \param faces      slots of the remaining faces, ascending
+/// \param triangles  one per remaining face, of vertex slots that were not removed
+/// \param positions  one per vertex slot, engine units
+/// \param trace      of the collapses
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n)
 CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangles,
                         std::span<const engine::Vector3> positions, SlotTrace& trace,
                         engine::CancellationCheck check_cancelled = {});
 
-/// What an engine has left.
-/// \param trace  of its collapses.
-/// \throws what the poll throws.
-/// O(n)
+/// Compacts the mesh of an engine.
+/// \param trace  of the collapses of the engine
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n)
 CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace,
                         engine::CancellationCheck check_cancelled = {});
 

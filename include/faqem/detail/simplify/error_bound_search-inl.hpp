@@ -84,21 +84,21 @@ FAQEM_INLINE SimplifyResult simplify_within_error(const MeshView& mesh, const Op
 }
 
 FAQEM_INLINE void report_search(Report& report, std::uint64_t undecided_count) {
-    report.target_faces = report.faces_out;  // no count was asked for, so that none was missed
+    report.target_faces = report.faces_out;  // the search has no face count as its target
     if (!report.max_error->within()) {
         report.warnings.push_back(
-            "no mesh within max_error was found: welding alone moves the surface by more");
+            "no mesh within max_error was found: welding alone moves the surface farther");
     } else {
         report.stop = StopReason::reached_max_error;
         if (report.collapses == 0 && report.components_deleted == 0) {
             report.warnings.push_back(
-                "no smaller mesh within max_error was found: this is the input, welded");
+                "no smaller mesh within max_error was found: the result is the welded input");
         }
     }
     if (undecided_count > 0) {
         report.warnings.push_back(std::to_string(undecided_count) +
-                                  " meshes of the search counted as too far from the original: the work "
-                                  "allowed for measuring them did not tell");
+                                  " meshes of the search were rejected, because the limit on the work was "
+                                  "reached before their distance was decided");
     }
 }
 

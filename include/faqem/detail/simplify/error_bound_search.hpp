@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Options::max_error: the smallest mesh found within a distance of the original, by runs and measurements.
+/// Options::max_error: searches for the smallest mesh within a given distance of the original, by repeated
+/// simplification and measurement.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,35 +19,44 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// value <= true distance <= bound, up to rounding.
+/// A distance with bounds: value <= true distance <= bound, up to rounding. Model units.
 struct MeasuredDistance {
     double value = 0, bound = 0;
-    std::uint64_t undecided_count = 0;  ///< how often the work allowed did not tell whether it is within
+    /// Number of measurements that reached the limit on their work before it was decided whether the distance
+    /// is allowed.
+    std::uint64_t undecided_count = 0;
 
     bool within(double allowed) const { return bound <= allowed; }
 };
 
-/// How closely to measure.
+/// Accuracy of a measurement.
 enum class MeasureMode {
-    full,         ///< to 1%, and until it is known whether it is within
-    decide_only,  ///< until that is known, which is far less work
+    full,         ///< relative accuracy of 1%, and until it is decided whether the distance is allowed
+    decide_only,  ///< only until it is decided whether the distance is allowed, which is far less work
 };
 
-/// An original to measure several results against.
+/// The original surface, to measure several results against. Immutable; owns its data.
 class FAQEM_EXPORT DistanceReference {
 public:
-    /// \param mesh     read here only
-    /// \param options  of the runs: what they prune is left out
-    /// \throws InputError  as simplify(); and what the poll throws
+    /// \param mesh             the original; read only during the call
+    /// \param options          of the runs: faces removed by Topology::prune are left out
+    /// \param check_cancelled  called once per element
+    /// \throws InputError  as simplify()
+    /// \throws whatever `check_cancelled` throws
+    /// Complexity: O(n log n)
     explicit DistanceReference(const MeshView& mesh, const Options& options = {},
                                CancellationCheck check_cancelled = {});
 
-    /// Its faces with area.
+    /// The faces of the original that have area.
     const Surface& surface() const { return surface_; }
 
-    /// The two-sided distance of a result. Where the original has no area it is 0, where only the result has
-    /// none it is infinite.
-    /// \throws what the poll of the workers throws
+    /// The two-sided Hausdorff distance between a result and the original. It is 0 if the original has no
+    /// area, and infinite if only the result has none.
+    /// \param result   a simplified mesh; read only during the call
+    /// \param allowed  the distance to decide about, model units
+    /// \param mode     accuracy
+    /// \param workers  the result does not depend on the number of threads
+    /// \throws whatever `workers.check_cancelled` throws
     MeasuredDistance distance(const MeshView& result, double allowed, MeasureMode mode,
                               Workers workers) const;
 
@@ -55,19 +65,31 @@ private:
     Bvh tree_;
 };
 
-/// The distance of a result of simplify(). A mesh that was only welded exactly is the same surface: 0.
+/// The distance between a result of simplify() and the original. It is 0 without measurement if the mesh was
+/// only welded exactly, since the surface is the same then.
+/// \param original         made from the input of simplify()
+/// \param result           of simplify()
+/// \param allowed          the distance to decide about, model units
+/// \param mode             accuracy
+/// \param options          of the run; weld, prune and threads are used
+/// \param check_cancelled  called once per few operations
+/// \throws whatever `check_cancelled` throws
 FAQEM_EXPORT MeasuredDistance distance(const DistanceReference& original, const SimplifyResult& result,
                                        double allowed, MeasureMode mode, const Options& options,
                                        CancellationCheck check_cancelled = {});
 
-/// What lengths can be shares of: the diagonal of the whole mesh, pruned or not.
+/// Bounding-box diagonal of the whole mesh including the faces that are pruned, model units. Lengths in
+/// Length::Unit::diagonal refer to it.
+/// \param original  made from `mesh` and `options`
+/// \throws whatever `check_cancelled` throws
 double unpruned_diagonal(const MeshView& mesh, const Options& options, const DistanceReference& original,
                          CancellationCheck check_cancelled = {});
 
-/// Asks the callback of the options while something is measured; nobody where there is none.
+/// Calls the progress callback of the options during a measurement; does nothing if there is no callback.
 class MeasurementMonitor {
 public:
-    /// \param fraction  of Phase::simplify, to be told
+    /// \param options   must outlive this object
+    /// \param fraction  of Phase::simplify, in [0, 1]: passed to the callback
     MeasurementMonitor(const Options& options, double fraction)
         : monitor_([&options, fraction] { return options.progress(Phase::simplify, fraction); }),
           check_cancelled_(options.progress ? CancellationCheck(monitor_) : CancellationCheck()) {}
@@ -79,7 +101,7 @@ private:
     CancellationCheck check_cancelled_;
 };
 
-/// What is left where there was no time for more.
+/// An empty result with StopReason::cancelled.
 template <class Result>
 Result cancelled_result() {
     Result nothing;
@@ -87,38 +109,47 @@ Result cancelled_result() {
     return nothing;
 }
 
-/// simplify() on arrays with max_error. \pre options are valid
+/// simplify() for meshes with Options::max_error.
+/// \pre options are valid and have max_error
+/// \throws as simplify()
 SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options);
 
-/// What a report says of a search in words.
+/// Sets stop reason, target and warnings of the report of a search.
+/// \param report           of the best result, with max_error
+/// \param undecided_count  number of results that could not be decided within the limit on the work
 FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 
-/// Runs and measures: once where a target is given, else as FaceCountSearch says. A door brings the runs.
+/// Simplifies and measures: once if the options have a target, otherwise with the targets of FaceCountSearch.
+/// Used by every entry point, which passes its own simplification and measurement.
 /// \param options  of the caller, with max_error
-/// \param faces    of the input
-/// \param allowed  the error, in the units of `measure`
-/// \param run      Options -> Result, which has a report
+/// \param faces    number of faces of the input
+/// \param allowed  the maximum error, in the units of `measure`
+/// \param run      Options -> Result; Result has a member `report`
 /// \param measure  (Result, MeasureMode, CancellationCheck) -> MeasuredDistance
+/// \return the result with the fewest faces within the error; if there is none, the input with only welding
+///         applied. Report::max_error is set unless the search was cancelled.
+/// \throws whatever `run` and `measure` throw, except engine::Cancelled from `measure`
+/// Complexity: at most FaceCountSearch::max_runs + 1 runs and measurements
 template <class Result, class Run, class Measure>
 Result search_within_error(const Options& options, std::uint64_t faces, double allowed, Run&& run,
                            Measure&& measure) {
     const Stopwatch watch;
     const bool searching = options.target.kind == Target::Kind::unset;
     MeasuredError error{.allowed = allowed};
-    // If nothing is within, the input is run in the end.
+    // If no result is within the error, there is one more run with all faces as the target.
     const double planned = searching ? static_cast<double>(FaceCountSearch::max_runs + 1) : 1;
     const auto done = [&](double of_run) { return (static_cast<double>(error.runs) + of_run) / planned; };
     Options own = options;
     own.max_error.reset();
     if (options.progress) {
-        // Measuring takes about as long as the run. All of them together are one phase.
+        // A measurement takes about as long as a run. All of them are reported as a single phase.
         own.progress = [&](Phase phase, double fraction) {
             return options.progress(Phase::simplify, done(phase == Phase::simplify ? fraction / 2 : 0));
         };
     }
     MeasuredDistance distance;
     std::uint64_t undecided_count = 0;
-    // False: cancelled.
+    // Returns false if the measurement was cancelled.
     const auto try_measure = [&](Result& result, MeasureMode mode) {
         try {
             const MeasurementMonitor monitor(options, done(0.5));

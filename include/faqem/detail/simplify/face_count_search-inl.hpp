@@ -12,11 +12,12 @@ namespace detail {
 inline constexpr double initial_ratio = 0.1;
 inline constexpr double bracket_tolerance = 1.02;
 
-/// A guess from one point alone goes this much beyond it, so that the next point is more often on the other
-/// side.
+/// Extrapolation from a single measured end is multiplied by this factor, so that the next point more often
+/// lies on the other side of the solution.
 inline constexpr double overshoot = 1.1;
 
-/// Share of the bracket that guesses stay away from its ends; more where both are measured.
+/// Minimum distance of a guess from the ends of the bracket, as a share of its width; larger if both ends are
+/// measured.
 inline constexpr double margin = 0.05, measured_margin = 0.1;
 
 FAQEM_INLINE FaceCountSearch::FaceCountSearch(std::uint64_t faces, double allowed)
@@ -27,11 +28,11 @@ FAQEM_INLINE bool FaceCountSearch::is_bracketing() const {
            good_.faces - bad_.faces > 1;
 }
 
-// The error of a smooth surface falls like 1 / faces. With both ends measured: regula falsi, or the middle
-// where the last guess did not halve the bracket. All in logarithms.
+// The error of a smooth surface is proportional to 1 / faces. If both ends are measured: regula falsi, or
+// bisection if the last guess did not halve the bracket. All in logarithms.
 FAQEM_INLINE double FaceCountSearch::guess() const {
     const double low = std::log(bad_.faces), high = std::log(good_.faces);
-    // How far an error is above what is allowed; perfect, infinite and unknown ones have a say too.
+    // Logarithm of error / allowed, clamped so that zero, infinite and NaN errors are usable.
     const auto log_excess = [&](double error) {
         if (error <= 0) return std::log(1e-6);
         return error <= 1e6 * allowed_ ? std::log(std::max(error / allowed_, 1e-6)) : std::log(1e6);
@@ -56,7 +57,7 @@ FAQEM_INLINE double FaceCountSearch::guess() const {
 FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
     if (is_bracketing()) {
         ++runs_;
-        // Between the ends: there is a whole number.
+        // There is an integer between the ends.
         const double count = std::clamp(std::round(guess()), bad_.faces + 1, good_.faces - 1);
         last_width_ = std::log(good_.faces / bad_.faces);
         target_ = static_cast<std::uint64_t>(count);
@@ -79,7 +80,7 @@ FAQEM_INLINE void FaceCountSearch::add_result(std::uint64_t faces, double error,
     } else if (step_ == 0 && target > bad_.faces) {
         bad_ = {target, error};
     }
-    // What does not come out need not be asked for.
+    // Counts that runs cannot reach are not tried again.
     if (bad_.faces < reachable_ - 1) bad_ = {reachable_ - 1, std::nullopt};
 }
 

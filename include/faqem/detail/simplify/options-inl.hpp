@@ -39,7 +39,7 @@ FAQEM_INLINE void validate(const Options& options) {
     detail::require(
         options.visibility == Visibility::ignored || !options.max_error ||
             options.target.kind != Target::Kind::unset,
-        "visibility: a distance counts what is hidden like all else, so that max_error needs a target");
+        "visibility must be ignored if max_error is given without a target: distances are not weighted");
     detail::require_weight(options.weights.area, "area");
     detail::require_weight(options.weights.boundary, "boundary");
     detail::require_weight(options.weights.normal, "normal");
@@ -65,7 +65,7 @@ FAQEM_INLINE void validate(const Options& options) {
     detail::require(bake.samples >= 1 && bake.samples <= 8, "samples must be in [1, 8]");
     detail::require(bake.jpeg_quality >= 1 && bake.jpeg_quality <= 100, "jpeg_quality must be in [1, 100]");
     detail::require(bake.normals != Normals::none || bake.kind == Bake::none,
-                    "normals can be left out only where nothing is baked: bake must be none");
+                    "normals may be none only if bake is none");
     detail::require(bake.crease_angle >= 0 && bake.crease_angle <= 180,
                     "crease_angle must be in [0, 180] degrees");
 }

@@ -56,7 +56,7 @@ inline void check_sizes(const MeshView& mesh, CancellationCheck check_cancelled)
         for (std::size_t i = 0; i < a.values.size(); ++i) {
             check_cancelled();
             if (!std::isfinite(a.values[i]))
-                fail("attributes, corner " + std::to_string(i / a.width), "not finite");
+                fail("attributes, corner " + std::to_string(i / a.width), "value is not finite");
         }
     }
 }
@@ -73,7 +73,8 @@ inline std::vector<Vec3> checked_positions(const PositionView& view, Cancellatio
     return positions;
 }
 
-// Vertices that no face uses stay apart: they must not pull others to their place.
+// For each vertex the vertex that it is welded to. Unreferenced vertices are not welded: they must not affect
+// the positions of others.
 inline std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
                                           const Settings& settings, CancellationCheck check_cancelled) {
     std::vector<Index> result(positions.size());
@@ -96,7 +97,7 @@ inline std::vector<Index> representatives(const MeshView& mesh, const std::vecto
     return result;
 }
 
-// A locked vertex stays where it is: what was welded to it comes to it.
+// Moves welded vertices to the position of the first locked vertex in them.
 inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec3>& positions,
                                      PreprocessedMesh& out) {
     for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
@@ -115,7 +116,7 @@ inline void check_triangles(const MeshView& mesh, CancellationCheck check_cancel
     }
 }
 
-// Numbers the representatives in input order and takes the triangles to them.
+// Numbers the representatives in input order and maps the triangles to them.
 inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
                        const std::vector<Index>& representative, CancellationCheck check_cancelled,
                        PreprocessedMesh& out) {
@@ -143,12 +144,12 @@ inline void drop_degenerate_faces(PreprocessedMesh& out) {
     }
 }
 
-// A face with the corners, winding and group of an earlier one adds nothing that could be seen. Faces back to
-// back stay.
+// Removes faces that have the corners, winding and group of an earlier face, since they are invisible. Faces
+// with the same corners and opposite winding are kept.
 inline void drop_duplicate_faces(std::span<const Index> groups, CancellationCheck check_cancelled,
                                  PreprocessedMesh& out) {
     struct FaceKey {
-        Index second, third, group, face;                  // of a face whose smallest corner is known
+        Index second, third, group, face;                  // corners that follow the smallest one
         auto operator<=>(const FaceKey&) const = default;  // NOLINT(modernize-use-nullptr)
     };
     std::vector<std::size_t> offset(out.positions.size() + 1, 0);
@@ -166,7 +167,7 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
         faces[offset[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
     }
     std::size_t begin = 0;
-    for (const std::size_t end : offset) {  // each place is where the next vertex begins now
+    for (const std::size_t end : offset) {  // each entry has advanced to the beginning of the next vertex
         std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
                   faces.begin() + static_cast<std::ptrdiff_t>(end),
                   engine::cancellable_less(check_cancelled));
@@ -181,8 +182,8 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
     }
 }
 
-// Box of the used vertices; quarters are taken first, so that not even the diagonal of the largest box
-// overflows.
+// Computes centre and scale from the bounding box of the referenced vertices. Extents are divided by 4 first,
+// so that the diagonal does not overflow even for the largest coordinates.
 inline void find_scale(double wanted_diagonal, CancellationCheck check_cancelled, PreprocessedMesh& out) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::infinity());
@@ -267,7 +268,8 @@ FAQEM_INLINE std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::s
 }
 
 FAQEM_INLINE bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
+    // Coordinates are halved and then scaled to about 1, so that differences and squares stay in the range of
+    // double.
     const Vector3 p = 0.5 * engine::to_eigen(a);
     const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
     const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());

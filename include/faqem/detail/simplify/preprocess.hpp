@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the caller's arrays to the engine's complex: checks, weld, repair, scale.
+/// Converts the input arrays to a mesh for the engine: checks, welding, removal of faces, scaling.
 
 #include <span>
 #include <vector>
@@ -14,41 +14,54 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A mesh made ready for the engine. Vertices are the welded ones, faces keep their input index.
+/// A mesh that is ready for the engine. Vertices are welded; faces keep their input index.
 struct PreprocessedMesh {
-    std::vector<Vec3> positions;       ///< welded vertices, model units
-    std::vector<Index> vertex_origin;  ///< welded vertex -> first input vertex there
-    std::vector<Index> welded;         ///< input vertex -> welded vertex
-    std::vector<Triangle> triangles;   ///< per input face; three no_index where dropped
-    std::uint64_t dropped_faces = 0;   ///< with two equal corners, or doubles of an earlier face
-    PruneResult pruned;                ///< dropped because their component is small
-    Vec3 centre = {0, 0, 0};           ///< of the box of the used vertices, pruned too
-    double scale = 1;                  ///< model units to engine units
+    std::vector<Vec3> positions;       ///< one per welded vertex, model units
+    std::vector<Index> vertex_origin;  ///< one per welded vertex: the first input vertex welded into it
+    std::vector<Index> welded;         ///< one per input vertex: its welded vertex
+    std::vector<Triangle> triangles;   ///< one per input face, over welded vertices; three no_index: removed
+    std::uint64_t dropped_faces = 0;   ///< removed faces with two equal corners, and removed duplicates
+    PruneResult pruned;                ///< faces removed because their component is small
+    Vec3 centre = {0, 0, 0};           ///< centre of the bounding box of referenced vertices, before pruning
+    double scale = 1;                  ///< factor from model units to engine units
 
-    /// Engine units: (p - centre) * scale.
+    /// Positions in engine units: (p - centre) * scale. O(n)
+    /// \throws whatever `check_cancelled` throws
     std::vector<engine::Vector3> engine_positions(engine::CancellationCheck check_cancelled = {}) const;
-    /// Back to model units.
+    /// Converts a position from engine units to model units.
     Vec3 to_model(const engine::Vector3& p) const;
 
-    /// Give back the memory of what is not needed any more. O(1)
+    /// Release the memory of an array that is no longer needed. O(1)
     void release_triangles() { std::vector<Triangle>().swap(triangles); }
     void release_welded() { std::vector<Index>().swap(welded); }
 };
 
-/// \throws InputError  see simplify(); and what the poll throws
+/// Checks the input, welds vertices, removes degenerate and duplicate faces, computes the scale and prunes
+/// small components. Locked vertices keep their positions: vertices welded to them move there.
+/// \param mesh      see simplify(); read only during the call
+/// \param settings  weld, weld_distance, diagonal and prune are used
+/// \throws InputError  as simplify()
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(n log n)
 PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
                             engine::CancellationCheck check_cancelled = {});
 
-/// The input's faces less those that are pruned.
-/// \throws as prepare()
+/// The input faces without those that Topology::prune removes; vertex indices are those of the input.
+/// \throws as preprocess()
+/// Complexity: O(n log n); O(n) without pruning
 std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
                                          engine::CancellationCheck check_cancelled = {});
 
-/// One per welded vertex: nonzero where a locked vertex went into it.
+/// Vertex locks after welding.
+/// \param mesh      its vertex_locks are read
+/// \param welded    PreprocessedMesh::welded
+/// \param vertices  number of welded vertices
+/// \return one per welded vertex; nonzero if a locked vertex was welded into it
 std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
                                        std::size_t vertices);
 
-/// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
+/// True if the triangle is degenerate: its height is at most 1e-12 of its longest edge, so that it has no
+/// normal. Works for coordinates of any magnitude.
 FAQEM_EXPORT bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace detail

@@ -9,8 +9,8 @@ namespace detail {
 using engine::AreaTerm;
 using engine::BaseWeight;
 
-// The paper's Table 1. Its terms have different units and only act together at a certain model size; it was
-// tuned on Thingi10K, in millimetres with diagonals near 100.
+// Table 1 of the paper. Its terms have different units, so that their balance depends on the model size. The
+// weights were tuned on Thingi10K, whose models are in millimetres with diagonals near 100.
 inline Settings paper() {
     Settings s;
     s.weights.base = BaseWeight::inverse_area;
@@ -30,7 +30,7 @@ inline Settings qem() {
     return s;
 }
 
-// Both terms are areas squared, so that they add up at any scale.
+// Both terms have the unit of a squared area, so that their balance does not depend on the scale.
 inline Settings stmw() {
     Settings s;
     s.weights.base = BaseWeight::area;
@@ -39,8 +39,8 @@ inline Settings stmw() {
     return s;
 }
 
-// Memoryless costs are measured on the surface as it is, so small turns are no longer paid for later: the
-// veto is stricter than the paper's.
+// Memoryless quadrics are computed from the current surface, so that small normal deviations of earlier
+// collapses are not penalised later. The flip test is therefore stricter than that of the paper.
 inline Settings fast() {
     Settings s;
     s.quadric_policy = Settings::QuadricPolicy::memoryless;
@@ -92,13 +92,13 @@ FAQEM_INLINE Settings settings(const Options& options) {
     s.weights.area = w.area.value_or(s.weights.area);
     s.weights.seam = w.uv.value_or(s.weights.seam);
     if (options.topology.link != LinkCondition::as_preset) s.link = options.topology.link;
-    // Costs that sum up a history are in no unit that a size could be compared with.
+    // Accumulated costs cannot be compared with the size of a feature.
     if (s.link == LinkCondition::by_size && s.quadric_policy == Settings::QuadricPolicy::memory)
         s.link = LinkCondition::on;
     s.weld = options.topology.weld;
     s.weld_distance = options.topology.weld_distance.value_or(s.weld_distance);
     s.prune = options.topology.prune;
-    // 1/A stays finite on faces that are thinner than any real one.
+    // Keeps 1 / area finite for degenerate faces.
     s.weights.min_area = 1e-12 * s.diagonal * s.diagonal;
     return s;
 }

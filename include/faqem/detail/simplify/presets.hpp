@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The table of presets: what each name stands for.
+/// The settings that each preset stands for.
 
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/export.hpp"
@@ -9,24 +9,26 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A preset with the user's weights and rules put in.
+/// A preset combined with the weights and rules of the options.
 struct Settings {
-    /// Memory: quadrics are summed up along the collapses. Memoryless: they belong to the surface as it is.
-    /// Tracked: memoryless, and the distance to the original is watched.
+    /// memory: quadrics are accumulated over the collapses. memoryless: quadrics are computed from the
+    /// current surface. tracked: as memoryless, and the distance to the original is part of the cost.
     enum class QuadricPolicy { memory, memoryless, tracked };
     QuadricPolicy quadric_policy = QuadricPolicy::memory;
     engine::CompositeWeights weights;
     LinkCondition link = LinkCondition::off;
-    bool fit_vertices = false;  ///< move the vertices closer to the original in the end
+    bool fit_vertices = false;  ///< vertices are fitted to the original after the last collapse
     double min_fold_cosine =
-        -1;  ///< edges whose faces have a smaller cosine are folds; -1: as many as may come
-    double min_normal_cosine = 0;  ///< flip veto: smallest cosine between old and new normal
-    double diagonal = 1;  ///< the model is scaled to this diagonal: the paper's terms have different units
+        -1;  ///< fold test: smallest cosine between the normals of adjacent faces; -1: off
+    double min_normal_cosine = 0;  ///< flip test: smallest cosine between old and new normal of a face
+    /// Bounding-box diagonal in engine units. It matters for the paper's terms, which have different units.
+    double diagonal = 1;
     Weld weld = Weld::by_position;
-    double weld_distance = 0;  ///< model units
+    double weld_distance = 0;  ///< model units, >= 0
     std::optional<Length> prune = {};
 };
 
+/// The settings of a preset with the weights and topology options applied.
 /// \pre options are valid
 Settings settings(const Options& options);
 

@@ -13,7 +13,8 @@ inline constexpr Triangle no_face = {no_index, no_index, no_index};
 
 using AlignedBox = Eigen::AlignedBox3d;
 
-// Halves are taken first, so that 1e308 does not overflow. \pre not empty
+// Half of the diagonal. Coordinates are halved first, so that 1e308 does not overflow. \pre the box is not
+// empty
 inline double half_diagonal(const AlignedBox& box) {
     return (0.5 * box.max() - 0.5 * box.min()).stableNorm();
 }
@@ -30,7 +31,7 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
         joined.unite(t[0], t[2]);
         for (const Index v : t) all.extend(engine::to_eigen(positions[v]));
     }
-    // By root, those that have faces.
+    // Indexed by the root of a component.
     std::vector<AlignedBox> box(positions.size());
     std::vector<std::uint8_t> is_kept(positions.size(), 0);
     for (const Triangle& t : triangles) {

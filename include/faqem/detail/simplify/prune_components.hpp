@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Topology::prune: small components go before anything else happens.
+/// Topology::prune: removal of small connected components before the simplification.
 
 #include <cstdint>
 #include <span>
@@ -14,25 +14,29 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A face that was taken out.
+/// A removed face.
 struct PrunedFace {
     Index face = no_index;
-    Triangle corners = {no_index, no_index, no_index};  ///< what it was
+    Triangle corners = {no_index, no_index, no_index};  ///< its corners before the removal
 };
 
-/// What prune() took.
+/// The faces that prune() removed.
 struct PruneResult {
-    std::vector<PrunedFace> faces;  ///< ascending
-    std::uint64_t components = 0;
+    std::vector<PrunedFace> faces;  ///< ascending by face
+    std::uint64_t components = 0;   ///< number of removed components
 };
 
-/// Takes the components (faces joined by shared vertices) whose box has a smaller diagonal than `size`. The
-/// largest one (the first of equals) stays, and so do those with a locked vertex. O(faces + vertices)
-/// \param positions  finite, model units
-/// \param locked     empty, or one per vertex
-/// \param triangles  three no_index: no face, which is also what those become that are taken
-/// \param size       finite and > 0; a share is one of the diagonal of all faces' box
-/// \throws what the poll throws
+/// Removes connected components (faces joined by shared vertices) whose bounding box has a smaller diagonal
+/// than `size`. The component with the largest box (the first one of equals) and components with a locked
+/// vertex are kept.
+/// \param positions  one per vertex, finite, model units
+/// \param locked     empty, or one per vertex; nonzero: locked
+/// \param triangles  changed in place: the corners of removed faces become no_index. Faces with no_index
+///                   corners are ignored.
+/// \param size       finite and > 0; Length::Unit::diagonal refers to the bounding box of all faces
+/// \return the removed faces
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(faces + vertices)
 PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
                   std::vector<Triangle>& triangles, engine::CancellationCheck check_cancelled = {});
 

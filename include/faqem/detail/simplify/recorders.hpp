@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a run learns from its collapses besides the history.
+/// Recorders that a run uses in addition to the history recorder.
 
 #include <algorithm>
 #include <limits>
@@ -16,12 +16,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Passes everything on, and remembers where slots went and whose place they still have, so that what did not
-/// move comes out to the last bit.
+/// Forwards to another recorder and fills a SlotTrace, so that vertices that did not move keep their input
+/// position exactly.
 template <class Recorder>
 class TracingRecorder {
 public:
-    /// \param inner  borrowed
+    /// \param inner  called first; must outlive this object
+    /// \param slots  number of vertex slots
     TracingRecorder(Recorder& inner, std::size_t slots) : inner_(inner), trace_(slots) {}
 
     void before_collapse(const engine::CollapseMesh& mesh, Index survivor, Index removed,
@@ -38,14 +39,14 @@ private:
     SlotTrace trace_;
 };
 
-/// Records what every collapse cost.
+/// Records the cost curve of a run.
 class CostRecorder {
 public:
     void before_collapse(const engine::CollapseMesh& mesh, Index, Index, const engine::Candidate& to) {
         cost_ = std::max(cost_, to.cost);
         steps_.push_back({mesh.face_count(), cost_});
     }
-    // What takes whole components is the last resort.
+    // Deleting whole components is the last resort: it gets infinite cost.
     void before_deletion(Index) { cost_ = std::numeric_limits<double>::infinity(); }
     std::vector<CostCurve::Step> take() { return std::move(steps_); }
 

@@ -13,7 +13,7 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
-// Names by enumerator; the order is the enums'.
+// Names of the enumerators, in the order of their enum.
 inline constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
                                                                                   "fast", "balanced", "best"};
 inline constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One run of the engine with one target or several.
+/// A simplification run with one or more face counts as targets.
 
 #include <cstdint>
 #include <span>
@@ -12,16 +12,17 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Simplifies to one target after the other, each from where the one before it ended. What the result of a
-/// target gets in the end (relaxation) is not passed on to the next one. Counts in the reports are since the
-/// original, times are of the target alone. Defined in simplify.cpp.
-/// \param targets  faces, at least one, each at most the one before it
-/// \param options  target and max_error do not count
-/// \pre options are valid
-/// \return one result per target; where it was cancelled, the last one says so, and those after it are
-///         missing
-/// \throws as simplify().
-/// O(n log n) for all of them together
+/// Simplifies to each target in turn, continuing from the mesh of the previous target. Vertex fitting and
+/// edge flips of a result (preset best) are not passed on to the next target. The counts in a report are
+/// totals since the original; the times are those of the one target. Defined in simplify-inl.hpp.
+/// \param mesh     see simplify(); read only during the call
+/// \param targets  face counts, not empty, in descending order
+/// \param options  must be valid; `target` and `max_error` are ignored
+/// \return one result per target. If the run is cancelled, the last result has StopReason::cancelled and the
+///         results of the following targets are missing.
+/// \throws InputError  as simplify()
+/// \throws whatever the progress callback throws
+/// Complexity: O(n log n) for all targets together
 FAQEM_EXPORT std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
                                                         std::span<const std::uint64_t> targets,
                                                         const Options& options);

@@ -9,7 +9,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-// Of some slots; no_index where there is none.
+// The values at the given slots; no_index, converted to T, where the slot is no_index.
 template <class T>
 std::vector<T> gather(const std::vector<T>& of, const std::vector<Index>& slots) {
     std::vector<T> result;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface on its way through the engines, in slots.
+/// The intermediate surface of a run, which is passed from one engine to the next.
 
 #include <cstdint>
 #include <numeric>
@@ -16,20 +16,27 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// What the next engine begins with, and whose it was.
+/// The surface that the next engine starts from, and its relation to the preprocessed mesh. Vertices and
+/// faces are numbered by slots, which change with every advance_to(). Positions are in engine units.
 class RunState {
 public:
     RunState() = default;
-    /// \param locked  one per vertex of the prepared mesh
-    /// \throws what the poll throws
+    /// Reorders the preprocessed mesh.
+    /// \param prepared  read only during the call
+    /// \param locked    one per vertex of `prepared`; nonzero: must not move
+    /// \param boundary  locked: the vertices of boundary edges are locked, too
+    /// \throws whatever `check_cancelled` throws
+    /// Complexity: O(n log n)
     RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked, Boundary boundary,
              engine::CancellationCheck check_cancelled = {});
 
-    /// Keeps what is there now, for initial_surface(). To be called before the first step. O(1)
+    /// Retains the current surface for initial_surface(). \pre advance_to() has not been called. O(1)
     void keep_initial_surface() { keeps_initial_surface_ = true; }
-    /// Lets engines watch the distance to what is there now, and keeps it. To be called before the first step.
-    /// \throws what the poll throws.
-    /// O(faces)
+    /// Makes original() and vertex_map() available, so that engines can track the distance to the current
+    /// surface. Includes keep_initial_surface().
+    /// \pre advance_to() has not been called
+    /// \throws whatever `check_cancelled` throws
+    /// Complexity: O(faces)
     void track_original(engine::CancellationCheck check_cancelled = {}) {
         keep_initial_surface();
         original_.emplace(mesh_.positions, mesh_.triangles, check_cancelled);
@@ -37,27 +44,33 @@ public:
         std::iota(vertex_map_.begin(), vertex_map_.end(), Index{0});
     }
 
-    /// Goes on with what is left after some steps.
+    /// Replaces the current surface by a simplified one.
+    /// \param compacted  made from mesh(); moved from
+    /// Complexity: O(n)
     void advance_to(CompactedMesh&& compacted);
 
     const ReorderedMesh& mesh() const { return mesh_; }
+    /// One per vertex slot; nonzero: must not move.
     const std::vector<std::uint8_t>& locked() const { return locked_; }
-    /// Of each slot: the vertex of the prepared mesh whose place it has, or no_index.
+    /// One per vertex slot: the vertex of the preprocessed mesh that has exactly the same position, or
+    /// no_index.
     const std::vector<Index>& source_vertices() const { return source_vertices_; }
-    /// As source_vertices(), of what has the places of these slots now; no_index stays.
+    /// The entries of source_vertices() for the given slots; no_index stays no_index. O(slots)
     std::vector<Index> source_vertices_of(const std::vector<Index>& slots) const;
-    /// The slot that each vertex of the original has gone into, or no_index. Empty if it is not remembered.
+    /// One per vertex of original(): the slot that it was merged into, or no_index if that vertex was
+    /// removed. Empty unless track_original() was called.
     const std::vector<Index>& vertex_map() const { return vertex_map_; }
-    /// Null if it is not remembered.
+    /// The surface whose distance is tracked; null unless track_original() was called.
     const engine::OriginalSurface* original() const { return original_ ? &*original_ : nullptr; }
-    /// The surface before the first step. \pre it is kept
+    /// The surface before the first advance_to(). References this object. \pre keep_initial_surface() was
+    /// called
     MeshRef initial_surface() const;
-    /// Area of what is there now. O(faces)
+    /// Area of the current surface. O(faces)
     double area() const;
 
 private:
     ReorderedMesh mesh_;
-    // As it was, where there is less now. The original has borrowed it.
+    // The initial surface once mesh_ has been replaced. original_ references these arrays.
     std::vector<engine::Vector3> initial_positions_;
     std::vector<Triangle> initial_triangles_;
     bool keeps_initial_surface_ = false;

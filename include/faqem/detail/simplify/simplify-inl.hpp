@@ -32,14 +32,14 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
-// Up to which the queue is exact.
+// Up to this number of pairs the queue returns the exact minimum.
 inline constexpr std::size_t max_exact_pairs = 1 << 17;
 
 using engine::CancellationCheck;
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// What the engine works on, in slots.
+// The data that one engine works on, indexed by slots.
 struct EngineInput {
     EngineInput(const detail::ReorderedMesh& reordered, CancellationCheck check_cancelled)
         : collapse_mesh(reordered.positions, reordered.triangles, check_cancelled) {}
@@ -48,12 +48,12 @@ struct EngineInput {
     CollapseMesh collapse_mesh;
     engine::Wedges wedges;
     std::vector<std::uint8_t> locked;
-    std::vector<Index> groups;  // borrowed by the curves
+    std::vector<Index> groups;  // referenced by `curves`
     engine::FeatureCurves curves;
-    std::vector<double> importance;  // empty: the same everywhere
+    std::vector<double> importance;  // one per vertex slot; empty: uniform
 };
 
-// Of vertices at one place the largest weight counts.
+// Weight per vertex slot: the largest weight of the input vertices that were welded.
 inline std::vector<double> importance(const MeshView& mesh, const detail::PreprocessedMesh& prepared,
                                       const detail::ReorderedMesh& reordered) {
     std::vector<double> at_vertex(prepared.positions.size(), 0), result;
@@ -66,7 +66,8 @@ inline std::vector<double> importance(const MeshView& mesh, const detail::Prepro
     return result;
 }
 
-// Runs to the target of `loop`, and on to what it is then for as long as should_continue(result) says so.
+// Runs an engine to the target of `loop`. While should_continue(result) returns true, after which `loop` may
+// hold a lower target, continues to that target.
 template <class Recorder, class ShouldContinue>
 engine::LoopResult run(EngineInput& work, engine::PairTable& pairs, const detail::Settings& settings,
                        Recorder& recorder, const engine::LoopOptions& loop, const detail::RunState& state,
@@ -99,7 +100,7 @@ engine::LoopResult run(EngineInput& work, engine::PairTable& pairs, const detail
                     engine::SweepQueue(max_exact_pairs));
 }
 
-// Everything of one run, in the order it is made.
+// One run of simplify(): preprocessing, collapses, fitting, results.
 class Run {
 public:
     Run(const MeshView& mesh, const Options& options)
@@ -177,7 +178,7 @@ private:
         }
     }
 
-    // At the next target.
+    // Sets the options of the loop for the next target.
     void set_target() {
         totals_.target_faces = std::max(detail::min_target_faces, targets_[results_.size()]);
         loop_.target_faces = static_cast<std::size_t>(totals_.target_faces);
@@ -186,7 +187,7 @@ private:
         done_in_blocks_ = 0;
     }
 
-    // Targets count by the faces that go on the way to them.
+    // Reports progress. The share of a target is proportional to the number of faces removed for it.
     Continue progress(double done) {
         const auto gone = [&](std::size_t targets) {
             const double faces = static_cast<double>(mesh_.triangles.size());
@@ -204,14 +205,14 @@ private:
 
     double min_pair_length() const { return 1e-8 * settings_.diagonal; }
 
-    // What has attributes, groups, weights or virtual edges is not cut into blocks.
+    // Meshes with attributes, kept groups, weights or virtual edges are not split into blocks.
     bool supports_blocks() const {
         return settings_.quadric_policy != detail::Settings::QuadricPolicy::memory && !mesh_.attributes &&
                mesh_.vertex_weights.empty() && options_.topology.group_boundaries != GroupBoundaries::kept &&
                options_.topology.virtual_edges != VirtualEdges::on;
     }
 
-    // What can be collapsed in blocks is, and the rest reordered anew. \return false where it was cancelled
+    // Simplifies in blocks as far as possible and compacts the rest. \return false if cancelled
     template <class Recorder>
     bool simplify_in_blocks_first(Recorder& recorder) {
         if (!supports_blocks()) return true;
@@ -235,7 +236,8 @@ private:
         if (options_.progress) {
             loop.progress = [&](double done) { return progress(done_in_blocks_ + share * done); };
         }
-        // What has been cut once may be cut smaller: watching distances is worth more than the waiting costs.
+        // After a first round, smaller surfaces are split as well: tracking distances in parallel saves more
+        // time than the faces between blocks cost.
         const std::size_t few =
             has_used_blocks_ ? detail::max_vertices_per_block / 4 : detail::max_vertices_per_block;
         const detail::ReorderedMesh& now = state_.mesh();
@@ -257,7 +259,8 @@ private:
         return true;
     }
 
-    // Makes room for what is left to do, too: to grow takes twice the memory.
+    // Reserves memory for the remaining collapses as well: growing the arrays later would need twice the
+    // memory.
     void record_blocks(const detail::BlockSteps& blocks, const detail::CompactedMesh& compacted,
                        engine::HistoryRecorder& recorder) const {
         const double faces_to_go = static_cast<double>(state_.mesh().triangles.size() - loop_.target_faces);
@@ -302,8 +305,9 @@ private:
         return run(work, pairs, settings_, recorder, loop_, state_, should_continue);
     }
 
-    // What may be cut carries nothing that an engine could not begin with: each target has one of its own,
-    // which knows from the start what a distance costs. Else one engine does it all.
+    // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
+    // weight from the start. Otherwise one engine continues from target to target, since it has state that
+    // cannot be transferred.
     template <class Recorder>
     void collapse_to_targets(Recorder& recorder) {
         while (results_.size() < targets_.size()) {
@@ -337,7 +341,7 @@ private:
         return results_.size() == targets_.size() || results_.back().report.stop == StopReason::cancelled;
     }
 
-    // The result of a target that was reached, or was not.
+    // Adds the result of the current target, whether or not it was reached.
     template <class Recorder>
     void add_result(const EngineInput& work, const detail::SlotTrace& trace, Recorder& recorder,
                     const engine::LoopResult& loop_result) {
@@ -347,7 +351,7 @@ private:
         result.report.stop = loop_result.stop;
         const bool is_cancelled = loop_result.stop == StopReason::cancelled;
         const CancellationCheck check_cancelled =
-            is_cancelled ? CancellationCheck() : check_cancelled_;  // who has cancelled is not asked again
+            is_cancelled ? CancellationCheck() : check_cancelled_;  // no callbacks after a cancellation
         const std::vector<Index> slots =
             detail::build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
                                  state_.source_vertices_of(trace.source_slots()), check_cancelled, result);
@@ -356,12 +360,12 @@ private:
             result.history = is_last ? recorder.take() : recorder.history();
             for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
             detail::to_model_units(prepared_, check_cancelled, result.history.collapses);
-            // The last one may have what nobody needs any more.
+            // The arrays are moved into the last result.
             detail::finish_history(mesh_, prepared_.pruned,
                                    is_last ? std::move(prepared_.positions) : prepared_.positions,
                                    is_last ? std::move(prepared_.triangles) : prepared_.triangles, result);
         }
-        // Without a collapse the mesh is its own best fit.
+        // Without a collapse the mesh equals the original.
         if (settings_.fit_vertices && !is_cancelled && result.report.collapses > 0)
             fit_vertices(work, slots, result);
         detail::finish_report(options_, settings_, prepared_, result);
@@ -371,7 +375,7 @@ private:
         results_.push_back(std::move(result));
     }
 
-    // On vertices of the result, in its order: what no face uses has no say.
+    // Fits the vertices of the result, in their order. Unreferenced vertices are ignored.
     void fit_vertices(const EngineInput& work, const std::vector<Index>& slots,
                       SimplifyResult& result) const {
         std::vector<Vector3> now;
@@ -390,7 +394,7 @@ private:
             fitted =
                 detail::fit_vertices_and_flip_edges(state_.initial_surface(), simplified, fixed,
                                                     mesh.face_groups, settings_.min_normal_cosine, workers());
-        } else {  // a swap would have to say what the corners' attributes are
+        } else {  // no edge flips: they would change the attributes of the corners
             fitted.positions = detail::fit_vertices(state_.initial_surface(), simplified, fixed,
                                                     settings_.min_normal_cosine, workers());
         }
@@ -411,19 +415,19 @@ private:
     const MeshView& mesh_;
     const Options& options_;
     Phase phase_ = Phase::weld;
-    double fraction_ = 0;  // of the phase, when it was told last
+    double fraction_ = 0;  // of the phase, as last reported
     engine::ProgressMonitor monitor_{[this] { return options_.progress(phase_, fraction_); }};
-    CancellationCheck check_cancelled_;  // never asks where nobody wants to know
+    CancellationCheck check_cancelled_;  // does nothing without a callback
     detail::Settings settings_;
     detail::PreprocessedMesh prepared_;
     detail::RunState state_;
     engine::LoopOptions loop_;
-    double area_ = 0;  // of the original
+    double area_ = 0;  // of the original, engine units
     std::span<const std::uint64_t> targets_;
     bool has_used_blocks_ = false;
-    double done_in_blocks_ = 0;    // share of the work for the target
+    double done_in_blocks_ = 0;    // share of the work for the current target that was done in blocks
     detail::Stopwatch stopwatch_;  // since the last target
-    Report totals_;                // by the engines that are through
+    Report totals_;                // sums of blocks and of engines that have finished
     std::vector<SimplifyResult> results_;
 };
 

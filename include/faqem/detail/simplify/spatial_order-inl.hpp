@@ -15,7 +15,7 @@ namespace detail {
 using engine::CancellationCheck;
 using engine::Vector3;
 
-/// The used vertices in the order of the curve.
+/// The referenced vertices in Morton order.
 inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& positions,
                                                    const std::vector<Triangle>& triangles,
                                                    CancellationCheck check_cancelled) {
@@ -43,7 +43,7 @@ inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& p
     return order;
 }
 
-/// Numbers the faces by the smallest of their corners' slots, then by index: a counting sort.
+/// The remaining faces, sorted by the smallest slot of their corners, then by index (counting sort).
 inline std::vector<Index> faces_by_first_vertex(const std::vector<Triangle>& triangles,
                                                 const std::vector<Index>& slot, std::size_t slots,
                                                 CancellationCheck check_cancelled) {

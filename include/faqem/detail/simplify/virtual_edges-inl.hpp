@@ -19,7 +19,7 @@ namespace detail {
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// What nanoflann wants to know of the used vertices.
+// Data set adaptor of nanoflann for the referenced vertices.
 struct Points {
     const CollapseMesh& mesh;
     std::vector<Index> vertices;
@@ -38,7 +38,8 @@ using Tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points, double, std::size_t>,
                                         Points, 3, std::size_t>;
 
-// The nearest vertices of other components within a radius; ties by index.
+// Result set of nanoflann: the nearest vertices of other components within a radius; ties are ordered by
+// index.
 class NearestInOtherComponents {
 public:
     struct Hit {
@@ -55,7 +56,7 @@ public:
 
     bool full() const { return true; }
     std::size_t size() const { return count_; }
-    // Only beyond this may the tree prune; equal distances must still come in, to be settled by index.
+    // The tree may skip only points beyond this distance: points at equal distance are ordered by index.
     double worstDist() const {
         const double worst = count_ < hits_.size() ? radius_ : hits_[count_ - 1].distance;
         return std::nextafter(worst, std::numeric_limits<double>::infinity());
@@ -84,7 +85,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Do two vertices belong together: a face of each in one group, and their mean normals agree?
+// True if faces at both vertices have a common group, and the dot product of the mean normals is positive.
 inline bool are_compatible(const CollapseMesh& mesh, std::span<const Index> groups, Index u, Index v) {
     const auto normal = [&](Index w) {
         Vector3 n = Vector3::Zero();
