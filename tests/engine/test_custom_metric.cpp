@@ -12,21 +12,21 @@ using namespace faqem::test;
 
 namespace {
 
-// Runs QEM with an adjustment.
+// Simplifies with accumulated quadrics and an adjustment.
 template <class Adjust>
 CustomResult adjusted(const TriangleMesh& mesh, std::size_t faces, Adjust adjust) {
     return simplify_with(mesh.view(), CustomMetric(AccumulatedMetric({}), adjust),
                          {.target_faces = faces, .ladder = Ladder::off});
 }
 
-const auto nothing = [](const AccumulatedMetric&, const CollapseMesh&, Index, Index, AllowedPosition,
-                        const Candidate& found) { return std::optional(found); };
+const auto unchanged = [](const AccumulatedMetric&, const CollapseMesh&, Index, Index, AllowedPosition,
+                          const Candidate& found) { return std::optional(found); };
 
 }  // namespace
 
-TEST_CASE("an adjustment that changes nothing changes nothing") {
+TEST_CASE("custom metric: an adjustment that returns its argument does not change the result") {
     const TriangleMesh mesh = shaken(torus(24, 12), 0.02, 1);
-    const CustomResult with = adjusted(mesh, 100, nothing);
+    const CustomResult with = adjusted(mesh, 100, unchanged);
     const CustomResult without =
         simplify_with(mesh.view(), AccumulatedMetric({}), {.target_faces = 100, .ladder = Ladder::off});
     CHECK(with.mesh.triangles.size() == 100);
@@ -34,7 +34,7 @@ TEST_CASE("an adjustment that changes nothing changes nothing") {
     CHECK(with.mesh.triangles == without.mesh.triangles);
 }
 
-TEST_CASE("a veto holds: nothing crosses the plane that it guards") {
+TEST_CASE("custom metric: vetoed collapses are not done") {
     const TriangleMesh mesh = icosphere(3);
     const auto is_upper = [](const Vector3& p) { return p.z() > 0; };
     const CustomResult out = adjusted(mesh, 4,
@@ -51,7 +51,7 @@ TEST_CASE("a veto holds: nothing crosses the plane that it guards") {
     }
 }
 
-TEST_CASE("a placement holds: new vertices lie where it says") {
+TEST_CASE("custom metric: new vertices have the positions that the adjustment returned") {
     const TriangleMesh mesh = shaken(torus(24, 12), 0.02, 1);
     const CustomResult out = adjusted(mesh, 200,
                                       [](const AccumulatedMetric& m, const CollapseMesh&, Index u, Index v,
@@ -71,7 +71,7 @@ TEST_CASE("a placement holds: new vertices lie where it says") {
     CHECK(moved > 50);
 }
 
-TEST_CASE("a term counts: where it is dear, faces stay") {
+TEST_CASE("custom metric: more faces are kept where an additional term increases the cost") {
     const TriangleMesh mesh = shaken(icosphere(4), 0.002, 5);
     const CustomResult out = adjusted(mesh, 1000,
                                       [](const AccumulatedMetric&, const CollapseMesh& c, Index u, Index,
@@ -84,7 +84,7 @@ TEST_CASE("a term counts: where it is dear, faces stay") {
     CHECK(right > 2 * (out.mesh.positions.size() - right));
 }
 
-TEST_CASE("a cost that is no number is a veto") {
+TEST_CASE("custom metric: a NaN cost is a veto") {
     const TriangleMesh mesh = icosphere(1);
     const CustomResult out = adjusted(
         mesh, 4,

@@ -14,16 +14,16 @@ using namespace faqem::test;
 
 namespace {
 
-// The presets at the size the mesh has.
-struct Named {
+// Weights and rules of the presets, for a mesh in engine units.
+struct PresetRules {
     CompositeWeights weights;
     Rules rules;
 };
 
-Named qem() { return {{}, {LinkCondition::on, 0, 0}}; }
+PresetRules qem() { return {{}, {LinkCondition::on, 0, 0}}; }
 
-Named paper() {
-    Named n;
+PresetRules paper() {
+    PresetRules n;
     n.weights.base = BaseWeight::inverse_area;
     n.weights.boundary = 500;
     n.weights.normal = 0.01;
@@ -31,8 +31,8 @@ Named paper() {
     return n;
 }
 
-Named stmw() {
-    Named n;
+PresetRules stmw() {
+    PresetRules n;
     n.weights.base = BaseWeight::area;
     n.weights.area = 1;
     n.weights.area_term = AreaTerm::before_placement;
@@ -41,7 +41,7 @@ Named stmw() {
 
 }  // namespace
 
-TEST_CASE("the collapses are those of the paper's algorithm, done from its equations without any structure") {
+TEST_CASE("engine: collapses agree with a brute-force implementation of the paper's algorithm") {
     const TriangleMesh meshes[] = {
         test::shaken(test::icosphere(1), 0.1, 1),
         test::shaken(test::grid(5), 0.2, 2),
@@ -51,8 +51,8 @@ TEST_CASE("the collapses are those of the paper's algorithm, done from its equat
         test::soup(7, 25, 40),
         test::soup(8, 40, 30)};
     for (const TriangleMesh& mesh : meshes) {
-        for (const Named& preset : {qem(), paper(), stmw()}) {
-            // At the corner of a border qem has pairs that cost nothing, and rounding would choose.
+        for (const PresetRules& preset : {qem(), paper(), stmw()}) {
+            // On open meshes qem has several pairs of cost 0, whose order would depend on rounding.
             if (preset.rules.link == LinkCondition::on && !test::closed_manifold(mesh.triangles)) continue;
             const std::size_t target = mesh.triangles.size() / 5;
             const std::vector<Collapse> expected =
@@ -60,7 +60,7 @@ TEST_CASE("the collapses are those of the paper's algorithm, done from its equat
             Play<AccumulatedMetric> play(mesh, AccumulatedMetric(preset.weights));
             play.run(target, preset.rules);
             const CollapseHistory history = play.recorder.take();
-            // Beyond `expected` the engine climbs its ladder.
+            // After the collapses in `expected` the engine continues with the ladder.
             REQUIRE(history.collapses.size() >= expected.size());
             REQUIRE(expected.size() > 3);
             for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -77,10 +77,10 @@ TEST_CASE("the collapses are those of the paper's algorithm, done from its equat
     }
 }
 
-TEST_CASE("on a flat hexagon qem takes the first of equal pairs, the others keep the rim") {
-    // All planes are one: in qem every cost is 0, the pair of lowest index is hub and vertex 1, and of
-    // equally good places the first end, the hub, is taken. The area term of both others is 0 only at the rim
-    // vertex.
+TEST_CASE("engine: on a flat hexagon qem takes the first equal pair, other metrics keep the boundary") {
+    // All faces are in one plane. With qem every cost is 0, so that the pair of lowest index (0, 1) is
+    // collapsed to the first of the equally good positions, the centre 0. The area term of the others is 0
+    // only at the boundary vertex.
     const TriangleMesh hexagon = test::fan(6);
     Play<AccumulatedMetric> plain(hexagon, AccumulatedMetric(qem().weights));
     CHECK(plain.run(4, qem().rules).collapses == 1);
@@ -88,7 +88,7 @@ TEST_CASE("on a flat hexagon qem takes the first of equal pairs, the others keep
     CHECK(history.collapses[0].first == 0);
     CHECK(history.collapses[0].second == 1);
     CHECK(history.collapses[0].position == Vec3{0, 0, 0});
-    for (const Named& preset : {paper(), stmw()}) {
+    for (const PresetRules& preset : {paper(), stmw()}) {
         Play<AccumulatedMetric> play(hexagon, AccumulatedMetric(preset.weights));
         CHECK(play.run(4, preset.rules).collapses == 1);
         const Collapse first = play.recorder.take().collapses.at(0);
@@ -103,7 +103,7 @@ TEST_CASE("on a flat hexagon qem takes the first of equal pairs, the others keep
     }
 }
 
-TEST_CASE("the cheapest pair goes first, and the loop ends at the target") {
+TEST_CASE("engine: the cheapest pair is collapsed first and the loop stops at the target") {
     Script script;
     script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
     Play<Script> play(test::grid(2), script);
@@ -118,38 +118,38 @@ TEST_CASE("the cheapest pair goes first, and the loop ends at the target") {
 
 namespace {
 
-// As Script, but some pairs turn out dearer when it comes to it.
-struct Surprise : Script {
+// As Script, but the exact cost of some pairs is higher.
+struct CostlierExact : Script {
     std::map<Ends, double> real;
     double exact_cost(const CollapseMesh&, const PairTable&, Index u, Index v, const Candidate& candidate) {
         const auto at = real.find(ends(u, v));
         return at == real.end() ? candidate.cost : at->second;
     }
 };
-static_assert(LowerBoundMetric<Surprise> && !LowerBoundMetric<Script>);
+static_assert(LowerBoundMetric<CostlierExact> && !LowerBoundMetric<Script>);
 
 }  // namespace
 
-TEST_CASE("a pair that turns out dearer than the next one waits for its turn") {
-    Surprise script;
+TEST_CASE("engine: a pair with a higher exact cost than the next one is requeued") {
+    CostlierExact script;
     script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
-    script.real = {{{0, 1}, 1.5}};  // the costs are 0, 1 and 2: it comes second now
-    Play<Surprise> play(test::grid(2), script);
+    script.real = {{{0, 1}, 1.5}};  // the costs are 0, 1 and 2, so that it becomes the second
+    Play<CostlierExact> play(test::grid(2), script);
     CHECK(play.run(5, {LinkCondition::off, 0, 0}).collapses == 2);
     const CollapseHistory history = play.recorder.take();
     CHECK(ends(history.collapses[0].first, history.collapses[0].second) == Ends(3, 4));
     CHECK(ends(history.collapses[1].first, history.collapses[1].second) == Ends(0, 1));
 }
 
-TEST_CASE("a pair that is the last one goes, however dear it is") {
-    Surprise script;
+TEST_CASE("engine: the only pair is collapsed regardless of its exact cost") {
+    CostlierExact script;
     script.offers = {{{0, 1}, {0.5, 0, 0}}};
     script.real = {{{0, 1}, 1e9}};
-    Play<Surprise> play(test::grid(2), script);
+    Play<CostlierExact> play(test::grid(2), script);
     CHECK(play.run(7, {LinkCondition::off, 0, 0}).collapses == 1);
 }
 
-TEST_CASE("locked vertices hold the new point, two of them the pair") {
+TEST_CASE("engine: a locked vertex does not move and a pair of two locked vertices is not collapsed") {
     Script script;
     script.offers = {{{0, 1}, {0.5, 0, 0}}, {{1, 2}, {1.5, 0, 0}}};
     Play<Script> play(test::grid(2), script);
@@ -163,7 +163,7 @@ TEST_CASE("locked vertices hold the new point, two of them the pair") {
     CHECK(history.collapses[0].position == Vec3{1, 0, 0});
 }
 
-TEST_CASE("a virtual pair joins two parts into one") {
+TEST_CASE("engine: the collapse of a virtual pair connects two components") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {1.5, 0, 0}));
     const std::vector<Ends> extra = {{1, 4}};
     Script script;
@@ -173,7 +173,7 @@ TEST_CASE("a virtual pair joins two parts into one") {
     CHECK(components(play.collapse_mesh).size() == 1);
 }
 
-TEST_CASE("the last faces are not collapsed away") {
+TEST_CASE("engine: the last faces are not collapsed") {
     Script script;
     for (Index u = 0; u < 4; ++u) {
         for (Index v = u + 1; v < 4; ++v) script.offers[{u, v}] = {0.5, 0.5, 0.25};
@@ -185,10 +185,10 @@ TEST_CASE("the last faces are not collapsed away") {
     CHECK(refused(result, Refusal::last_faces) > 0);
 }
 
-TEST_CASE("the last face with an area is not collapsed away while others have none") {
+TEST_CASE("engine: the last face with an area is not collapsed while degenerate faces are left") {
     Script script;
     script.offers = {{{1, 2}, {4, 0, 0}}, {{3, 4}, {2, 0, 0}}};
-    // Two faces without area hang on the edge 0 1.
+    // Two faces of zero area are at the edge (0, 1).
     Play<Script> play(test::make({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {2, 0, 0}, {1, 0, 0}},
                                  {{0, 1, 2}, {1, 0, 3}, {3, 0, 4}}),
                       script);
@@ -198,11 +198,10 @@ TEST_CASE("the last face with an area is not collapsed away while others have no
     CHECK(play.collapse_mesh.is_alive(0));
 }
 
-TEST_CASE("the end of a border waits for its distance to the next one") {
-    // A ring between a triangle of side 4 and a hole 3 4 5 of side 1; squares beside it cost 0, 1 and 2.
-    //
-    //     5 is at (0, 0.5), 3 at (-0.5, -0.5), 4 at (0.5, -0.5); the outer corner nearest to 3 is sqrt(4.5)
-    //     away.
+TEST_CASE("engine: the cost of closing a boundary loop includes its distance to the next loop") {
+    // A ring between a triangle of side 4 and a triangular hole 3 4 5 of side 1. The vertices of the hole
+    // are 5 at (0, 0.5), 3 at (-0.5, -0.5) and 4 at (0.5, -0.5); the outer corner nearest to 3 has distance
+    // sqrt(4.5). Squares beside the ring offer collapses of cost 1, 2 and 3.
     const TriangleMesh ring =
         test::make({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}},
                    {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
@@ -222,7 +221,7 @@ TEST_CASE("the end of a border waits for its distance to the next one") {
         while (at < history.collapses.size() && history.collapses[at].first > 5) ++at;
         return at;
     };
-    // The script's costs are 0 for the hole, then 1, 2 and 3.
+    // The script's costs are 0 for the hole, then 1, 2 and 3 for the squares.
     CHECK(order_of_hole(0) == 0);
     CHECK(order_of_hole(1.5 / 4.5) == 1);
     CHECK(order_of_hole(2.5 / 4.5) == 2);

@@ -1,4 +1,4 @@
-// Where the queue runs dry: what the ladder lifts, and what is deleted.
+// Tests of the starvation ladder: the rules it lifts and the faces it deletes.
 #include "faqem/engine/engine.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace faqem;
 using namespace faqem::engine;
 using namespace faqem::test;
 
-TEST_CASE("the ladder allows flips to -1/2, then all of them, each step counted") {
+TEST_CASE("ladder: flips to a cosine of -1/2 are allowed first, then all flips, and each rung is counted") {
     Play<Script> gentle(hinge, turn_hinge(80));
     CHECK(gentle.run(1, {LinkCondition::off, 0, 0}).rungs == decltype(LoopResult::rungs){});
     Play<Script> half(hinge, turn_hinge(100));
@@ -31,8 +31,9 @@ TEST_CASE("the ladder allows flips to -1/2, then all of them, each step counted"
     CHECK(refused(second, Refusal::flip) == 3);
 }
 
-TEST_CASE("the ladder lifts the link condition before it allows flips") {
-    // The diagonal of a square, joined in its middle: two more faces are there, so that something is left.
+TEST_CASE("ladder: the link condition is lifted before flips are allowed") {
+    // The diagonal of a square is collapsed to its midpoint. The mesh has two more faces, so that some are
+    // left.
     TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
     Script script;
     script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
@@ -47,8 +48,8 @@ TEST_CASE("the ladder lifts the link condition before it allows flips") {
 
 namespace {
 
-// What the mesh of vertices 0 to 4 offers comes after so many collapses of the squares beside it, whose costs
-// are 1, 2, 3 and 4; its own is 0.
+// Adds four squares to a mesh with vertices 0 to 4, whose collapses cost 1, 2, 3 and 4, while that of the
+// mesh costs 0. Returns the number of squares that are collapsed before the pair of the mesh.
 std::size_t squares_before(TriangleMesh mesh, Script script, std::size_t target, const Rules& rules,
                            Rung rung, double distance_weight = 0) {
     for (Index i = 0; i < 4; ++i) {
@@ -67,9 +68,8 @@ std::size_t squares_before(TriangleMesh mesh, Script script, std::size_t target,
 
 }  // namespace
 
-TEST_CASE(
-    "by size, the link condition holds a pair until collapses cost more than its length to the fourth") {
-    // Two tetrahedra on one triangle 0 1 2: joining two of its corners would leave double faces.
+TEST_CASE("ladder: by_size lifts the link condition at a cost of the fourth power of the pair length") {
+    // Two tetrahedra at the triangle 0 1 2: collapsing two of its vertices would leave duplicate faces.
     const auto order_of_neck = [](double length, LinkCondition link) {
         const TriangleMesh neck =
             test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0.4, 1}, {0.5, 0.4, -1}},
@@ -85,11 +85,11 @@ TEST_CASE(
     CHECK(order_of_neck(0.5, LinkCondition::on) == 4);
 }
 
-TEST_CASE("by size, a fold is put off until collapses cost more than the pair's length to the fourth") {
+TEST_CASE("ladder: by_size allows a fold at a cost of the fourth power of the pair length") {
     //     2
-    //    / \     Joining 3 and 4 lays the flap 0 1 3
+    //    / \     Collapsing (3, 4) moves the face 0 1 3
     //   0---1
-    //    \ / \    nearly upon the face 0 1 2.
+    //    \ / \    nearly onto the face 0 1 2.
     //     3---4
     const auto order_of_flap = [](double length, LinkCondition link, double distance_weight = 0) {
         const TriangleMesh flap = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
@@ -103,18 +103,18 @@ TEST_CASE("by size, a fold is put off until collapses cost more than the pair's 
     CHECK(order_of_flap(1.1, LinkCondition::off) == 1);
     CHECK(order_of_flap(1.3, LinkCondition::by_size) == 2);
     CHECK(order_of_flap(0.5, LinkCondition::on) == 4);
-    // The weight of distances, w, makes it wait for 2 w l^2, where that is more.
+    // The distance weight w delays it to a cost of 2 w l^2, if that is more.
     CHECK(order_of_flap(0.5, LinkCondition::by_size, 3) == 1);
     CHECK(order_of_flap(0.5, LinkCondition::by_size, 5) == 2);
     CHECK(order_of_flap(1.1, LinkCondition::by_size, 0.1) == 1);
 }
 
-TEST_CASE("a strict link condition is kept on every rung") {
+TEST_CASE("ladder: a strict link condition is never lifted") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
     Script script;
     script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
     Play<Script> play(mesh, script);
-    play.locked[0] = play.locked[7] = 1;  // so that no part is deleted
+    play.locked[0] = play.locked[7] = 1;  // so that no component is deleted
     const LoopResult& result = play.run(2, {LinkCondition::strict, -0.5, 0});
     CHECK(result.stop == StopReason::no_legal_collapse);
     CHECK(taken(result, Rung::without_link) == 0);
@@ -122,15 +122,15 @@ TEST_CASE("a strict link condition is kept on every rung") {
     CHECK(play.collapse_mesh.face_count() == 4);
 }
 
-TEST_CASE("pairs shorter than the limit cost nothing because they are not collapsed, until flips are free") {
+TEST_CASE("ladder: pairs below the minimum length are not collapsed until all flips are allowed") {
     Play<Script> play(hinge, turn_hinge(10));
     const LoopResult& result = play.run(1, {LinkCondition::off, 0, 100});
     CHECK(taken(result, Rung::flip_any) == 1);
-    CHECK(refused(result, Refusal::zero_length) == 15);  // five pairs, looked at three times
+    CHECK(refused(result, Refusal::zero_length) == 15);  // five pairs, evaluated three times
     CHECK(result.stop == StopReason::reached_target);
 }
 
-TEST_CASE("small parts are deleted early, larger ones last, the largest never") {
+TEST_CASE("ladder: tiny components are deleted early, larger ones last and the largest never") {
     // Squares of sides 1, 2, 4 and 8, two faces each; no pair can be collapsed.
     TriangleMesh mesh;
     for (const double side : {4, 1, 8, 2})
@@ -158,7 +158,7 @@ TEST_CASE("small parts are deleted early, larger ones last, the largest never") 
     CHECK(some.collapse_mesh.is_alive(0));
 }
 
-TEST_CASE("parts with locked vertices are not deleted, nor any part where UVs are kept") {
+TEST_CASE("ladder: components with locked vertices are not deleted, and none if attributes are preserved") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::scaled(test::quad(), 3), {5, 0, 0}));
     Play<Script> play(mesh, {});
     play.locked[1] = 1;
@@ -169,8 +169,8 @@ TEST_CASE("parts with locked vertices are not deleted, nor any part where UVs ar
     CHECK(kept.run(2, {LinkCondition::off, 0, 0}).components_deleted == 0);
 }
 
-TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as many as needed") {
-    // A square of two triangles; the first is there three times, the second as well the other way round.
+TEST_CASE("ladder: duplicate faces are deleted before other rungs, as many as needed") {
+    // A square of two triangles. The first occurs three times, the second also with the opposite winding.
     TriangleMesh mesh = test::quad();
     mesh.triangles = {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {2, 0, 1}, {0, 3, 2}};
     for (const std::size_t target : {std::size_t{1}, std::size_t{4}}) {
@@ -178,7 +178,7 @@ TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as
         const LoopResult& result = play.run(target, {LinkCondition::off, 0, 0});
         CHECK(play.collapse_mesh.face_count() == std::max<std::size_t>(target, 3));
         CHECK(taken(result, Rung::duplicate_faces) == 1);
-        CHECK(play.collapse_mesh.is_alive(0));  // the first of each stays
+        CHECK(play.collapse_mesh.is_alive(0));  // the first of each is kept
         CHECK(play.collapse_mesh.is_alive(2));
         CHECK(play.collapse_mesh.is_alive(4));
         CHECK(play.collapse_mesh.is_alive(3) == (target == 4));
@@ -188,7 +188,7 @@ TEST_CASE("where nothing may be collapsed, faces that lie on others go first, as
     }
 }
 
-TEST_CASE("components without area are deleted first, however long they are") {
+TEST_CASE("ladder: components of zero area are deleted first regardless of their length") {
     const TriangleMesh line = test::make({{0, 0, 1}, {100, 0, 1}, {50, 0, 1}}, {{0, 1, 2}});
     Play<Script> play(test::both(line, test::quad()), Script());
     const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0});

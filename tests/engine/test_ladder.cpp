@@ -5,7 +5,7 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-TEST_CASE("each rung relaxes its own rule, once") {
+TEST_CASE("relax_rule: each rung relaxes one rule, once") {
     Rules rules{
         .link = LinkCondition::on, .min_normal_cosine = 0.2, .min_pair_length = 1e-8, .min_fold_cosine = 0.5};
     CHECK(relax_rule(rules, Rung::without_link, CurvePolicy::free));
@@ -24,13 +24,13 @@ TEST_CASE("each rung relaxes its own rule, once") {
         CHECK(!relax_rule(rules, rung, CurvePolicy::free));
 }
 
-TEST_CASE("where the link condition holds by size, the rung lifts it for good") {
+TEST_CASE("relax_rule: without_link also lifts a link condition by_size") {
     Rules rules{.link = LinkCondition::by_size};
     CHECK(relax_rule(rules, Rung::without_link, CurvePolicy::free));
     CHECK(rules.link == LinkCondition::off);
 }
 
-TEST_CASE("faces do not turn over where groups are kept") {
+TEST_CASE("relax_rule: flips above 90 degrees stay forbidden if groups are preserved") {
     Rules rules{.min_normal_cosine = 0.2, .min_pair_length = 1e-8};
     CHECK(!relax_rule(rules, Rung::flip_half, CurvePolicy::kept));
     CHECK(!relax_rule(rules, Rung::flip_any, CurvePolicy::kept));
@@ -39,7 +39,7 @@ TEST_CASE("faces do not turn over where groups are kept") {
     CHECK(relax_rule(rules, Rung::flip_zero, CurvePolicy::kept));
 }
 
-TEST_CASE("rungs that are none of rules relax none") {
+TEST_CASE("relax_rule: rungs without a rule change nothing") {
     Rules rules{.link = LinkCondition::on, .min_normal_cosine = 0.2, .min_fold_cosine = 0.5};
     for (const Rung rung : {Rung::reseed, Rung::duplicate_faces, Rung::tiny_components, Rung::any_component})
         CHECK(!relax_rule(rules, rung, CurvePolicy::free));

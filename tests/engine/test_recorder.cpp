@@ -9,9 +9,9 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-static_assert(std::is_empty_v<NoRecorder>, "recording nothing takes no room");
+static_assert(std::is_empty_v<NoRecorder>, "NoRecorder must not have data members");
 
-TEST_CASE("a collapse is recorded with both versions, the point and the faces at either end") {
+TEST_CASE("recorder: a collapse is recorded with both vertices, the position and the faces around them") {
     const TriangleMesh mesh = test::grid(2);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     HistoryRecorder recorder(collapse_mesh);
@@ -29,7 +29,7 @@ TEST_CASE("a collapse is recorded with both versions, the point and the faces at
     CHECK(h.collapses[0].position == Vec3{1, 2, 3});
     CHECK(h.collapses[1].first == 1);
     CHECK(h.collapses[1].second == 9);
-    // Faces 0 and 1 lie between 0 and 4; 2, 3, 4, 6, 7 ... are the others at 4.
+    // Faces 0 and 1 contain vertices 0 and 4; the others contain vertex 4.
     const auto patch = [&](std::size_t k) {
         const auto faces = h.patch(k);
         return std::set<Index>(faces.begin(), faces.end());
@@ -42,8 +42,8 @@ TEST_CASE("a collapse is recorded with both versions, the point and the faces at
     CHECK(h.deleted_faces[0].face == 7);
 }
 
-TEST_CASE("the history goes on with a complex of other slots under the same names") {
-    //     3---2    Vertices are called 10, 11, 12, 13, faces 20 and 21; the first collapse makes 30.
+TEST_CASE("recorder: the history continues on a renumbered mesh with the same history indices") {
+    //     3---2    History indices: vertices 10, 11, 12, 13, faces 20 and 21, first new vertex 30.
     //     | / |
     //     0---1
     CollapseMesh collapse_mesh = test::collapse_mesh_of(test::quad());
@@ -51,7 +51,7 @@ TEST_CASE("the history goes on with a complex of other slots under the same name
     const Triangle& first = collapse_mesh.triangle(0);
     const Index other = first[0] != 1 && first[1] != 1 && first[2] != 1 ? 0 : 1;  // the face without vertex 1
     recorder.add_collapse(0, 1, {5, 5, 5}, std::vector<Index>{0, 1});
-    // What is left is a triangle of slots 2, 0, 3, which have become 0, 1, 2.
+    // The remaining triangle has slots 2, 0, 3, which become 0, 1, 2.
     recorder.renumber(std::vector<Index>{2, 0, 3}, std::vector<Index>{other});
     CHECK(recorder.version(0) == 12);
     CHECK(recorder.version(1) == 30);

@@ -10,8 +10,8 @@ using namespace faqem;
 using namespace faqem::engine;
 using namespace faqem::test;
 
-TEST_CASE("vertices at one place are one, and a face that they close is dropped") {
-    // A square of two faces with corners of their own, and a sliver between two vertices at one place.
+TEST_CASE("simplify_with: vertices at one position are welded and faces with two equal corners are dropped") {
+    // A square of two faces without shared vertices, and a face with two vertices at one position.
     const TriangleMesh split = make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                                     {{0, 1, 2}, {3, 4, 5}, {0, 3, 1}});
     const CustomResult out = simplify_with(split.view(), AccumulatedMetric({}), {.target_faces = 2});
@@ -22,8 +22,8 @@ TEST_CASE("vertices at one place are one, and a face that they close is dropped"
     CHECK(out.loop.collapses == 0);
 }
 
-TEST_CASE("locked vertices stay where they are, also one of several at a place") {
-    TriangleMesh mesh = globe(12, 1);  // its poles are many vertices
+TEST_CASE("simplify_with: locked vertices do not move, even if only one of several at a position is locked") {
+    TriangleMesh mesh = globe(12, 1);  // each pole consists of several vertices
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
     locks[3] = 1;
     MeshView view = mesh.view();
@@ -35,7 +35,7 @@ TEST_CASE("locked vertices stay where they are, also one of several at a place")
     CHECK(found);
 }
 
-TEST_CASE("bad input is refused with the element that is wrong") {
+TEST_CASE("simplify_with: invalid input is an error that names the element") {
     TriangleMesh mesh = quad();
     mesh.triangles[1][2] = 4;
     CHECK_THROWS_WITH(simplify_with(mesh.view(), AccumulatedMetric({}), {}),

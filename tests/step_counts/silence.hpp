@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much is done between two questions, counted by the compiler.
+/// The number of basic blocks executed between two cancellation checks.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -12,11 +12,11 @@
 
 namespace faqem::test {
 
-/// A few thousandths of a second: a few thousand evaluations of a pair, of a few hundred basic blocks each
-/// where little is inlined.
+/// Limit of the number of basic blocks between two checks: a few milliseconds, or a few thousand
+/// evaluations of a pair with a few hundred basic blocks each, if little is inlined.
 inline constexpr std::uint64_t most_steps = 2'000'000;
 
-/// How long nobody was asked.
+/// Measures the largest number of basic blocks between two cancellation checks.
 class Watch {
 public:
     engine::CancellationCheck check_cancelled() { return engine::CancellationCheck(monitor_); }
@@ -28,7 +28,8 @@ public:
         last_ = test::steps();
         ++calls_;
     }
-    /// From the beginning of the work to its end; less than that was not asked for.
+    /// The maximum since construction, including the time before the first check and after the last one.
+    /// Requires at least two checks.
     std::uint64_t longest() {
         note();
         CHECK(calls_ > 2);
@@ -41,7 +42,7 @@ private:
     engine::ProgressMonitor monitor_{[this] { return note(), Continue::yes; }};
 };
 
-/// The most steps between two questions of work(poll).
+/// The largest number of basic blocks between two checks in work(check_cancelled).
 template <class Work>
 std::uint64_t longest_silence(Work&& work) {
     Watch watch;

@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// What a test has done so far, counted by the compiler: no time, and the same each time.
+/// The work done by a test, measured in basic blocks. Unlike a duration this is reproducible.
 
 #include <cstdint>
 
 namespace faqem::test {
 
-/// Basic blocks that this thread has run, of all that is compiled into this executable.
+/// Number of basic blocks that this thread has executed in the instrumented files of this program.
 std::uint64_t steps();
 
 }  // namespace faqem::test

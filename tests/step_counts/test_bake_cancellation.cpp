@@ -1,4 +1,5 @@
-// The parts of the baker that take long. Their sources are compiled here anew, to be counted.
+// Cancellation checks in the expensive parts of the baker, whose sources are compiled into this program
+// with instrumentation.
 
 #include <catch2/catch.hpp>
 
@@ -18,19 +19,19 @@ using namespace faqem::detail;
 using test::longest_silence;
 using test::most_steps;
 
-TEST_CASE("polls: no part of making charts is silent for long") {
+TEST_CASE("cancellation is checked often during the creation of charts") {
     const std::vector<ChartFace> faces = test::chart_faces(test::shaken(test::icosphere(5), 0.01, 1), 200);
     CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
               cluster_faces(faces, check_cancelled);
           }) < most_steps);
-    // Between the two, the linear system of a chart is solved without a question.
+    // Between these two steps the linear system of a chart is solved, without checks.
     const Charts charts = make_charts(faces, 1);
     CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
               pack_charts(charts.charts, faces.size(), 2048, check_cancelled);
           }) < most_steps);
 }
 
-TEST_CASE("polls: no part of laying out single triangles is silent for long") {
+TEST_CASE("cancellation is checked often during the layout of single triangles") {
     const TriangleMesh mesh = test::icosphere(6);
     const std::vector<ChartFace> faces = test::chart_faces(mesh, 1);
     std::vector<PairTriangle> triangles(faces.size());
@@ -48,7 +49,7 @@ TEST_CASE("polls: no part of laying out single triangles is silent for long") {
           }) < most_steps);
 }
 
-TEST_CASE("polls: no part of the work on images is silent for long") {
+TEST_CASE("cancellation is checked often during image processing") {
     constexpr std::uint32_t side = 1024;
     Pixels pixels{side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side, 99), false};
     CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
@@ -61,7 +62,7 @@ TEST_CASE("polls: no part of the work on images is silent for long") {
           }) < most_steps);
 }
 
-TEST_CASE("polls: no part of looking around is silent for long") {
+TEST_CASE("cancellation is checked often during the computation of visibility") {
     Asset asset;
     for (const TriangleMesh& mesh : {test::icosphere(6), test::scaled(test::icosphere(2), 2)}) {
         Part& part = asset.parts.emplace_back();
@@ -73,7 +74,7 @@ TEST_CASE("polls: no part of looking around is silent for long") {
           }) < most_steps);
 }
 
-TEST_CASE("polls: no part of making tangents is silent for long") {
+TEST_CASE("cancellation is checked often during the computation of tangents") {
     const TriangleMesh mesh = test::icosphere(6);
     std::vector<TangentCorner> corners;
     for (const Triangle& t : mesh.triangles) {

@@ -39,7 +39,7 @@ std::uint64_t silence_of_engine(const TriangleMesh& mesh, Metric metric, std::si
 
 }  // namespace
 
-TEST_CASE("polls: no part of the preparations is silent for long") {
+TEST_CASE("cancellation is checked often during welding and the setup of the engine") {
     const TriangleMesh mesh = test::icosphere(6);
     const std::vector<Vector3> positions = test::vectors(mesh);
     CHECK(longest_silence([&](CancellationCheck check_cancelled) {
@@ -79,7 +79,7 @@ TEST_CASE("polls: no part of the preparations is silent for long") {
           }) < most_steps);
 }
 
-TEST_CASE("polls: no part of the collapse loop is silent for long") {
+TEST_CASE("cancellation is checked often during the collapse loop") {
     const TriangleMesh mesh = test::shaken(test::icosphere(5), 0.005, 1);
     CHECK(silence_of_engine<MemorylessMetric, SweepQueue>(mesh, MemorylessMetric(), 200) < most_steps);
     CHECK(silence_of_engine<AccumulatedMetric, HeapQueue>(mesh, AccumulatedMetric({}), 200) < most_steps);
@@ -91,13 +91,13 @@ TEST_CASE("polls: no part of the collapse loop is silent for long") {
     }
 }
 
-TEST_CASE("polls: nor is a hub, of which a collapse may touch thousands of pairs") {
+TEST_CASE("cancellation is checked often at a vertex with thousands of pairs") {
     TriangleMesh mesh = test::fan(3000);
     mesh.positions[0][2] = 1;
     CHECK(silence_of_engine<AccumulatedMetric, HeapQueue>(mesh, AccumulatedMetric({}), 2000) < most_steps);
 }
 
-TEST_CASE("polls: who cancels inside of a collapse finds the complex whole") {
+TEST_CASE("the mesh is consistent after a cancellation within a collapse") {
     const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.005, 1);
     for (int stop = 1; stop < 40; stop += 6) {
         CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);

@@ -14,28 +14,29 @@ using namespace faqem::engine;
 
 namespace {
 
-// A low cone of so many faces around one vertex.
+// A low cone with the given number of faces around one vertex.
 TriangleMesh cone(Index faces) {
     TriangleMesh mesh = test::fan(faces);
     mesh.positions[0][2] = 0.3;
     return test::shaken(mesh, 0.2 / faces, 1);
 }
 
-// With a part of it gone, the hub is on the border.
+// A cone without a quarter of its faces, so that its apex is on the boundary.
 TriangleMesh open_cone(Index faces) {
     TriangleMesh mesh = cone(faces);
     mesh.triangles.resize(faces - faces / 4);
     return mesh;
 }
 
-// Two cones on one rim: each hub has a fold at the other's end of every edge but none at its own.
+// Two cones with a common rim: an edge from an apex to the rim has a fold at its other end, but is not a
+// fold.
 TriangleMesh lens(Index faces) {
     TriangleMesh mesh = cone(faces);
     const auto other = static_cast<Index>(mesh.positions.size());
     mesh.positions.push_back({0, 0, -0.3});
     for (Index f = 0; f < faces; ++f) {
-        const auto [hub, a, b] = mesh.triangles[f];
-        mesh.triangles.push_back({hub == 0 ? other : hub, b, a});
+        const auto [apex, a, b] = mesh.triangles[f];
+        mesh.triangles.push_back({apex == 0 ? other : apex, b, a});
     }
     return mesh;
 }
@@ -59,7 +60,7 @@ LoopResult run(CollapseMesh& collapse_mesh, Metric metric) {
         .run(loop);
 }
 
-// Of simplifying to a tenth, per face.
+// Basic blocks per face for a simplification to a tenth of the faces.
 double steps_without_memory(const TriangleMesh& mesh) {
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const std::uint64_t before = test::steps();
@@ -80,7 +81,7 @@ double steps_tracked(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("hubs: four times the faces around one vertex are hardly more work for each of them") {
+TEST_CASE("high valence: four times the faces around one vertex need at most 1.5 times the work per face") {
     for (const auto& [name, shape] :
          {std::pair(std::string("cone"), &cone), std::pair(std::string("open cone"), &open_cone),
           std::pair(std::string("lens"), &lens)}) {

@@ -1,4 +1,5 @@
-// The parts of the library that make a mesh ready. Their sources are compiled here anew, to be counted.
+// Cancellation checks in the preprocessing of a mesh, whose sources are compiled into this program with
+// instrumentation.
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,7 @@ using namespace faqem::detail;
 using test::longest_silence;
 using test::most_steps;
 
-TEST_CASE("polls: no part of reading and arranging a mesh is silent for long") {
+TEST_CASE("cancellation is checked often during the preprocessing of a mesh") {
     const TriangleMesh mesh = test::icosphere(6);
     Settings settings = detail::settings({});
     for (const double distance : {0.0, 1e-6}) {
@@ -35,7 +36,7 @@ TEST_CASE("polls: no part of reading and arranging a mesh is silent for long") {
           }) < most_steps);
 }
 
-TEST_CASE("polls: nor is it with thousands of faces twice, or around one vertex") {
+TEST_CASE("cancellation is checked often with thousands of duplicate faces and around one vertex") {
     TriangleMesh mesh = test::fan(50'000);
     mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     const Settings settings = detail::settings({});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A metric with a user's own term, veto or placement on top.
+/// A metric that adds a cost term, a veto or another placement to an existing metric.
 
 #include <cmath>
 #include <concepts>
@@ -14,12 +14,14 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A user's say in each collapse: gets what the metric below found, and gives back the same, another point or
-/// another cost (a placement, a term), or nothing (a veto).
-///
-///     candidate  finite point and cost; engine units
-///     freedom    of the pair (u, v), not `nowhere`: unless `anywhere`, the point must not change
-///     returns    a cost that is not finite is a veto. It must depend on nothing but u, v and their one-rings
+/// A function that adjusts each collapse candidate of another metric. It returns the candidate unchanged,
+/// with another position, or with another cost; or nothing, which forbids the collapse (a veto).
+/// \param inner             the adjusted metric
+/// \param mesh              the current mesh
+/// \param u, v              the vertices of the pair
+/// \param allowed_position  never `nowhere`. Unless it is `anywhere`, the position must not be changed
+/// \param candidate         of the inner metric: finite position and cost, in engine units
+/// \return a cost that is not finite is a veto. The result must depend only on u, v and their one-rings
 template <class A, class Inner>
 concept Adjustment = requires(const A& adjust, const Inner& inner, const CollapseMesh& mesh, Index u, Index v,
                               AllowedPosition allowed_position, const Candidate& candidate) {
@@ -28,10 +30,14 @@ concept Adjustment = requires(const A& adjust, const Inner& inner, const Collaps
         } -> std::convertible_to<std::optional<Candidate>>;
 };
 
-/// Another metric, adjusted. \tparam Inner  one whose costs come in one step, such as MemoryMetric
+/// A metric whose candidates are adjusted by a function.
+/// \tparam Inner   a metric without exact_cost(), such as AccumulatedMetric
+/// \tparam Adjust  see Adjustment; called from const functions on the calling thread
 template <CollapseMetric Inner, Adjustment<Inner> Adjust>
 requires(!LowerBoundMetric<Inner>) class CustomMetric {
 public:
+    /// \param inner   the metric to adjust; moved into this object
+    /// \param adjust  the adjustment; moved into this object
     CustomMetric(Inner inner, Adjust adjust) : inner_(std::move(inner)), adjust_(std::move(adjust)) {}
 
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
@@ -58,7 +64,7 @@ public:
         inner_.after_collapse(mesh, pairs, survivor, around);
     }
 
-    /// At least `lazily`: what the adjustment read around a neighbour has changed.
+    /// At least `deferred`: the adjustment may depend on the one-ring of the neighbour, which has changed.
     Reevaluation reevaluation(const PairTable::Change& change) const {
         const Reevaluation inner = inner_.reevaluation(change);
         return inner == Reevaluation::none ? Reevaluation::deferred : inner;

@@ -2,14 +2,14 @@
 /// \file
 /// The collapse loop (paper, Algorithm 1):
 ///
-///     evaluate every pair, put it in the queue
-///     while more faces than the target:
-///         pop the cheapest pair           (queue empty: climb the starvation ladder)
-///         place the new vertex
-///         veto?  count the reason, forget the pair until its surroundings change; or, where its size is
-///                the reason to keep it, until collapses cost more than that
-///         record, collapse, merge pairs
-///         evaluate the pairs around the new vertex anew
+///     evaluate every pair and insert it into the queue
+///     while the mesh has more faces than the target:
+///         pop the cheapest pair           (queue empty: take the next rung of the starvation ladder)
+///         compute the position of the new vertex
+///         illegal?  count the reason and drop the pair until its neighbourhood changes; or, if the violated
+///                rule depends on the pair's length, requeue the pair at the cost at which the rule is lifted
+///         record the collapse, collapse, merge pairs
+///         re-evaluate the pairs around the new vertex
 
 #include <algorithm>
 #include <cstdint>
@@ -40,19 +40,24 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Collapses pairs of one complex. run() is called once, continue_to() as often as wanted.
-/// \tparam Metric    what a collapse costs and where it goes
-/// \tparam Queue     which pair is next
-/// \tparam Recorder  who is told; NoRecorder costs nothing
+/// Collapses vertex pairs of one mesh, cheapest first. Call run() once, then continue_to() any number of
+/// times. Not thread-safe.
+/// \tparam Metric    determines the cost of a collapse and the new position
+/// \tparam Queue     determines which pair is collapsed next
+/// \tparam Recorder  is notified of each collapse and deletion; NoRecorder has no cost
 template <CollapseMetric Metric, CollapseQueue Queue, CollapseRecorder Recorder>
 class Engine {
 public:
-    /// \param mesh   the surface; changed by run()
-    /// \param pairs     of the complex
-    /// \param wedges    kept attributes, or empty
-    /// \param locked    one per vertex slot: nonzero must not move
-    /// \param curves    between groups, to be kept; null: none
-    /// All are borrowed and must outlive the engine.
+    /// All arguments passed by reference or pointer are borrowed and must outlive the engine.
+    /// \param mesh      the mesh to simplify; modified by run() and continue_to() only
+    /// \param pairs     vertex pairs of `mesh`; updated with it
+    /// \param wedges    corner attributes to preserve, or an empty object; updated with the mesh
+    /// \param locked    one entry per vertex slot; vertices with a nonzero entry do not move. The survivor
+    ///     of a collapse inherits the entry
+    /// \param metric    updated with the mesh
+    /// \param recorder  notified before each change
+    /// \param curves    boundaries between face groups to preserve; updated with the mesh; null: none
+    /// \param queue     moved into the engine
     Engine(CollapseMesh& mesh, PairTable& pairs, Wedges& wedges, std::vector<std::uint8_t>& locked,
            Metric& metric, Recorder& recorder, FeatureCurves* curves = nullptr, Queue queue = Queue())
         : mesh_(mesh),
@@ -67,7 +72,12 @@ public:
           has_rejected_(mesh.vertex_slots(), 0),
           lifted_rules_(pairs.size(), 0) {}
 
-    /// Runs to the target. O(n log n) in the number of pairs for bounded valence.
+    /// Collapses pairs until the target face count is reached or no legal collapse is left.
+    /// \param options  see LoopOptions
+    /// \return what was done; the stop reason is `cancelled` if `options.progress` returned
+    ///     Continue::cancel
+    /// \throws whatever `options.progress` throws. The mesh is consistent then, and after cancellation
+    /// O(n log n) in the number of pairs, for bounded valence and HeapQueue.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
         distance_weight_ = options.distance_weight;
@@ -88,10 +98,13 @@ public:
         });
     }
 
-    /// After run(), on to a lower target. Rules stay as far relaxed as they are; what is left of the ladder
-    /// is climbed anew. A metric that does not depend on the target goes on as if there had been no stop.
-    /// \param options  those of run(), with another target and no smaller distance weight
-    /// \return the sums of all calls
+    /// Continues after run() to a lower target. Rules that were relaxed stay relaxed, and the ladder starts
+    /// again with its first rung. If the metric does not depend on the target, the stop does not change the
+    /// order of the collapses.
+    /// \param options  those of run(), with a lower target face count and a distance weight that is not
+    ///     smaller
+    /// \return the totals of all calls
+    /// \throws whatever `options.progress` throws
     LoopResult continue_to(const LoopOptions& options) {
         distance_weight_ = options.distance_weight;
         if constexpr (TargetDependentMetric<Metric>)
@@ -136,11 +149,12 @@ private:
         return static_cast<std::size_t>(share * static_cast<double>(pairs_.size()));
     }
 
-    // Tells whether all pairs are worth another look, after a rung of the ladder perhaps.
+    // Returns true if all pairs are to be evaluated again, possibly after taking a rung of the ladder.
     bool retry_or_relax(const LoopOptions& options) {
         const std::size_t removed_faces = face_count_at_last_pass_ - mesh_.face_count();
         const std::size_t excess = mesh_.face_count() - options.target_faces;
-        // Seeding costs a pass over all pairs: again only while it brings the target nearer by a tenth.
+        // Evaluating all pairs again is expensive. It is repeated only if the faces removed since the last
+        // time are at least a tenth of those still in excess.
         const bool worth_it = 10 * removed_faces >= excess && removed_faces > 0;
         if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0)) return take_next_rung(options);
         ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
@@ -154,7 +168,8 @@ private:
         }
     }
 
-    // Collapses until the target is reached (true), or the queue is empty (false).
+    // Collapses pairs. Returns true once the target is reached, false if the queue becomes empty before
+    // that.
     bool process_queue(const LoopOptions& options) {
         while (mesh_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
@@ -208,7 +223,7 @@ private:
         }
     }
 
-    // Evaluates the pair, now or when its turn comes.
+    // Evaluates the pair, or marks its cost as stale so that it is evaluated when it is popped.
     void reevaluate(Index pair) {
         if constexpr (LazyQueue<Queue>) {
             if (queue_.mark_stale(pair) && !lifted_rules_[pair]) return;
@@ -216,12 +231,14 @@ private:
         evaluate(pair);
     }
 
-    // The pair is out of the queue, or far behind in it, until the surroundings of one of its ends change.
+    // Marks both vertices of a pair that has left the queue, or was requeued at a higher cost, so that the
+    // pair is evaluated again when the one-ring of one of them changes.
     void mark_rejected(Index pair) {
         has_rejected_[pairs_.first(pair)] = has_rejected_[pairs_.second(pair)] = 1;
     }
 
-    // False: it may not be done. It need not be done yet, either.
+    // Returns false if the pair must not be collapsed and has left the queue. True means that it was
+    // collapsed or requeued.
     bool try_collapse(Index pair) {
         Index u = pairs_.first(pair), v = pairs_.second(pair);
         auto found = candidate(pair);
@@ -240,8 +257,8 @@ private:
             found->cost = metric_.exact_cost(mesh_, pairs_, u, v, *found);
             if (requeue_if_costlier(pair, found->cost)) return true;
         }
-        // A locked vertex survives. Else the fuller one does: its lists need not be walked again and again at
-        // a hub.
+        // A locked vertex survives. Otherwise the vertex of higher valence does, so that the long lists of
+        // a high-valence vertex are not moved to another vertex again and again.
         const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : mesh_.degree(v) > mesh_.degree(u);
         if (swap) std::swap(u, v);
         if (lifted_rules_[pair] & link_bit) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
@@ -277,9 +294,10 @@ private:
         return refusal == Refusal::fold && rules_.link == LinkCondition::off;
     }
 
-    // What the link condition or the rule against folds protects at a pair is about as large as the pair:
-    // against it the surface moves by its length, over an area of its length squared; a fold is seen beyond
-    // that. Where all other collapses cost more, it is lifted.
+    // The feature that the link condition or the fold rule preserves at a pair is about as large as the
+    // pair. Removing it moves the surface by the pair's length l over an area of l^2, which costs l^4. The
+    // area of a fold is taken to be at least fold_factor * distance_weight_, because a fold is visible
+    // beyond that area. The rule is lifted for this pair once all other collapses cost more.
     void lift_rule(Index pair, double cost, Refusal refusal) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
         const double square = (mesh_.position(u) - mesh_.position(v)).squaredNorm();
@@ -290,10 +308,12 @@ private:
         mark_rejected(pair);
     }
 
-    // A pair that turns out dearer than it seemed, and than the next one, waits for its turn.
+    // Requeues the pair with the given cost and returns true if the queue contains a cheaper pair.
     bool requeue_if_costlier(Index pair, double cost) {
         if constexpr (LazyQueue<Queue>) {
-            // To try a pair at a hub is a long look at it: not before its turn.
+            // Testing a pair at a high-valence vertex is expensive. A lazy queue returns pairs only
+            // approximately in order, so the cost is raised by its approximation factor to avoid testing
+            // the pair too early.
             const bool touches_high_valence =
                 mesh_.is_high_valence(pairs_.first(pair)) || mesh_.is_high_valence(pairs_.second(pair));
             if (touches_high_valence) cost *= queue_.approximation_factor();
@@ -336,7 +356,7 @@ private:
         }
     }
 
-    // Takes the next rung. False: there is none left.
+    // Takes the next rung of the ladder. Returns false if none is left.
     bool take_next_rung(const LoopOptions& options) {
         if (delete_duplicate_faces(options)) {
             ++result_.rungs[static_cast<std::size_t>(Rung::duplicate_faces)];
@@ -351,14 +371,14 @@ private:
         return false;
     }
 
-    // False where the rung would change nothing.
+    // Returns false if the rung would change nothing.
     bool apply_rung(Rung rung, const LoopOptions& options) {
         switch (rung) {
             case Rung::tiny_components:
                 return delete_components(options, options.tiny_component_diagonal);
             case Rung::any_component:
-                // Kept seams and groups are a wish of the user's, like locks: a large part is not given up
-                // for them.
+                // Preserved seams and groups are a request of the user, like locks. If they prevent the
+                // target from being reached, only tiny components are deleted to compensate.
                 return wedges_.empty() && !keeps_groups() &&
                        delete_components(options, std::numeric_limits<double>::infinity());
             default:
@@ -366,7 +386,8 @@ private:
         }
     }
 
-    // Down to the target. No surface is lost, but perhaps a group.
+    // Deletes duplicate faces until the target is reached. The surface stays the same, but a group might
+    // lose its only face, so that this is not done if groups are preserved.
     bool delete_duplicate_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
         bool any = false;
@@ -379,13 +400,14 @@ private:
             any = true;
         }
         if (any && boundary_loops_)
-            boundary_loops_.emplace(mesh_, pairs_, no_index, check_cancelled_);  // edges may have become open
+            boundary_loops_.emplace(mesh_, pairs_, no_index, check_cancelled_);  // new boundary edges
         return any;
     }
 
     bool keeps_groups() const { return curves_ && !curves_->empty(); }
 
-    // Down to the target; never the largest.
+    // Deletes removable components, smallest first, until the target is reached. The largest component is
+    // never deleted.
     bool delete_components(const LoopOptions& options, double largest_diagonal) {
         bool any = false;
         for (const Component& component :
@@ -411,7 +433,8 @@ private:
         ++result_.components_deleted;
     }
 
-    // As long as it takes, about, with the tests and without the pairs around it.
+    // Cost of one collapse with its tests in units of pair evaluations, without the re-evaluation of
+    // adjacent pairs. An estimate for the cancellation check.
     static constexpr std::uint64_t evaluations_per_collapse = 8;
     static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
     static constexpr double fold_factor = 2;
@@ -428,13 +451,13 @@ private:
     std::optional<BoundaryLoops> boundary_loops_;
     double distance_weight_ = 0;
     Queue queue_;
-    std::vector<std::uint8_t> has_rejected_;  // of a vertex: some of its pairs may have been refused
-    std::vector<std::uint8_t> lifted_rules_;  // of a pair: bits of the rules that no longer hold it
+    std::vector<std::uint8_t> has_rejected_;  // per vertex: its pairs may have been rejected
+    std::vector<std::uint8_t> lifted_rules_;  // per pair: bits of the rules that are lifted
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;
     std::size_t initial_face_count_ = 0;
-    std::size_t face_count_at_last_pass_ = 0;  // faces there were
+    std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
     std::size_t target_face_count_ = 0;
     std::function<Continue(double)> progress_;
     ProgressMonitor monitor_{[this] { return report_progress(); }};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rules that the starvation ladder relaxes, one after the other, where no collapse is legal any more.
+/// Relaxation of the legality rules by the starvation ladder when no legal collapse is left.
 
 #include <utility>
 
@@ -11,11 +11,14 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Whether the curves between groups are to be kept.
+/// Whether the boundaries between face groups are preserved.
 enum class CurvePolicy { free, kept };
 
-/// Relaxes what stands in the way of the rung. O(1)
-/// \return false where the rules were as lax before, or the rung is none of rules
+/// Relaxes the rule that belongs to a rung of the ladder. O(1)
+/// \param rules   modified
+/// \param rung    any rung
+/// \param groups  if `kept`, normal deviations above 90 degrees stay forbidden
+/// \return false if the rules do not change: they are already relaxed this far, or the rung has no rule
 inline bool relax_rule(Rules& rules, Rung rung, CurvePolicy groups) {
     const auto lower_min_normal_cosine = [&](double limit) {
         if (!(rules.min_normal_cosine > limit)) return false;
@@ -34,7 +37,7 @@ inline bool relax_rule(Rules& rules, Rung rung, CurvePolicy groups) {
         case Rung::flip_half:
             return groups == CurvePolicy::free && lower_min_normal_cosine(-0.5);
         case Rung::flip_any:
-            // Faces that turn over would cover another group's ground.
+            // Flipped faces could overlap faces of another group.
             if (groups == CurvePolicy::kept) return false;
             rules.min_pair_length = 0;
             return lower_min_normal_cosine(-1);

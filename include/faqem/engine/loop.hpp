@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What goes into the collapse loop, and what it tells of its work.
+/// Options and result of the collapse loop.
 
 #include <array>
 #include <cstddef>
@@ -16,37 +16,40 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// What the loop does where no collapse is legal above the target.
+/// What the loop does if no legal collapse is left above the target.
 enum class Ladder {
-    on,   ///< looks at all pairs again, then relaxes one rule after the other
+    on,   ///< evaluates all pairs again, then relaxes one rule after the other
     off,  ///< stops
 };
 
-/// What the loop needs besides the complex, the metric and the recorder.
+/// Options of one run of the collapse loop.
 struct LoopOptions {
-    std::size_t target_faces = 4;
-    Rules rules = {};
+    std::size_t target_faces = 4;  ///< the loop stops at this face count or below
+    Rules rules = {};              ///< legality rules at the start; the ladder relaxes them
     Ladder ladder = Ladder::on;
-    /// Vertices from here on are there for their faces with others; what else lies around them is not known.
-    /// They must be locked, and so must their neighbours.
+    /// Vertices with this index or a larger one are context: they complete the faces of other vertices, and
+    /// not all of their own faces are in the mesh. They and their neighbours must be locked. no_index:
+    /// none.
     Index first_context_vertex = no_index;
-    /// What the square of a distance costs that the metric does not see: from a border that ends or begins to
-    /// the next one, and twice that of a pair whose collapse folds the surface. 0: nothing.
+    /// Cost of a squared distance that the metric does not measure, >= 0; 0: not counted. It applies to the
+    /// distance from a boundary loop that vanishes or appears to the nearest other one, and, doubled, to
+    /// the squared length of a pair whose collapse folds the surface.
     double distance_weight = 0;
-    /// Components with a smaller box diagonal may be deleted early by the ladder. Engine units.
+    /// The rung `tiny_components` may delete components whose bounding box diagonal is at most this. Engine
+    /// units, >= 0.
     double tiny_component_diagonal = 0;
-    /// Called every few thousand operations with the share of faces removed; may be empty. Where it throws,
-    /// or cancels, the complex stays whole.
+    /// Called on the calling thread after every few thousand operations with the fraction of faces removed,
+    /// in [0, 1]; may be empty. If it cancels or throws, the mesh stays consistent.
     std::function<Continue(double)> progress = {};
 };
 
-/// What the loop did.
+/// Result of the collapse loop; totals over all calls of one engine.
 struct LoopResult {
     StopReason stop = StopReason::reached_target;
-    std::uint64_t collapses = 0;
-    std::array<std::uint64_t, refusal_kinds> refusals = {};
-    std::array<std::uint64_t, rung_kinds> rungs = {};
-    std::uint64_t components_deleted = 0;
+    std::uint64_t collapses = 0;                             ///< number of collapses
+    std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal: how often a collapse was refused
+    std::array<std::uint64_t, rung_kinds> rungs = {};        ///< by Rung: how often the rung was taken
+    std::uint64_t components_deleted = 0;                    ///< connected components deleted by the ladder
 };
 
 }  // namespace engine

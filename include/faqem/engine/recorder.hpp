@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Recorders see every collapse before it happens. NoRecorder compiles to nothing.
+/// Recorders are notified of every collapse before it happens.
 
 #include <concepts>
 #include <numeric>
@@ -16,63 +16,74 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
+/// Receives the collapses and deletions of an Engine.
 template <class R>
 concept CollapseRecorder = requires(R recorder, const CollapseMesh& mesh, Index survivor, Index removed,
                                     const Candidate& to, Index face) {
-    // Both are about to become `survivor` at to.point; the complex is still as before.
+    // Called before `survivor` and `removed` are merged into `survivor` at to.point; the mesh is still
+    // unchanged.
     {recorder.before_collapse(mesh, survivor, removed, to)};
-    // The face goes with its component.
+    // Called before a face is deleted that is not part of a collapse.
     {recorder.before_deletion(face)};
 };
 
-/// Records nothing, at no cost.
+/// Records nothing. Compiles to no code.
 struct NoRecorder {
     void before_collapse(const CollapseMesh&, Index, Index, const Candidate&) {}
     void before_deletion(Index) {}
 };
 
-/// Records the collapse history, in engine units.
+/// Records a CollapseHistory. Positions are in engine units.
 class HistoryRecorder {
 public:
-    /// \param vertices  what the history calls the vertex slots of the complex
-    /// \param faces     what it calls its face slots
-    /// \param first_new_version     what it calls the vertex that the first collapse makes; the next ones follow
+    /// \param vertices           history index of each vertex slot of the mesh
+    /// \param faces              history index of each face slot
+    /// \param first_new_version  history index of the vertex that the first collapse creates; further
+    ///     collapses get the following indices
     HistoryRecorder(std::vector<Index> vertices, std::vector<Index> faces, Index first_new_version)
         : version_(std::move(vertices)), faces_(std::move(faces)), first_new_version_(first_new_version) {
         history_.patch_begin.push_back(0);
     }
 
-    /// Calls the slots by their numbers.
+    /// Uses the slot numbers of `mesh` as history indices. New vertices are numbered from the number of
+    /// vertex slots on. O(vertices + faces)
     explicit HistoryRecorder(const CollapseMesh& mesh)
         : HistoryRecorder(identity(mesh.vertex_slots()), identity(mesh.face_slots()),
                           static_cast<Index>(mesh.vertex_slots())) {}
 
+    /// Records a collapse and the faces around the pair. O(valence)
     void before_collapse(const CollapseMesh& mesh, Index survivor, Index removed, const Candidate& to) {
         mesh.for_each_face_around(survivor, removed,
                                   [&](Index f, unsigned) { history_.patch_faces.push_back(faces_[f]); });
         add(survivor, removed, to.point);
     }
 
-    /// Makes room for more collapses with so many faces around them, together.
+    /// Reserves memory.
+    /// \param collapses  number of further collapses
+    /// \param faces      total number of faces around the pairs of these collapses
     void reserve(std::size_t collapses, std::size_t faces) {
         history_.collapses.reserve(history_.collapses.size() + collapses);
         history_.patch_begin.reserve(history_.patch_begin.size() + collapses);
         history_.patch_faces.reserve(history_.patch_faces.size() + faces);
     }
 
-    /// Records a collapse whose faces are known.
-    /// \param patch  face slots with one of both vertices
+    /// Records a collapse with the given faces. O(size of `patch`)
+    /// \param survivor, removed  vertex slots
+    /// \param to                 position of the new vertex
+    /// \param patch              slots of the faces that contain one of the vertices or both
     void add_collapse(Index survivor, Index removed, const Vector3& to, std::span<const Index> patch) {
         for (const Index f : patch) history_.patch_faces.push_back(faces_[f]);
         add(survivor, removed, to);
     }
 
+    /// Records the deletion of a face. O(1)
     void before_deletion(Index face) {
         history_.deleted_faces.push_back({history_.collapses.size(), faces_[face]});
     }
 
-    /// Goes on with another complex.
-    /// \param vertices, faces  the slots that its slots were
+    /// Continues with another mesh, whose slots are a subset of the current ones. O(new slots)
+    /// \param vertices  for each vertex slot of the new mesh, its slot in the current mesh
+    /// \param faces     likewise for face slots
     void renumber(std::span<const Index> vertices, std::span<const Index> faces) {
         const auto take = [](std::vector<Index>& of, std::span<const Index> slots) {
             std::vector<Index> taken;
@@ -84,13 +95,13 @@ public:
         take(faces_, faces);
     }
 
-    /// What the history calls the vertex that a slot is now.
+    /// Current history index of a vertex slot.
     Index version(Index slot) const { return version_[slot]; }
 
-    /// The collapses, their patches and the deleted faces so far.
+    /// The collapses, their patches and the deleted faces recorded so far. The other members are empty.
     const CollapseHistory& history() const { return history_; }
 
-    /// Gives away the collapses, their patches and the deleted faces; the rest is the caller's to fill.
+    /// Moves the recorded history out of the recorder. The caller must fill the other members.
     CollapseHistory take() { return std::move(history_); }
 
 private:
@@ -108,8 +119,8 @@ private:
     }
 
     CollapseHistory history_;
-    std::vector<Index> version_;  // of each vertex slot
-    std::vector<Index> faces_;    // of each face slot
+    std::vector<Index> version_;  // history index of each vertex slot
+    std::vector<Index> faces_;    // history index of each face slot
     Index first_new_version_;
 };
 

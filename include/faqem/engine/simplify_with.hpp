@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One call of the engine with a metric of the user's own.
+/// Simplification with a custom metric in one call.
 
 #include <cmath>
 #include <string>
@@ -15,19 +15,19 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// What simplify_with() gives back.
+/// Result of simplify_with().
 struct CustomResult {
-    TriangleMesh mesh;                 ///< positions and triangles
-    std::vector<Index> vertex_origin;  ///< per vertex of `mesh`: an input vertex it grew from
-    std::vector<Index> face_origin;    ///< per face of `mesh`: the input face it was
-    LoopResult loop;
+    TriangleMesh mesh;                 ///< positions and triangles; no groups and no attributes
+    std::vector<Index> vertex_origin;  ///< per vertex of `mesh`: an input vertex merged into it
+    std::vector<Index> face_origin;    ///< per face of `mesh`: its index in the input
+    LoopResult loop;                   ///< counts and stop reason
 };
 
 namespace simplify_with_detail {
 
 inline void check(const MeshView& mesh) {
-    if (!(mesh.positions.size() < no_index)) throw InputError("positions: too many");
-    if (mesh.triangles.size() > max_faces) throw InputError("triangles: too many");
+    if (!(mesh.positions.size() < no_index)) throw InputError("positions: more than 2^32 - 2 vertices");
+    if (mesh.triangles.size() > max_faces) throw InputError("triangles: more than 715827880 faces");
     if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size())
         throw InputError("vertex_locks: needs one entry per vertex or none");
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -42,7 +42,7 @@ inline void check(const MeshView& mesh) {
     }
 }
 
-// Three no_index where two corners are at one place.
+// Replaces each corner by its representative. Faces with two equal corners get three times no_index.
 inline std::vector<Triangle> welded_faces(const MeshView& mesh, const std::vector<Index>& representative) {
     std::vector<Triangle> triangles(mesh.triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -72,13 +72,19 @@ inline void build_result(const CollapseMesh& collapse_mesh, CustomResult& result
 
 }  // namespace simplify_with_detail
 
-/// Collapses pairs, cheapest first by `metric`, until `options` says that it is enough. Vertices at one place
-/// are one. There are no units but the model's: a metric that needs a certain scale must see to it.
-/// \param mesh     any triangle soup; positions, triangles and locks count
-/// \param metric   what a collapse costs and where it goes; a CustomMetric, say
-/// \param options  target_faces, rules, ladder, progress
-/// \throws InputError  an index is out of range, a position is not finite, or an array has the wrong length
-/// O(n log n) in the number of faces for bounded valence.
+/// Simplifies a mesh with a custom metric: welds vertices at equal positions, then collapses pairs in the
+/// order of their cost. Coordinates are not scaled; a metric whose parameters depend on the size of the
+/// model must adapt them. Runs on the calling thread.
+/// \tparam Metric  CustomMetric, or another CollapseMetric
+/// \tparam Queue   HeapQueue, or another CollapseQueue
+/// \param mesh     any triangle soup; positions, triangles and vertex_locks are used. Not modified
+/// \param metric   determines the cost of a collapse and the new position
+/// \param options  see LoopOptions; lengths are in model units
+/// \return the simplified mesh; vertices and faces are in the order of the input
+/// \throws InputError if an index is out of range, a position is not finite, an array has the wrong length
+///     or the mesh has too many elements
+/// \throws whatever `options.progress` throws
+/// O(n log n) in the number of faces, for bounded valence and HeapQueue.
 template <CollapseMetric Metric, CollapseQueue Queue = HeapQueue>
 CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOptions& options) {
     simplify_with_detail::check(mesh);

@@ -14,7 +14,7 @@ struct Bench {
     explicit Bench(const TriangleMesh& mesh)
         : collapse_mesh(test::collapse_mesh_of(mesh)),
           pairs(collapse_mesh, {}),
-          borders(collapse_mesh, pairs) {}
+          loops(collapse_mesh, pairs) {}
 
     Index pair(Index u, Index v) const {
         Index found = no_index;
@@ -24,43 +24,43 @@ struct Bench {
         return found;
     }
     double squared_distance(Index u, Index v) {
-        return borders.squared_distance(collapse_mesh, pairs, u, v, pair(u, v));
+        return loops.squared_distance(collapse_mesh, pairs, u, v, pair(u, v));
     }
     void collapse(Index u, Index v) {
-        borders.before_collapse(pairs, u, v, pair(u, v));
+        loops.before_collapse(pairs, u, v, pair(u, v));
         collapse_mesh.collapse(u, v, collapse_mesh.position(u));
         std::vector<Index> killed;
         std::vector<PairTable::Change> changes;
         pairs.merge(collapse_mesh, u, v, killed, changes);
-        borders.after_collapse(collapse_mesh, pairs, u);
+        loops.after_collapse(collapse_mesh, pairs, u);
     }
 
     CollapseMesh collapse_mesh;
     PairTable pairs;
-    BoundaryLoops borders;
+    BoundaryLoops loops;
 };
 
-// A triangle in the plane x, its first vertex on the x axis and nearest to those of others.
+// A triangle in the plane x, whose first vertex is on the x axis and nearest to the other triangles.
 TriangleMesh triangle_at(double x) { return test::make({{x, 0, 0}, {x, 0.1, 0}, {x, 0, 0.1}}, {{0, 1, 2}}); }
 
 }  // namespace
 
-TEST_CASE("border loops: where a hole closes, the outer border is the next one") {
+TEST_CASE("boundary loops: the error of closing a hole is its distance to the outer loop") {
     // A ring of six faces between the triangle 0 1 2 and the hole 3 4 5.
     const TriangleMesh ring =
         test::make({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}},
                    {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
     Bench bench(ring);
     CHECK(bench.squared_distance(3, 4) == Approx(4.5));  // from 3 to 0
-    CHECK(bench.squared_distance(0, 3) == 0);            // the two become one
+    CHECK(bench.squared_distance(0, 3) == 0);            // the two loops are merged
     CHECK(bench.squared_distance(1, 4) == 0);
     bench.collapse(3, 4);
-    // No other border is left: the box counts, and the way that the hole has gone.
+    // No other loop is left: the diagonal counts, plus the distance of the closed hole.
     const double diagonal = std::sqrt(4 * 4 + 4 * 4);
     CHECK(bench.squared_distance(0, 1) == Approx(std::pow(diagonal + std::sqrt(4.5), 2)));
 }
 
-TEST_CASE("border loops: a hole of four edges does not end with one of them") {
+TEST_CASE("boundary loops: a hole of four edges does not vanish with its first collapse") {
     // The middle square of 3 x 3 is missing.
     TriangleMesh frame = test::grid(3);
     frame.triangles.erase(frame.triangles.begin() + 8, frame.triangles.begin() + 10);
@@ -70,30 +70,31 @@ TEST_CASE("border loops: a hole of four edges does not end with one of them") {
     CHECK(bench.squared_distance(5, 10) > 0);
 }
 
-TEST_CASE("border loops: what went to a border that ends is as far from the next one as both ways") {
+TEST_CASE("boundary loops: the distances of loops that vanish one after the other add up") {
     Bench bench(test::both(test::both(triangle_at(0), triangle_at(1)), triangle_at(3)));
     CHECK(bench.squared_distance(0, 1) == Approx(1));
     CHECK(bench.squared_distance(3, 4) == Approx(1));
     CHECK(bench.squared_distance(6, 7) == Approx(4));
     bench.collapse(0, 1);
-    CHECK(bench.squared_distance(3, 4) == Approx(9));  // 1 from the first triangle, 2 on
+    CHECK(bench.squared_distance(3, 4) == Approx(9));  // 1 from the first triangle to it, plus 2
     CHECK(bench.squared_distance(6, 7) == Approx(4));
     bench.collapse(3, 4);
     CHECK(bench.squared_distance(6, 7) > 9);
 }
 
-TEST_CASE("border loops: a border may begin where a flap of two faces comes off") {
-    // Each side of the triangle 0 1 2 has a flap of two faces, back to back: three faces, and no open edge.
+TEST_CASE("boundary loops: removing two back-to-back faces at a non-manifold edge can start a loop") {
+    // Each side of the triangle 0 1 2 has two more faces, back to back: it has three faces and is not a
+    // boundary edge.
     TriangleMesh flaps =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                    {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}});
     Bench bench(flaps);
-    CHECK(bench.squared_distance(0, 3) == Approx(3));  // there is none yet: the box
+    CHECK(bench.squared_distance(0, 3) == Approx(3));  // there is no loop yet: the diagonal
     bench.collapse(0, 3);
-    CHECK(bench.squared_distance(1, 4) == 0);  // next to the one that has begun
+    CHECK(bench.squared_distance(1, 4) == 0);  // adjacent to the loop that was started
 }
 
-TEST_CASE("border loops: closed surfaces have nothing to lose") {
+TEST_CASE("boundary loops: collapses of a closed surface have no error") {
     Bench bench(test::icosphere(1));
     for (Index pair = 0; pair < bench.pairs.size(); ++pair) {
         CHECK(bench.squared_distance(bench.pairs.first(pair), bench.pairs.second(pair)) == 0);

@@ -13,7 +13,7 @@ using namespace faqem::engine;
 
 namespace {
 
-// A mesh with groups, and the curves between them.
+// A mesh with groups and the curves between them.
 struct Map {
     Map(TriangleMesh m, std::vector<Index> g, const std::vector<std::pair<Index, Index>>& extra = {})
         : mesh(std::move(m)),
@@ -34,8 +34,8 @@ struct Map {
     FeatureCurves curves;
 };
 
-// grid(n) with the group of each square; vertex x + (n + 1) y, square x + n y is faces 2 (x + n y) and the
-// next.
+// Groups of the faces of grid(n) by square. Vertex (x, y) has the index x + (n + 1) y; square (x, y)
+// consists of the faces 2 (x + n y) and the next one.
 std::vector<Index> squares(Index n, const std::function<Index(Index x, Index y)>& group) {
     std::vector<Index> groups;
     for (Index y = 0; y < n; ++y) {
@@ -44,14 +44,14 @@ std::vector<Index> squares(Index n, const std::function<Index(Index x, Index y)>
     return groups;
 }
 
-// Face `f` of `faces` against all others.
+// Group 1 for face `f`, group 0 for the others.
 std::vector<Index> one_of(std::size_t faces, std::size_t f) {
     std::vector<Index> groups(faces, 0);
     groups[f] = 1;
     return groups;
 }
 
-// Ends of the edges where groups meet, by their places.
+// Edges between different groups, by the positions of their vertices.
 using Curves = std::set<std::pair<Vec3, Vec3>>;
 
 Curves curves_of(const TriangleMesh& mesh) {
@@ -70,12 +70,13 @@ Curves curves_of(const TriangleMesh& mesh) {
     return curves;
 }
 
-// How many curves end at each place that is no inner one of a curve.
+// Number of vertices on curves by their number of curve edges, except for inner vertices of a curve, which
+// have two.
 std::map<std::size_t, int> nodes_by_degree(const TriangleMesh& mesh) {
     std::map<Vec3, std::size_t> degree;
     for (const auto& [a, b] : curves_of(mesh)) ++degree[a], ++degree[b];
     std::map<std::size_t, int> nodes;
-    for (const auto& [place, count] : degree) nodes[count] += count != 2;
+    for (const auto& [position, count] : degree) nodes[count] += count != 2;
     nodes.erase(2);
     return nodes;
 }
@@ -98,7 +99,7 @@ Options keeping(double keep, Preset preset = Preset::balanced) {
     return options;
 }
 
-// A sphere in eight sorts, by octants.
+// A sphere with one group per octant.
 TriangleMesh octants(int level) {
     TriangleMesh mesh = test::icosphere(level);
     for (const Triangle& t : mesh.triangles) {
@@ -113,7 +114,7 @@ TriangleMesh octants(int level) {
 
 }  // namespace
 
-TEST_CASE("without groups, or with one, there are no curves and no rule") {
+TEST_CASE("feature curves: without adjacent faces of different groups there are no curves") {
     FeatureCurves none;
     CHECK(none.empty());
     CHECK(!none.has_vertex(0));
@@ -121,13 +122,13 @@ TEST_CASE("without groups, or with one, there are no curves and no rule") {
     Map one(test::grid(2), std::vector<Index>(8, 7));
     CHECK(one.curves.empty());
     CHECK(one.allowed_position(0, 1) == AllowedPosition::anywhere);
-    // Groups on parts that do not touch have no curve either.
+    // Groups of separate components have no curve, either.
     Map apart(test::both(test::quad(), test::moved(test::quad(), {2, 0, 0})), {0, 0, 1, 1});
     CHECK(apart.curves.empty());
 }
 
-TEST_CASE("next to a curve, the curve stays and the inside comes to it") {
-    // Columns of a 4 x 4 grid, the two on the left against the two on the right: the curve is x = 2.
+TEST_CASE("feature curves: a pair of an inner vertex and a curve vertex collapses to the curve vertex") {
+    // A 4 x 4 grid with one group in the two left columns and one in the right ones: the curve is x = 2.
     Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
     for (Index v = 0; v < 25; ++v) CHECK(map.curves.has_vertex(v) == (v % 5 == 2));
     CHECK(map.allowed_position(11, 12) == AllowedPosition::at_second);
@@ -136,15 +137,15 @@ TEST_CASE("next to a curve, the curve stays and the inside comes to it") {
     CHECK(map.allowed_position(7, 12) == AllowedPosition::anywhere);
 }
 
-TEST_CASE("where a curve ends at an open border, it stays") {
+TEST_CASE("feature curves: the end of a curve at the boundary does not move") {
     Map map(test::grid(4), squares(4, [](Index x, Index) { return x / 2; }));
     CHECK(map.allowed_position(2, 7) == AllowedPosition::at_first);
     CHECK(map.allowed_position(7, 2) == AllowedPosition::at_second);
     CHECK(map.allowed_position(1, 2) == AllowedPosition::at_second);
 }
 
-TEST_CASE("where three groups or four curves meet, the place stays") {
-    // T: left against upper and lower right. X: a checkerboard of 2 x 2.
+TEST_CASE("feature curves: a vertex at which three or four curves meet does not move") {
+    // T: left, upper right and lower right. X: a checkerboard of 2 x 2.
     for (const bool cross : {false, true}) {
         CAPTURE(cross);
         Map map(test::grid(4), squares(4, [&](Index x, Index y) {
@@ -157,16 +158,16 @@ TEST_CASE("where three groups or four curves meet, the place stays") {
     }
 }
 
-TEST_CASE("two curves are not joined, nor is one shortcut") {
-    // Three stripes, the middle one a square wide.
+TEST_CASE("feature curves: two curves are not merged") {
+    // Three stripes of one square each.
     Map stripes(test::grid(3), squares(3, [](Index x, Index) { return x; }));
     CHECK(stripes.allowed_position(5, 6) == AllowedPosition::nowhere);
     CHECK(stripes.allowed_position(6, 5) == AllowedPosition::nowhere);
     CHECK(stripes.allowed_position(5, 9) == AllowedPosition::anywhere);
 }
 
-TEST_CASE("the last triangle of a group stays") {
-    // The lower right triangle of the middle square of 3 x 3.
+TEST_CASE("feature curves: the last triangle of a group is not collapsed") {
+    // The group is the lower right triangle of the middle square of 3 x 3.
     Map map(test::grid(3), one_of(18, 8));
     for (const auto& [u, v] : {std::pair<Index, Index>{5, 6}, {6, 10}, {5, 10}}) {
         CHECK(map.allowed_position(u, v) == AllowedPosition::nowhere);
@@ -175,20 +176,21 @@ TEST_CASE("the last triangle of a group stays") {
     CHECK(map.allowed_position(1, 5) == AllowedPosition::at_second);
 }
 
-TEST_CASE("a triangle in the angle between a curve and an open border stays") {
-    // The triangle 0 1 5 of grid(3) against all others: collapsing its inner edge would end the curve
-    // elsewhere.
+TEST_CASE("feature curves: a triangle between a curve and the boundary is not collapsed") {
+    // The group is the triangle 0 1 5 of grid(3): collapsing its inner edge would move the end of the
+    // curve.
     Map map(test::grid(3), one_of(18, 0));
     CHECK(map.allowed_position(0, 1) == AllowedPosition::nowhere);
     CHECK(map.allowed_position(1, 5) == AllowedPosition::nowhere);
     CHECK(map.allowed_position(0, 5) == AllowedPosition::nowhere);
 }
 
-TEST_CASE("sheets of two groups back to back have no curve between them") {
-    // Both sides of a 4 x 4 grid, in two groups; the left half of the back in a third.
-    const TriangleMesh sheet = test::grid(4);
-    TriangleMesh mesh = sheet;
-    for (const auto& [a, b, c] : sheet.triangles) mesh.triangles.push_back({a, c, b});
+TEST_CASE("feature curves: surface patches back to back have no curve between their groups") {
+    // A 4 x 4 grid and its reverse side, in two groups; then with a third group on the right half of the
+    // reverse side.
+    const TriangleMesh front = test::grid(4);
+    TriangleMesh mesh = front;
+    for (const auto& [a, b, c] : front.triangles) mesh.triangles.push_back({a, c, b});
     std::vector<Index> groups(32, 0);
     Map two(mesh, [&] {
         std::vector<Index> all = groups;
@@ -211,7 +213,7 @@ TEST_CASE("sheets of two groups back to back have no curve between them") {
     CHECK(seen == 8);
 }
 
-TEST_CASE("virtual pairs do not join groups, nor touch a curve") {
+TEST_CASE("feature curves: virtual pairs connect neither different groups nor curve vertices") {
     const TriangleMesh mesh = test::both(test::grid(2), test::moved(test::quad(), {3, 0, 0}));
     std::vector<Index> groups = squares(2, [](Index x, Index) { return x; });
     groups.insert(groups.end(), 2, Index{1});
@@ -221,7 +223,7 @@ TEST_CASE("virtual pairs do not join groups, nor touch a curve") {
     CHECK(map.allowed_position(4, 9) == AllowedPosition::nowhere);
 }
 
-TEST_CASE("what is joined with a curve is on it") {
+TEST_CASE("feature curves: a vertex merged with a curve vertex is on the curve") {
     Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
     map.curves.before_collapse(0, 1);
     CHECK(map.curves.has_vertex(0));
@@ -229,15 +231,15 @@ TEST_CASE("what is joined with a curve is on it") {
     CHECK(!map.curves.has_vertex(2));
 }
 
-TEST_CASE("each face on an edge of a curve is shown") {
+TEST_CASE("feature curves: every face of a curve edge is visited") {
     const Map map(test::grid(2), squares(2, [](Index x, Index) { return x; }));
     std::multiset<std::pair<Index, Index>> seen;
     map.curves.for_each_curve_edge(map.collapse_mesh, 4, [&](Index f, Index n) { seen.insert({f, n}); });
-    // Up and down from the middle; a face of either side each.
+    // The edges up and down from the centre, with one face on each side.
     CHECK(seen == std::multiset<std::pair<Index, Index>>{{0, 1}, {3, 1}, {4, 7}, {7, 7}});
 }
 
-TEST_CASE("the nodes of kept curves stay to the last bit and no group loses its ground") {
+TEST_CASE("feature curves: nodes do not move at all and groups keep their area") {
     const TriangleMesh mesh = octants(4);
     const std::map<std::size_t, int> nodes = nodes_by_degree(mesh);
     const Curves before = curves_of(mesh);
@@ -264,8 +266,9 @@ TEST_CASE("the nodes of kept curves stay to the last bit and no group loses its 
     }
 }
 
-TEST_CASE("a kept curve on a plane stays on its line") {
-    // A flat sheet costs nothing anywhere: without the rule the border of the groups runs wild.
+TEST_CASE("feature curves: a straight curve in a plane stays straight") {
+    // In a plane all collapses cost nothing: without the constraint the group boundary would become
+    // arbitrary.
     TriangleMesh mesh = test::grid(16);
     mesh.face_groups = squares(16, [](Index x, Index) { return x / 8; });
     for (const Preset preset : all_presets) {
@@ -276,15 +279,15 @@ TEST_CASE("a kept curve on a plane stays on its line") {
             CHECK(a[0] == Approx(8).margin(1e-6));
             CHECK(b[0] == Approx(8).margin(1e-6));
         }
-        // The first three do not hold the open border's corners.
+        // The presets qem, paper and stmw do not preserve the corners of the mesh boundary.
         if (preset < Preset::fast) continue;
         CHECK(area_of(result.mesh, 0) == Approx(128).epsilon(1e-6));
         CHECK(area_of(result.mesh, 1) == Approx(128).epsilon(1e-6));
     }
 }
 
-TEST_CASE("a target that kept curves do not allow is missed and said to be") {
-    // Every square another group: all vertices inside are nodes.
+TEST_CASE("feature curves: a target that the curves prevent is missed and reported") {
+    // Every square has its own group: all inner vertices are nodes.
     TriangleMesh mesh = test::grid(8);
     mesh.face_groups = squares(8, [](Index x, Index y) { return x + 8 * y; });
     for (const Preset preset : all_presets) {
@@ -294,14 +297,14 @@ TEST_CASE("a target that kept curves do not allow is missed and said to be") {
         CHECK(result.report.faces_out > result.report.target_faces);
         CHECK(result.report.refusals[static_cast<std::size_t>(Refusal::group)] > 0);
         CHECK(result.report.components_deleted == 0);
-        // The corners of the sheet are on no curve.
+        // The corners of the grid are on no curve.
         for (Index group = 1; group < 63; ++group) {
             if (group != 7 && group != 56) CHECK(area_of(result.mesh, group) == Approx(1));
         }
     }
 }
 
-TEST_CASE("kept groups change nothing where there are none") {
+TEST_CASE("feature curves: preserving groups does not change a mesh without groups") {
     TriangleMesh mesh = test::icosphere(3);
     const SimplifyResult plain = simplify(mesh.view(), {.target = ratio(0.1)});
     CHECK(simplify(mesh.view(), keeping(0.1)).mesh.positions == plain.mesh.positions);
@@ -309,7 +312,7 @@ TEST_CASE("kept groups change nothing where there are none") {
     CHECK(simplify(mesh.view(), keeping(0.1)).mesh.positions == plain.mesh.positions);
 }
 
-TEST_CASE("kept curves that lie on seams of kept attributes go with them") {
+TEST_CASE("feature curves: curves on attribute seams are preserved together with the attributes") {
     TriangleMesh mesh = octants(3);
     mesh.attributes.width = 1;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f)

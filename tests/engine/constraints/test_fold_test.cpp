@@ -16,8 +16,8 @@ Vector3 normal(const CollapseMesh& collapse_mesh, Index f) {
     return collapse_mesh.area_vector(f).normalized();
 }
 
-// Edges with two faces whose normals have a cosine below `least`, counted over the whole surface.
-int folds(const CollapseMesh& collapse_mesh, double least) {
+// Number of edges with two faces whose normals have a cosine below `min_cosine`, over the whole mesh.
+int folds(const CollapseMesh& collapse_mesh, double min_cosine) {
     std::map<std::pair<Index, Index>, std::vector<Index>> faces;
     for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
         if (!collapse_mesh.is_alive(f)) continue;
@@ -26,26 +26,27 @@ int folds(const CollapseMesh& collapse_mesh, double least) {
     }
     int count = 0;
     for (const auto& [edge, at] : faces) {
-        count += at.size() == 2 && normal(collapse_mesh, at[0]).dot(normal(collapse_mesh, at[1])) < least;
+        count +=
+            at.size() == 2 && normal(collapse_mesh, at[0]).dot(normal(collapse_mesh, at[1])) < min_cosine;
     }
     return count;
 }
 
-// The counter, and the faces there would be, worked out from places alone.
+// Calls FoldTest with the moved faces computed from positions.
 class Collapses {
 public:
     explicit Collapses(const CollapseMesh& collapse_mesh) : mesh_(collapse_mesh), folds_(collapse_mesh) {}
 
-    bool adds_folds(Index u, Index v, const Vector3& p, double least) {
-        std::vector<MovedFace> turned;
+    bool adds_folds(Index u, Index v, const Vector3& p, double min_cosine) {
+        std::vector<MovedFace> moved;
         mesh_.for_each_face_around(u, v, [&](Index f, unsigned corner) {
             if (mesh_.has_corner(f, u) && mesh_.has_corner(f, v)) return;
             const Triangle& t = mesh_.triangle(f);
             const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
             const Vector3 after = area_vector(p, mesh_.position(a), mesh_.position(b)).normalized();
-            turned.push_back({f, a, b, after, after.dot(normal(mesh_, f))});
+            moved.push_back({f, a, b, after, after.dot(normal(mesh_, f))});
         });
-        return folds_.adds_folds(mesh_, u, v, turned, least);
+        return folds_.adds_folds(mesh_, u, v, moved, min_cosine);
     }
 
 private:
@@ -55,11 +56,11 @@ private:
 
 }  // namespace
 
-TEST_CASE("folds: a flap may turn over its neighbour down to the limit") {
+TEST_CASE("folds: a face may be rotated onto its neighbour up to the limit angle") {
     //     2
-    //    / \     Vertex 3 is joined with 4 and turned
+    //    / \     Vertices 3 and 4 are merged and rotated
     //   0---1
-    //    \ / \    about the edge 0 1, towards vertex 2.
+    //    \ / \    about the edge (0, 1), towards vertex 2.
     //     3---4
     const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}},
                                          {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}});
@@ -73,8 +74,9 @@ TEST_CASE("folds: a flap may turn over its neighbour down to the limit") {
     }
 }
 
-TEST_CASE("folds: those that are there already may stay") {
-    // A pillow of two sheets of four triangles: its rim is all folds, before and after.
+TEST_CASE("folds: existing folds are allowed") {
+    // A pillow of two surface patches of four triangles each: all edges of its rim are folds, before and
+    // after.
     TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.01}, {0.5, 0.5, -0.01}}, {});
     for (Index k = 0; k < 4; ++k) {
@@ -88,21 +90,21 @@ TEST_CASE("folds: those that are there already may stay") {
     CHECK_FALSE(counter.adds_folds(0, 1, collapse_mesh.position(0), -0.9));
 }
 
-TEST_CASE("folds: where windings disagree, the surface folds where it did before they did") {
-    // The flap of the first test, its faces wound against its neighbour.
+TEST_CASE("folds: the same collapses add folds if the windings are inconsistent") {
+    // The mesh of the first test, with lower faces whose windings are inconsistent with the upper face.
     const std::vector<Triangle> flap = {{0, 1, 2}, {0, 1, 3}, {3, 1, 4}};
     const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {1.5, -1, 0}}, flap);
     Collapses counter(collapse_mesh);
     CHECK(counter.adds_folds(3, 4, {0.5, 1, 0.1}, -0.9));
     CHECK_FALSE(counter.adds_folds(3, 4, {0.5, -1, 0.1}, -0.9));
-    // And a fan of four around vertex 4, every other face turned over: flat before, flat after.
+    // A plane fan of four faces around vertex 4, with alternating windings: flat before and after.
     const CollapseMesh fan({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 0}},
                            {{0, 1, 4}, {2, 1, 4}, {2, 3, 4}, {0, 3, 4}});
     Collapses of_fan(fan);
     CHECK_FALSE(of_fan.adds_folds(4, 0, {0.5, 0, 0}, -0.9));
 }
 
-TEST_CASE("folds: the answer is that of counting them all, before and after") {
+TEST_CASE("folds: the result agrees with counting all folds before and after") {
     test::Random random(3);
     int added = 0, not_added = 0;
     for (std::uint32_t seed = 0; seed < 40; ++seed) {

@@ -14,8 +14,8 @@ namespace {
 constexpr Rules link_only = {LinkCondition::on, -1, 0};
 constexpr Rules flip_only = {LinkCondition::off, 0, 0};
 
-std::optional<Refusal> verdict(const TriangleMesh& mesh, Index u, Index v, const Vector3& p,
-                               const Rules& rules) {
+std::optional<Refusal> refusal_of(const TriangleMesh& mesh, Index u, Index v, const Vector3& p,
+                                  const Rules& rules) {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
     for (Index pair = 0; pair < pairs.size(); ++pair) {
@@ -25,9 +25,9 @@ std::optional<Refusal> verdict(const TriangleMesh& mesh, Index u, Index v, const
     throw std::logic_error("no such edge");
 }
 
-std::optional<Refusal> link_verdict(const TriangleMesh& mesh, Index u, Index v) {
+std::optional<Refusal> link_refusal_of(const TriangleMesh& mesh, Index u, Index v) {
     const Vector3 middle = 0.5 * (to_eigen(mesh.positions[u]) + to_eigen(mesh.positions[v]));
-    return verdict(mesh, u, v, middle, link_only);
+    return refusal_of(mesh, u, v, middle, link_only);
 }
 
 TriangleMesh octahedron() {
@@ -36,14 +36,14 @@ TriangleMesh octahedron() {
         {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
 
-// Triangle 0 1 2 stays, vertex 2 is joined with 3.
+// Triangle 0 1 2 is kept when vertices 2 and 3 are merged.
 TriangleMesh hinge() {
     return test::make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
 }
 
 using Link = std::pair<std::set<Index>, std::set<std::pair<Index, Index>>>;
 
-// Link of v, borders closed with a vertex at infinity (Dey et al. 1999).
+// Link of v, with boundaries closed by a vertex at infinity (Dey et al. 1999).
 Link link_of(const std::vector<Triangle>& triangles, const test::Edges& edges, Index v) {
     Link link;
     for (const Triangle& t : triangles) {
@@ -72,7 +72,7 @@ bool locally_manifold(const test::Edges& edges, Index v) {
     return open == 0 || open == 2;
 }
 
-// The link condition as a set equation.
+// The link condition in its definition as a set equation.
 bool keeps_topology(const std::vector<Triangle>& triangles, const test::Edges& edges, Index u, Index v) {
     const Link at_u = link_of(triangles, edges, u), at_v = link_of(triangles, edges, v);
     std::set<Index> opposite;
@@ -92,7 +92,8 @@ bool keeps_topology(const std::vector<Triangle>& triangles, const test::Edges& e
                                               [&](const auto& edge) { return at_v.second.count(edge) > 0; });
 }
 
-// The rule elsewhere: no new double face, no merged edge with more faces than the fuller of the two.
+// The condition for non-manifold vertices: no new duplicate face, and no merged edge with more faces than
+// the larger count of both.
 bool keeps_counts(const std::vector<Triangle>& triangles, const test::Edges& edges, Index u, Index v) {
     std::vector<Triangle> after;
     std::set<std::set<Index>> at_u;
@@ -120,7 +121,7 @@ bool keeps_counts(const std::vector<Triangle>& triangles, const test::Edges& edg
     });
 }
 
-// Each pair of the mesh against the definitions; counts the verdicts of both kinds.
+// Compares each pair of the mesh with the definitions. Counts the expected results by kind.
 bool agrees_everywhere(const TriangleMesh& mesh, int (&count)[2][2]) {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
@@ -143,115 +144,119 @@ bool agrees_everywhere(const TriangleMesh& mesh, int (&count)[2][2]) {
 
 }  // namespace
 
-TEST_CASE("a face may not turn over") {
-    CHECK_FALSE(verdict(hinge(), 2, 3, {2, 1, 0}, flip_only));
-    CHECK(verdict(hinge(), 2, 3, {2, -1, 0}, flip_only) == Refusal::flip);
-    CHECK(verdict(hinge(), 3, 2, {2, -1, 0}, flip_only) == Refusal::flip);
-    CHECK_FALSE(verdict(hinge(), 2, 3, {2, -1, 0}, {LinkCondition::off, -1, 0}));
+TEST_CASE("legality: a face must not flip") {
+    CHECK_FALSE(refusal_of(hinge(), 2, 3, {2, 1, 0}, flip_only));
+    CHECK(refusal_of(hinge(), 2, 3, {2, -1, 0}, flip_only) == Refusal::flip);
+    CHECK(refusal_of(hinge(), 3, 2, {2, -1, 0}, flip_only) == Refusal::flip);
+    CHECK_FALSE(refusal_of(hinge(), 2, 3, {2, -1, 0}, {LinkCondition::off, -1, 0}));
 }
 
-TEST_CASE("the flip limit is the cosine between the normals, the limit itself allowed") {
+TEST_CASE("legality: the limit of the normal deviation is a cosine and is inclusive") {
     const auto turned = [](double degrees) {
         return Vector3(1, std::cos(degrees * test::pi / 180), std::sin(degrees * test::pi / 180));
     };
     for (const double limit : {0.5, 0.0, -0.5}) {
         const double angle = std::acos(limit) * 180 / test::pi;
         const Rules rules = {LinkCondition::off, limit, 0};
-        CHECK_FALSE(verdict(hinge(), 2, 3, turned(angle - 0.01), rules));
-        CHECK(verdict(hinge(), 2, 3, turned(angle + 0.01), rules) == Refusal::flip);
+        CHECK_FALSE(refusal_of(hinge(), 2, 3, turned(angle - 0.01), rules));
+        CHECK(refusal_of(hinge(), 2, 3, turned(angle + 0.01), rules) == Refusal::flip);
     }
-    CHECK_FALSE(verdict(hinge(), 2, 3, {1, 0, 1}, flip_only));  // exactly a right angle: the dot is not < 0
+    // Exactly 90 degrees: the dot product is not < 0.
+    CHECK_FALSE(refusal_of(hinge(), 2, 3, {1, 0, 1}, flip_only));
 }
 
-TEST_CASE("a face may not lose its area, even where flips are allowed") {
+TEST_CASE("legality: a face must not lose its area, even if flips are allowed") {
     for (const double limit : {0.0, -0.5, -1.0}) {
-        CHECK(verdict(hinge(), 2, 3, {2.5, 0, 0}, {LinkCondition::off, limit, 0}) == Refusal::degenerate);
-        CHECK(verdict(hinge(), 2, 3, {2.5, 1e-12, 0}, {LinkCondition::off, limit, 0}) == Refusal::degenerate);
-        CHECK_FALSE(verdict(hinge(), 2, 3, {2.5, 1e-6, 0}, {LinkCondition::off, limit, 0}));
+        CHECK(refusal_of(hinge(), 2, 3, {2.5, 0, 0}, {LinkCondition::off, limit, 0}) == Refusal::degenerate);
+        CHECK(refusal_of(hinge(), 2, 3, {2.5, 1e-12, 0}, {LinkCondition::off, limit, 0}) ==
+              Refusal::degenerate);
+        CHECK_FALSE(refusal_of(hinge(), 2, 3, {2.5, 1e-6, 0}, {LinkCondition::off, limit, 0}));
     }
 }
 
-TEST_CASE("a face without area has no normal to turn and may stay as it is") {
+TEST_CASE("legality: a face of zero area may flip and stay degenerate") {
     TriangleMesh mesh = hinge();
     mesh.positions[2] = {1, 0, 0};
-    CHECK_FALSE(verdict(mesh, 2, 3, {1, 0, 0}, flip_only));
-    CHECK_FALSE(verdict(mesh, 2, 3, {1, -1, 0}, flip_only));
-    CHECK_FALSE(verdict(mesh, 2, 3, {1, 1, 0}, flip_only));
+    CHECK_FALSE(refusal_of(mesh, 2, 3, {1, 0, 0}, flip_only));
+    CHECK_FALSE(refusal_of(mesh, 2, 3, {1, -1, 0}, flip_only));
+    CHECK_FALSE(refusal_of(mesh, 2, 3, {1, 1, 0}, flip_only));
 }
 
-TEST_CASE("a point that is not a number is refused") {
+TEST_CASE("legality: a NaN position is refused") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK(verdict(hinge(), 2, 3, {nan, 0, 0}, flip_only) == Refusal::flip);
-    CHECK(verdict(hinge(), 2, 3, {nan, 0, 0}, {LinkCondition::off, -1, 0}) == Refusal::degenerate);
+    CHECK(refusal_of(hinge(), 2, 3, {nan, 0, 0}, flip_only) == Refusal::flip);
+    CHECK(refusal_of(hinge(), 2, 3, {nan, 0, 0}, {LinkCondition::off, -1, 0}) == Refusal::degenerate);
 }
 
-TEST_CASE("the link condition keeps closed surfaces closed") {
+TEST_CASE("legality: the link condition keeps closed surfaces closed") {
     for (Index u = 0; u < 4; ++u) {
-        for (Index v = u + 1; v < 4; ++v) CHECK(link_verdict(test::tetrahedron(), u, v) == Refusal::link);
+        for (Index v = u + 1; v < 4; ++v) CHECK(link_refusal_of(test::tetrahedron(), u, v) == Refusal::link);
     }
-    CHECK_FALSE(link_verdict(octahedron(), 0, 2));
-    // Two pyramids on the triangle 0 1 2. Its sides bound no face; a tip of valence three may go.
+    CHECK_FALSE(link_refusal_of(octahedron(), 0, 2));
+    // Two pyramids at the triangle 0 1 2, which is not a face. An apex of valence three can be collapsed.
     const TriangleMesh bipyramid =
         test::make({{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {0, 0, 1}, {0, 0, -1}},
                    {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
-    CHECK(link_verdict(bipyramid, 0, 1) == Refusal::link);
-    CHECK_FALSE(link_verdict(bipyramid, 3, 0));
-    CHECK_FALSE(link_verdict(bipyramid, 1, 4));
+    CHECK(link_refusal_of(bipyramid, 0, 1) == Refusal::link);
+    CHECK_FALSE(link_refusal_of(bipyramid, 3, 0));
+    CHECK_FALSE(link_refusal_of(bipyramid, 1, 4));
 }
 
-TEST_CASE("a vertex of valence three inside a disc may go") { CHECK_FALSE(link_verdict(test::fan(3), 0, 1)); }
+TEST_CASE("legality: a vertex of valence three inside a disc can be collapsed") {
+    CHECK_FALSE(link_refusal_of(test::fan(3), 0, 1));
+}
 
-TEST_CASE("the last triangle stays") {
+TEST_CASE("legality: the last triangle is not collapsed") {
     const TriangleMesh triangle = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-    CHECK(link_verdict(triangle, 0, 1) == Refusal::link);
-    CHECK(link_verdict(triangle, 1, 2) == Refusal::link);
+    CHECK(link_refusal_of(triangle, 0, 1) == Refusal::link);
+    CHECK(link_refusal_of(triangle, 1, 2) == Refusal::link);
 }
 
-TEST_CASE("a triangular hole is not closed") {
+TEST_CASE("legality: a triangular hole is not closed") {
     TriangleMesh open = octahedron();
     open.triangles.erase(open.triangles.begin());
-    CHECK(link_verdict(open, 0, 2) == Refusal::link);
-    CHECK(link_verdict(open, 2, 4) == Refusal::link);
-    CHECK_FALSE(link_verdict(open, 1, 2));
+    CHECK(link_refusal_of(open, 0, 2) == Refusal::link);
+    CHECK(link_refusal_of(open, 2, 4) == Refusal::link);
+    CHECK_FALSE(link_refusal_of(open, 1, 2));
 }
 
-TEST_CASE("an annulus is not pinched, its rims may shrink to three edges") {
+TEST_CASE("legality: an annulus is not pinched and its boundaries keep at least three edges") {
     const TriangleMesh six = test::cylinder(6, 1, 1), three = test::cylinder(3, 1, 1);
-    CHECK(link_verdict(six, 0, 6) == Refusal::link);  // inside, between the rims
-    CHECK(link_verdict(six, 0, 7) == Refusal::link);
-    CHECK_FALSE(link_verdict(six, 0, 1));
-    CHECK(link_verdict(three, 0, 1) == Refusal::link);
-    CHECK(link_verdict(test::quad(), 0, 2) == Refusal::link);
-    CHECK_FALSE(link_verdict(test::quad(), 0, 1));
+    CHECK(link_refusal_of(six, 0, 6) == Refusal::link);  // an inner edge between the boundaries
+    CHECK(link_refusal_of(six, 0, 7) == Refusal::link);
+    CHECK_FALSE(link_refusal_of(six, 0, 1));
+    CHECK(link_refusal_of(three, 0, 1) == Refusal::link);
+    CHECK(link_refusal_of(test::quad(), 0, 2) == Refusal::link);
+    CHECK_FALSE(link_refusal_of(test::quad(), 0, 1));
 }
 
-TEST_CASE("a collapse from the inside to the border is legal") {
-    CHECK_FALSE(link_verdict(test::grid(2), 4, 5));
-    CHECK_FALSE(link_verdict(test::grid(2), 4, 8));
+TEST_CASE("legality: an inner vertex can be collapsed with a boundary vertex") {
+    CHECK_FALSE(link_refusal_of(test::grid(2), 4, 5));
+    CHECK_FALSE(link_refusal_of(test::grid(2), 4, 8));
 }
 
-TEST_CASE("where surfaces meet, no edge gets more faces and no face a double") {
-    // The book's pages may be turned into nothing, one side of its spine after the other ...
-    CHECK_FALSE(link_verdict(test::book(), 0, 1));
-    CHECK_FALSE(link_verdict(test::book(), 0, 2));
-    // ... but not two pages put on top of each other: two books on one spine 0-1, pages 2 and 3 joined by a
-    // face beside them.
+TEST_CASE("legality: at non-manifold edges no edge gains faces and no face is duplicated") {
+    // Each face of the book can be collapsed along the edge (0, 1) or its other edges ...
+    CHECK_FALSE(link_refusal_of(test::book(), 0, 1));
+    CHECK_FALSE(link_refusal_of(test::book(), 0, 2));
+    // ... but two faces must not become coincident. An additional face connects the vertices 2 and 3 of two
+    // of them.
     TriangleMesh book = test::book();
     book.triangles.push_back({1, 2, 3});
-    CHECK(link_verdict(book, 2, 3) == Refusal::link);
+    CHECK(link_refusal_of(book, 2, 3) == Refusal::link);
 }
 
-TEST_CASE("without the rule, the link does not matter") {
-    CHECK_FALSE(verdict(test::quad(), 0, 2, {0.5, 0.5, 0}, flip_only));
-    CHECK_FALSE(verdict(test::tetrahedron(), 0, 1, {0.5, 0, 0}, {LinkCondition::off, -1, 0}));
+TEST_CASE("legality: without the link condition the topology may change") {
+    CHECK_FALSE(refusal_of(test::quad(), 0, 2, {0.5, 0.5, 0}, flip_only));
+    CHECK_FALSE(refusal_of(test::tetrahedron(), 0, 1, {0.5, 0, 0}, {LinkCondition::off, -1, 0}));
 }
 
-TEST_CASE("the link test is the set equation on manifolds, and the counting rule elsewhere") {
+TEST_CASE("legality: the link condition agrees with its definition on random meshes") {
     int count[2][2] = {};
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         INFO("seed " << seed);
         CHECK(agrees_everywhere(test::soup(seed, 6 + seed % 7, 3 + seed), count));
-        // A sphere, a torus and a tube with faces missing: holes of all sorts, and pinched vertices.
+        // Spheres, a torus and a tube with faces missing: various holes and pinched vertices.
         for (TriangleMesh mesh :
              {test::icosphere(0), test::torus(4, 3), test::cylinder(3, 2, 1), octahedron()}) {
             test::Random random(seed);

@@ -9,7 +9,7 @@ using namespace faqem::engine;
 
 namespace {
 
-// Two numbers per corner: x and y, the faces of a chart shifted by 10 times its number.
+// Two values per corner: x and y, where x is offset by 10 times the chart number of the face.
 CornerAttributes charts(const TriangleMesh& mesh, const std::vector<int>& chart) {
     CornerAttributes uv;
     uv.width = 2;
@@ -22,12 +22,12 @@ CornerAttributes charts(const TriangleMesh& mesh, const std::vector<int>& chart)
     return uv;
 }
 
-// grid(2), its faces left of x = 1 in chart 0, the others in chart 1:
-//   6 - 7 - 8
-//   | / | / |
-//   3 - 4 - 5
-//   | / | / |
-//   0 - 1 - 2
+// grid(2) with its faces left of x = 1 in chart 0, the others in chart 1:
+//       6 - 7 - 8
+//       | / | / |
+//       3 - 4 - 5
+//       | / | / |
+//       0 - 1 - 2
 struct Split {
     TriangleMesh mesh = test::grid(2);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -41,7 +41,7 @@ unsigned corner_of(const CollapseMesh& collapse_mesh, Index f, Index v) {
 
 }  // namespace
 
-TEST_CASE("without attributes there is no rule and nothing to keep") {
+TEST_CASE("wedges: without attributes every position is allowed") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::quad());
     Wedges none;
     CHECK(none.empty());
@@ -50,7 +50,7 @@ TEST_CASE("without attributes there is no rule and nothing to keep") {
     none.before_collapse(collapse_mesh, 0, 2, {0.5, 0.5, 0});
 }
 
-TEST_CASE("corners with equal values share a wedge, a vertex with two is on a seam") {
+TEST_CASE("wedges: corners with equal values share a wedge and a vertex with two is on a seam") {
     const Split split;
     for (Index v = 0; v < 9; ++v) CHECK(split.wedges.is_seam(split.collapse_mesh, v) == (v % 3 == 1));
     CHECK(split.wedges.width() == 2);
@@ -58,7 +58,7 @@ TEST_CASE("corners with equal values share a wedge, a vertex with two is on a se
     CHECK(split.wedges.values(3, 1)[1] == 1);
 }
 
-TEST_CASE("next to a seam, the seam stays and the inside comes to it") {
+TEST_CASE("wedges: a pair of an inner vertex and a seam vertex collapses to the seam vertex") {
     Split split;
     CHECK(split.wedges.allowed_position(split.collapse_mesh, 3, 4) == AllowedPosition::at_second);
     CHECK(split.wedges.allowed_position(split.collapse_mesh, 4, 3) == AllowedPosition::at_first);
@@ -66,13 +66,13 @@ TEST_CASE("next to a seam, the seam stays and the inside comes to it") {
     CHECK(split.wedges.allowed_position(split.collapse_mesh, 0, 3) == AllowedPosition::anywhere);
 }
 
-TEST_CASE("along a seam a pair may go anywhere") {
+TEST_CASE("wedges: a pair along a seam may be collapsed to any position") {
     Split split;
     CHECK(split.wedges.allowed_position(split.collapse_mesh, 1, 4) == AllowedPosition::anywhere);
 }
 
-TEST_CASE("two seams are not pulled into one") {
-    // A chart of its own in the middle column of three: the edge across it joins two seams.
+TEST_CASE("wedges: two seams are not merged") {
+    // Each of the three columns is a chart: an edge across the middle one connects two seams.
     const TriangleMesh mesh = test::grid(3);
     std::vector<int> chart;
     for (int f = 0; f < 18; ++f) chart.push_back(f / 2 % 3);
@@ -83,8 +83,9 @@ TEST_CASE("two seams are not pulled into one") {
     CHECK(wedges.allowed_position(collapse_mesh, 4, 5) == AllowedPosition::at_second);
 }
 
-TEST_CASE("a seam is not shortened from the end it peters out in") {
-    // Two triangles on the edge 0-1 that agree at 0 only: joining 0 and 1 would glue the two sides of 1.
+TEST_CASE("wedges: a seam that ends inside the surface is not shortened") {
+    // Two triangles at the edge (0, 1) with equal values at 0 only: the collapse would merge both wedges of
+    // 1.
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}});
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -94,14 +95,14 @@ TEST_CASE("a seam is not shortened from the end it peters out in") {
     CHECK(wedges.allowed_position(collapse_mesh, 0, 1) == AllowedPosition::nowhere);
 }
 
-TEST_CASE("parts that share no face cannot be joined without tearing") {
+TEST_CASE("wedges: a pair without a shared face is not collapsed") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {2, 0, 0}));
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     Wedges wedges(collapse_mesh, charts(mesh, {0, 0, 0, 0}));
     CHECK(wedges.allowed_position(collapse_mesh, 1, 4) == AllowedPosition::nowhere);
 }
 
-TEST_CASE("values at the new vertex are those of the surface there, on each side of the seam") {
+TEST_CASE("wedges: the new vertex has the interpolated values of each side of the seam") {
     Split split;
     const Vector3 p(1, 0.25, 0);
     split.wedges.before_collapse(split.collapse_mesh, 4, 1, p);
@@ -117,7 +118,7 @@ TEST_CASE("values at the new vertex are those of the surface there, on each side
     CHECK(split.wedges.is_seam(split.collapse_mesh, 4));
 }
 
-TEST_CASE("inside a chart, a point off both ends is interpolated in the face it lies on") {
+TEST_CASE("wedges: a position off the edge is interpolated in the face that contains it") {
     TriangleMesh mesh = test::grid(2);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     Wedges wedges(collapse_mesh, charts(mesh, std::vector<int>(8, 0)));
@@ -131,11 +132,11 @@ TEST_CASE("inside a chart, a point off both ends is interpolated in the face it 
     CHECK_FALSE(wedges.is_seam(collapse_mesh, 4));
 }
 
-TEST_CASE("corners at a vertex that did not move keep their values to the last bit") {
+TEST_CASE("wedges: the corners of a vertex that does not move keep their values exactly") {
     test::Random random(3);
     for (int round = 0; round < 50; ++round) {
         const TriangleMesh mesh = test::shaken(test::grid(2), 0.3, static_cast<std::uint32_t>(round));
-        // One random value per vertex and chart, so that the seam column has two.
+        // One random value per vertex and chart, so that the vertices on the seam have two.
         CornerAttributes uv;
         uv.width = 1;
         std::vector<float> value;
@@ -145,12 +146,12 @@ TEST_CASE("corners at a vertex that did not move keep their values to the last b
         }
         CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
         Wedges wedges(collapse_mesh, uv);
-        // 3 goes to 4, which stays; gone or survivor, whichever way round.
+        // 3 is merged into 4, which does not move; the survivor is one or the other.
         const bool swapped = round % 2;
-        const Index survivor = swapped ? 3 : 4, gone = swapped ? 4 : 3;
+        const Index survivor = swapped ? 3 : 4, removed = swapped ? 4 : 3;
         const Vector3 p = collapse_mesh.position(4);
-        wedges.before_collapse(collapse_mesh, survivor, gone, p);
-        collapse_mesh.collapse(survivor, gone, p);
+        wedges.before_collapse(collapse_mesh, survivor, removed, p);
+        collapse_mesh.collapse(survivor, removed, p);
         bool same = true;
         collapse_mesh.for_each_face(survivor, [&](Index f, unsigned corner) {
             const Index was = mesh.triangles[f][corner];
@@ -167,15 +168,15 @@ TEST_CASE("corners at a vertex that did not move keep their values to the last b
     }
 }
 
-TEST_CASE("where all faces are without area, each joined wedge keeps a value of its own") {
-    // Four faces on one line; the seam runs along it, so that two wedges are joined.
+TEST_CASE("wedges: merged wedges whose faces have zero area keep separate values") {
+    // Faces of zero area on a line; the seam is along the line, so that two pairs of wedges are merged.
     const TriangleMesh mesh =
         test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {1, 0, 3}});
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     Wedges wedges(collapse_mesh, {{1, 2, 3, 12, 11, 13}, 1});
     REQUIRE(wedges.allowed_position(collapse_mesh, 0, 1) == AllowedPosition::anywhere);
     wedges.before_collapse(collapse_mesh, 0, 1, {0.5, 0, 0});
-    // Face 0 has the first wedge of 0, face 1 the second.
+    // Face 0 has the first wedge of vertex 0, face 1 the second.
     CHECK(wedges.values(0, 0)[0] < 5);
     CHECK(wedges.values(1, 1)[0] > 5);
 }

@@ -23,7 +23,7 @@ Found open_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Inde
 
 }  // namespace
 
-TEST_CASE("open edges: of a square of two triangles when its lower side collapses") {
+TEST_CASE("boundary edges: the edges after the collapse of a side of a square are predicted") {
     // 3---2
     // | / |
     // 0---1
@@ -34,16 +34,16 @@ TEST_CASE("open edges: of a square of two triangles when its lower side collapse
     CHECK(open_after(mesh, pairs, 0, 2).empty());
 }
 
-TEST_CASE("open edges: foretold for every pair of a soup, they are those that the collapse leaves") {
+TEST_CASE("boundary edges: predictions for all pairs of a soup agree with the collapsed mesh") {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const TriangleMesh soup = test::soup(seed, 20, 40);
         const CollapseMesh mesh = test::collapse_mesh_of(soup);
         const PairTable pairs(mesh, {});
         for (Index pair = 0; pair < pairs.size(); ++pair) {
             const Index u = pairs.first(pair), v = pairs.second(pair);
-            std::set<Index> foretold, left;
+            std::set<Index> predicted, left;
             for (const auto& [vertex, with_u, with_v] : open_after(mesh, pairs, u, v)) {
-                foretold.insert(vertex);
+                predicted.insert(vertex);
             }
             CollapseMesh after = mesh;
             PairTable pairs_after = pairs;
@@ -54,12 +54,12 @@ TEST_CASE("open edges: foretold for every pair of a soup, they are those that th
             pairs_after.for_each_pair(u, [&](Neighbour n) {
                 if (pairs_after.face_count(n.pair) == 1) left.insert(n.vertex);
             });
-            CHECK(foretold == left);
+            CHECK(predicted == left);
         }
     }
 }
 
-TEST_CASE("open edges: of a book of three pages all but its spine, in order") {
+TEST_CASE("boundary edges: all edges except the non-manifold one are found, in order") {
     const TriangleMesh book = test::book();
     const CollapseMesh mesh = test::collapse_mesh_of(book);
     const PairTable pairs(mesh, {});

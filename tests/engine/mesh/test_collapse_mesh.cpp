@@ -12,7 +12,7 @@ namespace {
 
 constexpr Triangle dead = {no_index, no_index, no_index};
 
-// Everything the complex says, against a plain list of triangles.
+// Compares all queries of the mesh with a plain list of triangles.
 bool agrees(const CollapseMesh& collapse_mesh, const std::vector<Triangle>& expected) {
     std::size_t living = 0;
     std::vector<std::set<std::pair<Index, unsigned>>> corners(collapse_mesh.vertex_slots());
@@ -33,16 +33,16 @@ bool agrees(const CollapseMesh& collapse_mesh, const std::vector<Triangle>& expe
     return true;
 }
 
-void naive_collapse(std::vector<Triangle>& triangles, Index survivor, Index gone) {
+void naive_collapse(std::vector<Triangle>& triangles, Index survivor, Index removed) {
     for (Triangle& t : triangles) {
-        std::replace(t.begin(), t.end(), gone, survivor);
+        std::replace(t.begin(), t.end(), removed, survivor);
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dead;
     }
 }
 
 }  // namespace
 
-TEST_CASE("a complex knows the corners of each vertex and skips dead faces") {
+TEST_CASE("a collapse mesh lists the corners of each vertex without removed faces") {
     TriangleMesh mesh = test::tetrahedron();
     mesh.triangles.push_back(dead);
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -57,7 +57,7 @@ TEST_CASE("a complex knows the corners of each vertex and skips dead faces") {
     CHECK(collapse_mesh.area_vector(3) == Vector3(1, 1, 1));
 }
 
-TEST_CASE("all_of_faces stops at the first no") {
+TEST_CASE("all_of_faces stops when the visitor returns false") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::fan(6));
     int visits = 0;
     CHECK_FALSE(collapse_mesh.all_of_faces(0, [&](Index, unsigned) { return ++visits < 3; }));
@@ -65,7 +65,7 @@ TEST_CASE("all_of_faces stops at the first no") {
     CHECK(collapse_mesh.all_of_faces(0, [](Index, unsigned) { return true; }));
 }
 
-TEST_CASE("the faces around a pair are visited once each, with the corner that is in it") {
+TEST_CASE("the faces around a pair are visited once each, with the corner that is a vertex of the pair") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::quad());
     using Visit = std::pair<Index, Index>;
     const auto around = [&](Index u, Index v) {
@@ -91,7 +91,7 @@ TEST_CASE("the faces around a pair are visited once each, with the corner that i
     }
 }
 
-TEST_CASE("a collapse moves the survivor, hands faces over and removes those between the two") {
+TEST_CASE("a collapse moves the survivor, reattaches faces and removes the shared ones") {
     TriangleMesh mesh = test::quad();
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     CHECK(collapse_mesh.collapse(2, 1, {5, 6, 7}) == 1);
@@ -100,25 +100,25 @@ TEST_CASE("a collapse moves the survivor, hands faces over and removes those bet
     CHECK(agrees(collapse_mesh, {dead, {0, 2, 3}}));
 }
 
-TEST_CASE("after any collapses and removals the lists are those of a plain list of triangles") {
+TEST_CASE("after collapses and removals the mesh agrees with a plain list of triangles") {
     for (std::uint32_t seed = 0; seed < 30; ++seed) {
         const std::size_t vertices = 6 + seed;
         TriangleMesh mesh = test::soup(seed, vertices, 3 * vertices);
         CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
         test::Random random(seed);
-        std::set<Index> gone;
+        std::set<Index> removed;
         bool good = agrees(collapse_mesh, mesh.triangles);
-        while (gone.size() + 2 < vertices && good) {
+        while (removed.size() + 2 < vertices && good) {
             const Index u = random.below(vertices), v = random.below(vertices);
             if (random.unit() < 0.1) {
                 const Index f = random.below(mesh.triangles.size());
                 if (collapse_mesh.is_alive(f)) collapse_mesh.remove_face(f);
                 mesh.triangles[f] = dead;
-            } else if (u != v && !gone.count(u) && !gone.count(v)) {
+            } else if (u != v && !removed.count(u) && !removed.count(v)) {
                 const std::size_t before = collapse_mesh.face_count();
                 naive_collapse(mesh.triangles, u, v);
                 const std::size_t vanished = collapse_mesh.collapse(u, v, Vector3::Zero());
-                gone.insert(v);
+                removed.insert(v);
                 good = vanished == before - collapse_mesh.face_count();
             }
             good = good && agrees(collapse_mesh, mesh.triangles);
@@ -128,7 +128,7 @@ TEST_CASE("after any collapses and removals the lists are those of a plain list 
     }
 }
 
-TEST_CASE("the faces on three corners are counted, however they are wound") {
+TEST_CASE("faces with three given vertices are counted regardless of their winding") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}, {1, 3, 2}}));
     CHECK(collapse_mesh.count_faces_with(0, 1, 2) == 2);
@@ -136,17 +136,17 @@ TEST_CASE("the faces on three corners are counted, however they are wound") {
     CHECK(collapse_mesh.count_faces_with(0, 1, 3) == 0);
 }
 
-TEST_CASE("normals and areas of faces follow every collapse and every face that goes") {
+TEST_CASE("face normals and areas are correct after collapses and removals") {
     TriangleMesh mesh = test::shaken(test::torus(9, 7), 0.2, 3);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     test::Random random(5);
-    std::set<Index> gone;
+    std::set<Index> removed;
     for (int step = 0; step < 40; ++step) {
         const Index u = random.below(63), v = random.below(63), f = random.below(126);
         if (step % 4 == 0 && collapse_mesh.is_alive(f)) collapse_mesh.remove_face(f);
-        if (u == v || gone.count(u) || gone.count(v)) continue;
+        if (u == v || removed.count(u) || removed.count(v)) continue;
         collapse_mesh.collapse(u, v, 0.5 * (collapse_mesh.position(u) + collapse_mesh.position(v)));
-        gone.insert(v);
+        removed.insert(v);
     }
     for (Index face = 0; face < collapse_mesh.face_slots(); ++face) {
         if (!collapse_mesh.is_alive(face)) continue;
@@ -156,11 +156,11 @@ TEST_CASE("normals and areas of faces follow every collapse and every face that 
     }
 }
 
-TEST_CASE("a vertex is calm where its normals are at most 120 degrees apart") {
-    // A roof of two faces at each side of a ridge, opened more and more.
+TEST_CASE("a vertex has a narrow normal cone if its normals are at most 120 degrees apart") {
+    // Two faces at a ridge, with an increasing angle between their normals.
     for (const double half : {10.0, 40.0, 59.0, 61.0, 80.0}) {
         const double x = std::sin(half * test::pi / 180), z = std::cos(half * test::pi / 180);
-        // The faces on either side look along (x, 0, z) and (-x, 0, z).
+        // The face normals are (x, 0, z) and (-x, 0, z).
         const CollapseMesh roof({{0, 0, 0}, {0, 1, 0}, {z, 0.5, -x}, {-z, 0.5, -x}}, {{0, 2, 1}, {0, 1, 3}});
         CHECK(roof.normal(0).dot(roof.normal(1)) == Approx(std::cos(2 * half * test::pi / 180)));
         CHECK(roof.has_narrow_normal_cone(0) == (half < 60));

@@ -9,14 +9,14 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-TEST_CASE("faces joined by one vertex are one component, faces that only lie close are two") {
+TEST_CASE("faces that share a vertex are one component, coincident faces without shared vertices are two") {
     CHECK(components(test::collapse_mesh_of(test::bow_tie())).size() == 1);
     CHECK(components(test::collapse_mesh_of(test::both(test::quad(), test::quad()))).size() == 2);
 }
 
-TEST_CASE("components come by their smallest face, with their faces and boxes") {
+TEST_CASE("components are ordered by their smallest face and have ascending faces and a bounding box") {
     TriangleMesh mesh = test::both(test::quad(), test::moved(test::scaled(test::quad(), 2), {5, 5, 5}));
-    std::swap(mesh.triangles[0], mesh.triangles[2]);  // faces 1, 2 of the first; 0, 3 of the second
+    std::swap(mesh.triangles[0], mesh.triangles[2]);  // faces 1, 2: first quad; 0, 3: second quad
     const auto parts = components(test::collapse_mesh_of(mesh));
     REQUIRE(parts.size() == 2);
     CHECK(parts[0].faces == std::vector<Index>{0, 3});
@@ -26,7 +26,7 @@ TEST_CASE("components come by their smallest face, with their faces and boxes") 
     CHECK(parts[1].box.diagonal().norm() == Approx(std::sqrt(2.0)));
 }
 
-TEST_CASE("dead faces join nothing") {
+TEST_CASE("removed faces do not connect components") {
     CollapseMesh collapse_mesh = test::collapse_mesh_of(test::grid(1));
     CHECK(components(collapse_mesh).size() == 1);
     CollapseMesh strip = test::collapse_mesh_of(test::cylinder(8, 1, 1));
@@ -40,8 +40,8 @@ TEST_CASE("dead faces join nothing") {
     CHECK(components(collapse_mesh).empty());
 }
 
-TEST_CASE("expendable are the small components: not the largest, none with a locked vertex, smallest first") {
-    // Four quads, of sizes 3, 1, 4, 2; vertices 0-3, 4-7, 8-11, 12-15.
+TEST_CASE("removable components are sorted by size, without the largest and those with locked vertices") {
+    // Four quads with edge lengths 3, 1, 4, 2; vertices 0-3, 4-7, 8-11, 12-15.
     const auto quad_of = [](double size, double at) {
         return test::moved(test::scaled(test::quad(), size), {at, 0, 0});
     };
@@ -61,8 +61,8 @@ TEST_CASE("expendable are the small components: not the largest, none with a loc
     CHECK(first_faces(100) == std::vector<Index>{2, 0});
 }
 
-TEST_CASE("a long component without area is the most expendable") {
-    // A line of length 100 beside quads of sizes 1 and 2.
+TEST_CASE("a component of zero area is the first removable one regardless of its length") {
+    // A face of zero area and length 100, and quads with edge lengths 1 and 2.
     TriangleMesh line;
     line.positions = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
     line.triangles = {{0, 1, 2}};

@@ -9,13 +9,13 @@ using namespace faqem::engine;
 
 namespace {
 
-// A triangle, and beside its edge 0 1 two faces without area.
+// A triangle with two faces of zero area at its edge (0, 1).
 const TriangleMesh hem =
     test::make({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {2, 0, 0}, {1, 0, 0}}, {{0, 1, 2}, {1, 0, 3}, {3, 0, 4}});
 
 }  // namespace
 
-TEST_CASE("degenerate are faces whose height is a thousand millionth of their longest edge or less") {
+TEST_CASE("degenerate: a face is degenerate if its height is at most 1e-9 of its longest edge") {
     const auto is_degenerate_at = [](double height, double size) {
         const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0.3, height, 0}}, {{0, 1, 2}});
         return is_degenerate(test::collapse_mesh_of(test::scaled(mesh, size)), 0);
@@ -29,7 +29,7 @@ TEST_CASE("degenerate are faces whose height is a thousand millionth of their lo
         is_degenerate(test::collapse_mesh_of(test::make({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}})), 0));
 }
 
-TEST_CASE("degenerate: the pairs that hold all faces with an area are known") {
+TEST_CASE("degenerate: a pair with all non-degenerate faces is detected") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(hem);
     const PairTable pairs(collapse_mesh, {});
     DegenerateFaces degenerate(collapse_mesh);
@@ -42,7 +42,7 @@ TEST_CASE("degenerate: the pairs that hold all faces with an area are known") {
     CHECK_FALSE(are_last_faces(3, 4));
 }
 
-TEST_CASE("degenerate: where nothing has an area, the last faces count") {
+TEST_CASE("degenerate: if all faces are degenerate, a pair with all faces is detected") {
     CollapseMesh collapse_mesh = test::collapse_mesh_of(hem);
     PairTable pairs(collapse_mesh, {});
     DegenerateFaces degenerate(collapse_mesh);
@@ -52,13 +52,13 @@ TEST_CASE("degenerate: where nothing has an area, the last faces count") {
     CHECK_FALSE(degenerate.are_last_faces(collapse_mesh, pairs, test::pair_of(pairs, 0, 1)));
 }
 
-TEST_CASE("degenerate: what a collapse takes or gives an area counts no longer") {
+TEST_CASE("degenerate: removed faces and faces that gain an area no longer count") {
     CollapseMesh collapse_mesh = test::collapse_mesh_of(hem);
     PairTable pairs(collapse_mesh, {});
     DegenerateFaces degenerate(collapse_mesh);
     std::vector<Index> killed;
     std::vector<PairTable::Change> changes;
-    // Vertex 4 goes into 3, which leaves the edge: both faces that are left have an area.
+    // Vertex 4 is merged into 3, which moves off the edge: both remaining faces have an area.
     degenerate.before_collapse(collapse_mesh, pairs, test::pair_of(pairs, 3, 4));
     collapse_mesh.collapse(3, 4, {2, -1, 0});
     pairs.merge(collapse_mesh, 3, 4, killed, changes);

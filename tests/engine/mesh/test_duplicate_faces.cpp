@@ -6,7 +6,7 @@
 
 using namespace faqem;
 
-TEST_CASE("double faces: the same corners and winding count, wherever the list of corners begins") {
+TEST_CASE("duplicate faces have the same vertices and winding, in any rotation of the corners") {
     TriangleMesh mesh = test::quad();
     mesh.triangles = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {0, 2, 3}, {2, 0, 1}, {0, 2, 1}};
     engine::CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);

@@ -16,7 +16,7 @@ std::vector<Index> items(const IndexLists& lists, const IndexList& list) {
 
 }  // namespace
 
-TEST_CASE("lists: a list is empty until it is given something, and may be emptied again") {
+TEST_CASE("index lists: a list is empty initially and can be emptied again") {
     IndexLists lists;
     IndexList list;
     CHECK(items(lists, list).empty());
@@ -26,7 +26,7 @@ TEST_CASE("lists: a list is empty until it is given something, and may be emptie
     CHECK(items(lists, list).empty());
 }
 
-TEST_CASE("lists: with room enough a list stays where it is, else it moves") {
+TEST_CASE("index lists: a list moves only if its capacity is exceeded") {
     IndexLists lists;
     IndexList list = lists.allocate(3), next = lists.allocate(3);
     const Index place = list.place;
@@ -39,11 +39,11 @@ TEST_CASE("lists: with room enough a list stays where it is, else it moves") {
     CHECK(items(lists, list) == std::vector<Index>{1, 2, 3, 4});
     CHECK(items(lists, next) == std::vector<Index>{9});
     const Index roomy = list.place;
-    lists.assign(list, std::vector<Index>{1, 2, 3, 4, 5, 6});  // half as much again
+    lists.assign(list, std::vector<Index>{1, 2, 3, 4, 5, 6});  // capacity of 1.5 times the size
     CHECK(list.place == roomy);
 }
 
-TEST_CASE("lists: many of them do not disturb each other") {
+TEST_CASE("index lists: lists are independent of each other") {
     test::Random random(4);
     IndexLists lists;
     std::vector<IndexList> handles(50);

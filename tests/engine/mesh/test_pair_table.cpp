@@ -15,7 +15,7 @@ using Ends = std::pair<Index, Index>;
 
 Ends ends(Index a, Index b) { return std::minmax(a, b); }
 
-// Living pairs by their ends: faces, and whether only the user's wish keeps them.
+// Expected pairs by their vertices: the face count, and whether the pair is virtual.
 struct Expected {
     std::uint32_t faces;
     bool is_virtual;
@@ -30,7 +30,7 @@ std::vector<Triangle> living(const CollapseMesh& collapse_mesh) {
     return result;
 }
 
-// What is left of the pairs after v became u, counted anew from the triangles.
+// The expected pairs after v was merged into u, with the faces counted from the triangles.
 Model after_collapse(const Model& before, const CollapseMesh& collapse_mesh, Index u, Index v) {
     Model model;
     for (const auto& [pair, what] : before) {
@@ -51,7 +51,7 @@ Model after_collapse(const Model& before, const CollapseMesh& collapse_mesh, Ind
     return model;
 }
 
-// Are they as many living faces as it has, each of them with both of its ends?
+// Whether faces(pair) are different faces that are alive and contain both vertices.
 bool knows_its_faces(const PairTable& pairs, const CollapseMesh& collapse_mesh, Index pair) {
     const std::uint32_t count = pairs.face_count(pair);
     if (count > 2) return true;
@@ -66,14 +66,14 @@ bool knows_its_faces(const PairTable& pairs, const CollapseMesh& collapse_mesh, 
 bool agrees(const PairTable& pairs, const CollapseMesh& collapse_mesh, const Model& model) {
     Model found;
     std::vector<std::uint32_t> open(collapse_mesh.vertex_slots(), 0),
-        crowded(collapse_mesh.vertex_slots(), 0);
+        nonmanifold(collapse_mesh.vertex_slots(), 0);
     for (Index p = 0; p < pairs.size(); ++p) {
         if (!pairs.is_alive(p)) continue;
         const Ends e = ends(pairs.first(p), pairs.second(p));
         if (!found.insert({e, {pairs.face_count(p), false}}).second) return false;
         if (!knows_its_faces(pairs, collapse_mesh, p)) return false;
         if (pairs.face_count(p) == 1) ++open[e.first], ++open[e.second];
-        if (pairs.face_count(p) > 2) ++crowded[e.first], ++crowded[e.second];
+        if (pairs.face_count(p) > 2) ++nonmanifold[e.first], ++nonmanifold[e.second];
     }
     if (found.size() != model.size()) return false;
     for (const auto& [pair, what] : model) {
@@ -91,21 +91,21 @@ bool agrees(const PairTable& pairs, const CollapseMesh& collapse_mesh, const Mod
             if (entry.first.first == v || entry.first.second == v) expected.insert(entry.first);
         }
         if (!good || listed != expected || pairs.boundary_degree(v) != open[v] ||
-            pairs.nonmanifold_degree(v) != crowded[v])
+            pairs.nonmanifold_degree(v) != nonmanifold[v])
             return false;
     }
     return true;
 }
 
-// The survivor's living pairs; changed are those open before (either half) or after. Of the others, those
-// that were open.
+// Whether `changes` are the pairs of the survivor u and the neighbours that lost a boundary edge to it,
+// with boundary_changed set for edges that were boundary edges at u or v, or are now.
 bool changes_agree(const std::vector<PairTable::Change>& changes, const Model& before, const Model& after,
                    Index u, Index v, std::size_t vertices) {
     const auto open = [](const Model& model, Ends e) {
         const auto at = model.find(e);
         return at != model.end() && at->second.faces == 1;
     };
-    std::map<Index, std::pair<bool, bool>> expected, found;  // by vertex: living, changed
+    std::map<Index, std::pair<bool, bool>> expected, found;  // by vertex: alive, changed
     for (Index n = 0; n < vertices; ++n) {
         if (n == u || n == v) continue;
         const bool lives = after.count(ends(u, n)) > 0;
@@ -119,8 +119,8 @@ bool changes_agree(const std::vector<PairTable::Change>& changes, const Model& b
 
 }  // namespace
 
-TEST_CASE("pairs are numbered by smaller vertex, then in the order of its corners, virtual ones last") {
-    // Corners of vertex 0 of the quad: (0 1 2), then (0 2 3).
+TEST_CASE("pairs are numbered by their smaller vertex, then in corner order, virtual pairs last") {
+    // Faces at vertex 0 of the quad: (0 1 2), then (0 2 3).
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::both(test::quad(), test::quad()));
     const std::vector<Ends> extra = {{2, 7}};
     const PairTable pairs(collapse_mesh, extra);
@@ -135,7 +135,7 @@ TEST_CASE("pairs are numbered by smaller vertex, then in the order of its corner
     CHECK(pairs.boundary_degree(0) == 2);
 }
 
-TEST_CASE("faces of an edge are counted beyond two") {
+TEST_CASE("the faces of a non-manifold edge are counted") {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(test::book());
     const PairTable pairs(collapse_mesh, {});
     CHECK(pairs.size() == 7);
@@ -144,8 +144,8 @@ TEST_CASE("faces of an edge are counted beyond two") {
     CHECK(pairs.boundary_degree(2) == 2);
 }
 
-TEST_CASE("when a face is removed its edges still know the others") {
-    // Three pages on the spine of a book: without one of them it has two.
+TEST_CASE("after the removal of a face its edges have the remaining faces") {
+    // The edge (0, 1) of the book has three faces; without one of them it has two.
     CollapseMesh collapse_mesh = test::collapse_mesh_of(test::book());
     PairTable pairs(collapse_mesh, {});
     const Triangle page = collapse_mesh.triangle(1);
@@ -157,8 +157,8 @@ TEST_CASE("when a face is removed its edges still know the others") {
     CHECK(pairs.nonmanifold_degree(0) == 0);
 }
 
-TEST_CASE("a virtual pair that becomes an edge is one, and dies with its faces") {
-    // Faces 0 1 2 and 3 4 5, virtual pairs 0-3 and 1-3: collapsing 0-3 to 0 makes 1-3 the edge 0-1.
+TEST_CASE("a virtual pair that becomes an edge is no longer virtual and dies with its last face") {
+    // Faces 0 1 2 and 3 4 5, virtual pairs 0-3 and 1-3: collapsing 0-3 to 0 turns 1-3 into the edge 0-1.
     const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
                                          {{0, 1, 2}, {3, 4, 5}});
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -173,17 +173,17 @@ TEST_CASE("a virtual pair that becomes an edge is one, and dies with its faces")
     killed.clear();
     collapse_mesh.collapse(1, 2, Vector3::Zero());
     pairs.merge(collapse_mesh, 1, 2, killed, changes);
-    // Vertices 0 and 3 (by then 0) lost their open edges to 1 and 2.
+    // Vertex 0, into which 3 was merged, lost its boundary edges to 1 and 2.
     REQUIRE(changes.size() == 1);
     CHECK(changes[0].neighbour.vertex == 0);
     CHECK(changes[0].neighbour.pair == no_index);
     CHECK(std::set<Index>(killed.begin(), killed.end()) == std::set<Index>{0, 1, 2});
 }
 
-TEST_CASE("after every collapse the pairs are those counted anew from the triangles") {
+TEST_CASE("after every collapse the pairs agree with those counted from the triangles") {
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         const std::size_t vertices = 5 + seed;
-        // Few faces: many borders; many: edges of three and more.
+        // With few faces there are many boundaries, with many faces non-manifold edges.
         TriangleMesh mesh = test::soup(seed, vertices, seed % 2 ? vertices : 4 * vertices);
         CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
         Model model;

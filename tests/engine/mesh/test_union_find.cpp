@@ -5,7 +5,7 @@
 using faqem::Index;
 using faqem::engine::UnionFind;
 
-TEST_CASE("disjoint sets: each starts alone and is known by its smallest member") {
+TEST_CASE("union-find: each set is represented by its smallest member") {
     UnionFind sets(5);
     for (Index v = 0; v < 5; ++v) CHECK(sets.find(v) == v);
     sets.unite(4, 2);
@@ -19,8 +19,8 @@ TEST_CASE("disjoint sets: each starts alone and is known by its smallest member"
     CHECK(sets.find(4) == 1);
 }
 
-TEST_CASE("disjoint sets: the order of joining does not matter") {
-    // Joining v with v + 3 leaves the remainders by 3.
+TEST_CASE("union-find: the order of unions does not matter") {
+    // Uniting v with v + 3 yields the residue classes modulo 3.
     UnionFind upwards(100), downwards(100);
     for (Index v = 0; v + 3 < 100; ++v) upwards.join(v, v + 3);
     for (Index v = 97; v-- > 0;) downwards.join(v + 3, v);

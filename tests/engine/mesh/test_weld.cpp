@@ -17,7 +17,7 @@ double distance(const Vec3& a, const Vec3& b) {
     return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-// Each vertex joins the first representative within reach, or becomes one.
+// Brute force: each vertex is welded to the first representative within `reach`, or becomes one.
 Indices naive(const std::vector<Vec3>& positions, double reach) {
     Indices result;
     for (Index v = 0; v < positions.size(); ++v) {
@@ -35,21 +35,21 @@ Indices naive(const std::vector<Vec3>& positions, double reach) {
 
 }  // namespace
 
-TEST_CASE("equal positions become the first of them, and only equal ones") {
+TEST_CASE("welding maps equal positions, and no others, to the first vertex") {
     const double next = std::nextafter(1.0, 2.0);
     CHECK(weld_exact({{1, 2, 3}, {3, 2, 1}, {1, 2, 3}, {next, 2, 3}, {3, 2, 1}, {1, 2, 3}}) ==
           Indices{0, 1, 0, 3, 1, 0});
     CHECK(weld_exact({}).empty());
 }
 
-TEST_CASE("minus zero is zero") {
+TEST_CASE("welding treats minus zero as zero") {
     CHECK(weld_exact({{0, 0, 0}, {-0.0, 0, -0.0}, {1, -0.0, 0}, {1, 0, 0}}) == Indices{0, 0, 2, 2});
     CHECK(weld_within({{0, 0, 0}, {-0.0, 0, -0.0}}, 0) == Indices{0, 0});
     CHECK(weld_within({{-0.0, 0, 0}, {0, 0, -0.0}}, 1e-6) == Indices{0, 0});
 }
 
-TEST_CASE("within the distance means at it too, across cells and below zero") {
-    // Cells of 0.5: 0.49 and 0.51, -0.1 and 0.1 lie in different ones.
+TEST_CASE("the weld distance is inclusive and applies across cells and to negative coordinates") {
+    // With cells of size 0.5, 0.49 and 0.51 are in different cells, as are -0.1 and 0.1.
     CHECK(weld_within({{0.49, 0, 0}, {0.51, 0, 0}}, 0.5) == Indices{0, 0});
     CHECK(weld_within({{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}, 0.5) == Indices{0, 0});
     CHECK(weld_within({{-7.26, 0, 0}, {-7.24, 0, 0}}, 0.25) == Indices{0, 0});
@@ -57,20 +57,20 @@ TEST_CASE("within the distance means at it too, across cells and below zero") {
     CHECK(weld_within({{1, 0, 0}, {1.5, 0.01, 0}}, 0.5) == Indices{0, 1});
 }
 
-TEST_CASE("a chain of near vertices does not melt into one") {
+TEST_CASE("a chain of close vertices is not welded into one vertex") {
     CHECK(weld_within({{0, 0, 0}, {0.75, 0, 0}, {1.5, 0, 0}, {2.25, 0, 0}}, 1) == Indices{0, 0, 2, 2});
 }
 
-TEST_CASE("the first of several near representatives wins") {
+TEST_CASE("a vertex is welded to the first of several representatives within the distance") {
     CHECK(weld_within({{0, 0, 0}, {1.5, 0, 0}, {0.8, 0, 0}}, 1) == Indices{0, 1, 0});
     CHECK(weld_within({{1.5, 0, 0}, {0, 0, 0}, {0.2, 0, 0}, {0.8, 0, 0}}, 1) == Indices{0, 1, 1, 0});
 }
 
-TEST_CASE("a double of a vertex that was joined follows it") {
+TEST_CASE("a vertex at the position of a welded vertex has the same representative") {
     CHECK(weld_within({{0, 0, 0}, {0.5, 0, 0}, {0.5, 0, 0}}, 1) == Indices{0, 0, 0});
 }
 
-TEST_CASE("welding does what a search over all vertices does") {
+TEST_CASE("welding agrees with a brute-force search") {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         test::Random random(seed);
         std::vector<Vec3> positions;
@@ -86,7 +86,7 @@ TEST_CASE("welding does what a search over all vertices does") {
     }
 }
 
-TEST_CASE("coordinates far beyond the cells are no trouble") {
+TEST_CASE("welding supports coordinates that are huge compared with the distance") {
     CHECK(weld_within({{1e300, 0, 0}, {1e300, 0, 0}, {-1e300, 0, 0}}, 1e-10) == Indices{0, 0, 2});
     CHECK(weld_within({{1e20, 0, 0}, {2e20, 0, 0}}, 1e-6) == Indices{0, 1});
 }

@@ -12,7 +12,7 @@ namespace {
 
 const double root2 = std::sqrt(2.0);
 
-// The paper's Table 1 on a mesh in the engine's own units.
+// Weights of Table 1 of the paper, for a mesh in engine units.
 CompositeWeights paper() {
     CompositeWeights w;
     w.base = BaseWeight::inverse_area;
@@ -52,9 +52,9 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("the vertex quadric is base + boundary + normal") {
-    // Paper, Sec. 3.2.1, at corner 0 of the unit square: two faces of area 1/2 give 4 z^2; the border turns
-    // by a right angle: 500 / sqrt 2 (z^2 + x^2); the tangent plane gives z^2 / 100.
+TEST_CASE("accumulated: the vertex quadric is the sum of the base, boundary and normal terms") {
+    // Paper, Sec. 3.2.1, at corner 0 of the unit square: two faces of area 1/2 give 4 z^2; the boundary has
+    // a right angle there: 500 / sqrt 2 (z^2 + x^2); the tangent plane gives z^2 / 100.
     const Bench bench(test::quad(), paper());
     const Quadric& q = bench.metric.quadric(0);
     CHECK(q({0, 0, 2}) == Approx(4 * (4 + 500 / root2 + 0.01)));
@@ -62,7 +62,7 @@ TEST_CASE("the vertex quadric is base + boundary + normal") {
     CHECK(q({0, 2, 0}) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("weight zero turns a term off") {
+TEST_CASE("accumulated: a weight of 0 disables a term") {
     CompositeWeights w = paper();
     w.boundary = w.normal = 0;
     const Bench bench(test::quad(), w);
@@ -71,9 +71,9 @@ TEST_CASE("weight zero turns a term off") {
     CHECK(Bench(test::quad(), w).evaluate(0, 1)->cost == 0);
 }
 
-TEST_CASE("the cost of a rim pair is the quadric where it is solved, plus the area term there") {
-    // Paper eq. 2-4. Pair 0-1 of the unit square: 500 / sqrt 2 (x^2 + (x - 1)^2) and no y: singular, and the
-    // midpoint is best: 250 / sqrt 2. There sides 0-3 and 1-2 cost 100 / 8 each, side 0-1 nothing.
+TEST_CASE("accumulated: the cost is the quadric at the chosen position plus the area term there") {
+    // Paper eq. 2-4. Pair 0-1 of the unit square: 500 / sqrt 2 (x^2 + (x - 1)^2) without y is singular, and
+    // the midpoint is best: 250 / sqrt 2. There the sides 0-3 and 1-2 cost 100 / 8 each, side 0-1 nothing.
     const Bench bench(test::quad(), paper());
     const auto found = bench.evaluate(0, 1);
     REQUIRE(found);
@@ -81,8 +81,9 @@ TEST_CASE("the cost of a rim pair is the quadric where it is solved, plus the ar
     CHECK(found->cost == Approx(250 / root2 + 25));
 }
 
-TEST_CASE("before placement, the area term takes part in finding the point") {
-    // Unit square, unit base: 3 z^2 and ((y^2 + z^2) + (x^2 + z^2) + ((1 - x)^2 + z^2)) / 2 for the pair 0-1.
+TEST_CASE("accumulated: with before_placement the area term affects the position") {
+    // Unit square, unit base weights: 3 z^2 and ((y^2 + z^2) + (x^2 + z^2) + ((1 - x)^2 + z^2)) / 2 for the
+    // pair 0-1.
     CompositeWeights w;
     w.area = 1;
     w.area_term = AreaTerm::before_placement;
@@ -92,14 +93,14 @@ TEST_CASE("before placement, the area term takes part in finding the point") {
     CHECK(found->cost == Approx(0.25));
 }
 
-TEST_CASE("after placement, it does not move the point") {
+TEST_CASE("accumulated: with after_placement the area term does not affect the position") {
     CompositeWeights w;
     w.area = 1e9;
     CHECK(Bench(test::quad(), w).evaluate(0, 1)->point == Vector3(0, 0, 0));
 }
 
-TEST_CASE("a seam vertex multiplies its whole first quadric") {
-    // Supplementary, w_uv.
+TEST_CASE("accumulated: the seam weight multiplies the whole initial quadric of a seam vertex") {
+    // Paper, supplementary: w_uv.
     const Bench plain(test::quad(), paper());
     const Bench seam(test::quad(), paper(), {0, 1, 0, 0});
     const Vector3 p(1, 2, 3);
@@ -107,7 +108,7 @@ TEST_CASE("a seam vertex multiplies its whole first quadric") {
     CHECK(seam.metric.quadric(0)(p) == plain.metric.quadric(0)(p));
 }
 
-TEST_CASE("freedom is kept, and nowhere is no candidate") {
+TEST_CASE("accumulated: the allowed position is respected and nowhere gives no candidate") {
     const Bench bench(test::quad(), paper());
     CHECK(bench.evaluate(0, 1, AllowedPosition::at_first)->point == Vector3(0, 0, 0));
     CHECK(bench.evaluate(0, 1, AllowedPosition::at_second)->point == Vector3(1, 0, 0));
@@ -115,18 +116,18 @@ TEST_CASE("freedom is kept, and nowhere is no candidate") {
     CHECK_FALSE(bench.evaluate(0, 1, AllowedPosition::nowhere));
 }
 
-TEST_CASE("a cost that is not finite is no candidate") {
+TEST_CASE("accumulated: a cost that is not finite gives no candidate") {
     CHECK_FALSE(Bench(test::scaled(test::cube(), 1e200), paper()).evaluate(0, 1));
 }
 
-TEST_CASE("costs are never negative") {
+TEST_CASE("accumulated: costs are never negative") {
     const TriangleMesh mesh = test::moved(test::grid(4), {0.1, 0.7, 1e5});
     const Bench bench(mesh, CompositeWeights());
     for (Index pair = 0; pair < bench.pairs.size(); ++pair)
         CHECK(bench.evaluate(bench.pairs.first(pair), bench.pairs.second(pair))->cost >= 0);
 }
 
-TEST_CASE("quadrics are remembered: the survivor carries the sum") {
+TEST_CASE("accumulated: the survivor of a collapse has the sum of both quadrics") {
     Bench bench(test::cube(), CompositeWeights());
     const Vector3 p(1, 2, 3);
     const double sum = bench.metric.quadric(0)(p) + bench.metric.quadric(1)(p);
@@ -134,19 +135,20 @@ TEST_CASE("quadrics are remembered: the survivor carries the sum") {
     CHECK(bench.metric.quadric(0)(p) == sum);
 }
 
-TEST_CASE("the area term is that of the border as it is now, not of its history") {
-    // Unit square, 1 joined to 0 in (1/2, 0, 0): the triangle 0 2 3 is left, all its sides open.
+TEST_CASE("accumulated: the area term refers to the current boundary") {
+    // Unit square, 1 merged into 0 at (1/2, 0, 0): the triangle 0 2 3 is left, whose edges are all boundary
+    // edges.
     CompositeWeights w;
     w.area = 1;
     Bench bench(test::quad(), w);
     bench.collapse(0, 1, {0.5, 0, 0});
     const auto found = bench.evaluate(2, 3, AllowedPosition::at_second);
     REQUIRE(found);
-    // At 3 = (0, 1, 0) the sides 2-3 and 3-0 cost nothing; side 2-0 spans the triangle of area 1/2.
+    // At 3 = (0, 1, 0) the sides 2-3 and 3-0 cost nothing; with side 2-0 it spans the triangle of area 1/2.
     CHECK(found->cost == Approx(2 * 0.25));
 }
 
-TEST_CASE("only the area term reaches beyond the survivor's own pairs") {
+TEST_CASE("accumulated: only the area term changes costs of pairs without the survivor") {
     const PairTable::Change open{{1, 2}, true}, inner{{1, 2}, false};
     CompositeWeights w;
     CHECK(AccumulatedMetric(w).reevaluation(open) == Reevaluation::none);

@@ -34,10 +34,10 @@ CollapseMesh strip() {
 
 }  // namespace
 
-TEST_CASE("memoryless: an open edge costs its squared length times the squared distance from its line") {
-    // Collapsing (0, 1) to a point at height y: faces are in the plane, so only border planes count. At 0: x
-    // = 0 and y = 0; at 1: y = 0 twice, edges (0, 1) and (1, 2); the shared edge (0, 1) less half of what
-    // both say of it.
+TEST_CASE("memoryless: a boundary edge costs its squared length times the squared distance from its line") {
+    // Collapsing (0, 1) to a point at height y: the faces are in the plane, so that only boundary planes
+    // count. At 0: x = 0 and y = 0; at 1: y = 0 twice, from the edges (0, 1) and (1, 2); minus half of the
+    // planes of the shared edge (0, 1).
     const CollapseMesh collapse_mesh = strip();
     const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric;
@@ -45,39 +45,40 @@ TEST_CASE("memoryless: an open edge costs its squared length times the squared d
     const Candidate at_first =
         *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_first);
     CHECK(at_first.cost == Approx(0).margin(1e-15));
-    // From the plane x = 0 of edge (0, 3), length 1: squared distance 1.
+    // Squared distance 1 from the plane x = 0 of edge (0, 3), which has length 1.
     const Candidate at_second =
         *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_second);
     CHECK(at_second.cost == Approx(1));
 }
 
-TEST_CASE("memoryless: without weights of edges a plane sheet costs nothing anywhere") {
+TEST_CASE("memoryless: without edge weights all collapses in a plane cost nothing") {
     CHECK(evaluated(strip(), 1, 4, {0, 0, 0}).cost == Approx(0).margin(1e-15));
 }
 
 TEST_CASE("memoryless: a shared face counts one and a half times") {
-    // A ridge: two triangles over the edge (0, 1), one in z = 0, one in y = 0; both vertices see both faces.
+    // A ridge: two triangles at the edge (0, 1), one in z = 0, one in y = 0; both vertices are in both
+    // faces.
     const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
     const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric({0, 0, 0});
     metric.initialise(collapse_mesh, pairs);
     const Candidate found =
         *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second);
-    // (0, 2) shares the face in z = 0, on which vertex 2 lies; the other face has area 1/2 and is 1 away from
-    // it.
+    // (0, 2) shares the face in z = 0, which contains vertex 2; the other face has area 1/2 and distance 1.
     CHECK(found.cost == Approx(0.5));
 }
 
-TEST_CASE("memoryless: the corner of a cube is found from the edges beside it") {
+TEST_CASE("memoryless: collapsing an edge of a cube has a high cost") {
     const TriangleMesh cube = test::cube();
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(cube);
     const Triangle& t = collapse_mesh.triangle(0);
     const Candidate found = evaluated(collapse_mesh, t[0], t[1]);
-    CHECK(found.cost > 0.1);  // any point off a corner or edge leaves a face of area 1
+    CHECK(found.cost > 0.1);  // any point off a corner or edge is outside the plane of a face of area 1
 }
 
-TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cube is not") {
-    // Two triangles nearly on each other over the edge (0, 1): (0, 1, 2) looks down, (1, 0, 3) up.
+TEST_CASE("memoryless: edges at which the surface folds back have planes, edges of a cube do not") {
+    // Two nearly coincident triangles at the edge (0, 1). The normal of (1, 0, 2) points down, the other
+    // up.
     const auto cost = [](double height, double fold) {
         const CollapseMesh blade({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}},
                                  {{1, 0, 2}, {0, 1, 3}});
@@ -86,13 +87,13 @@ TEST_CASE("memoryless: the rim where a blade folds back is held, an edge of a cu
         metric.initialise(blade, pairs);
         return metric.evaluate(blade, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)->cost;
     };
-    // Vertex 2 is 1 away from the rim, of length 1, along which each face has a plane.
+    // Vertex 2 has distance 1 from the fold edge of length 1, along which each face has a plane.
     CHECK(cost(0.01, 0.2) - cost(0.01, 0) == Approx(0.4).epsilon(1e-3));
     CHECK(cost(10, 0.2) == cost(10, 0));
 }
 
-TEST_CASE("memoryless: where windings disagree, a flat edge is no rim") {
-    // Two triangles over the edge (0, 1), wound against each other, flat.
+TEST_CASE("memoryless: a flat edge between inconsistent windings is not a fold") {
+    // Two coplanar triangles at the edge (0, 1) with inconsistent windings.
     const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}},
                                      {{1, 0, 2}, {1, 0, 3}});
     const PairTable pairs(collapse_mesh, {});
@@ -105,8 +106,9 @@ TEST_CASE("memoryless: where windings disagree, a flat edge is no rim") {
     CHECK(cost(0.2) == cost(0));
 }
 
-TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where sheets pass through it") {
-    // Around the edge (0, 1), from above: a sheet 2 - 3, and a fin to 4 that may go on to 5.
+TEST_CASE("memoryless: a non-manifold edge has planes if a face ends there, not if all faces continue") {
+    // Faces at the edge (0, 1): a flat patch with vertices 2 and 3, and a perpendicular face to 4 that may
+    // continue to 5.
     const std::vector<Vector3> p = {{0, 0, 0},    {1, 0, 0},   {0.5, 1, 0},
                                     {0.5, -1, 0}, {0.5, 0, 1}, {0.5, 0, -1}};
     const auto held = [&](const std::vector<Triangle>& triangles) {
@@ -121,25 +123,25 @@ TEST_CASE("memoryless: a crowded edge is held where a face ends there, not where
         };
         return cost(5) - cost(0);
     };
-    // The planes along the edge are y = 0 twice and z = 0: vertex 2 is 1 away from the first two.
+    // The planes along the edge are y = 0 twice and z = 0. Vertex 2 has distance 1 from the first two.
     CHECK(held({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}) == Approx(2 * 5));
     CHECK(held({{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}) == Approx(2 * 5));
     CHECK(held({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}}) == Approx(0).margin(1e-12));
     CHECK(held({{0, 1, 2}, {1, 0, 2}, {1, 0, 3}, {0, 1, 3}}) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("memoryless: the last faces of a part cost their longest edge to the fourth, a hundred times") {
-    // The longest edge is 5; the edge plane of the open edges costs something besides.
+TEST_CASE("memoryless: the last faces of a component cost 100 times the fourth power of their longest edge") {
+    // The longest edge is 5. The boundary edges add a small cost.
     const std::vector<Vector3> p = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     const CollapseMesh triangle(p, {{0, 1, 2}});
     const CollapseMesh doubled(p, {{0, 1, 2}, {0, 2, 1}});
     CHECK(evaluated(triangle, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
     CHECK(evaluated(doubled, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
-    // With faces beyond the pair's the part is not gone.
+    // The component does not vanish if it has other faces.
     CHECK(evaluated(test::collapse_mesh_of(test::quad()), 0, 1).cost < 100);
 }
 
-TEST_CASE("memoryless: after collapses the costs are those of the surface as it is") {
+TEST_CASE("memoryless: after collapses the costs equal those of a metric initialised with the current mesh") {
     const TriangleMesh mesh = test::icosphere(2);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     PairTable pairs(collapse_mesh, {});
@@ -158,29 +160,29 @@ TEST_CASE("memoryless: after collapses the costs are those of the surface as it 
         pairs.merge(collapse_mesh, u, v, killed, changes);
         metric.after_collapse(collapse_mesh, pairs, u, changes);
     }
-    MemorylessMetric anew;
-    anew.initialise(collapse_mesh, pairs);
+    MemorylessMetric fresh;
+    fresh.initialise(collapse_mesh, pairs);
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         if (!pairs.is_alive(pair)) continue;
         const auto a = metric.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
-        const auto b = anew.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
+        const auto b = fresh.evaluate(collapse_mesh, pairs, pair, AllowedPosition::anywhere);
         REQUIRE(a);
         REQUIRE(b);
         CHECK(a->cost == Approx(b->cost).epsilon(1e-9).margin(1e-15));
     }
 }
 
-TEST_CASE("fast says that weights do not apply to it") {
+TEST_CASE("memoryless: the preset fast warns that term weights have no effect") {
     const TriangleMesh mesh = test::icosphere(1);
     const SimplifyResult with =
         simplify(mesh.view(), {.target = ratio(0.5), .preset = Preset::fast, .weights = {.area = 5}});
     REQUIRE(with.report.warnings.size() == 1);
-    CHECK_THAT(with.report.warnings[0], Catch::Contains("preset fast has none of their terms"));
+    CHECK_THAT(with.report.warnings[0], Catch::Contains("preset fast does not use them"));
     CHECK(simplify(mesh.view(), {.target = ratio(0.5), .preset = Preset::fast}).report.warnings.empty());
 }
 
-TEST_CASE("no vertex goes far outside, where planes are parallel but for noise") {
-    // The minimum of one pair's quadric is eight lengths of the tube away.
+TEST_CASE("memoryless: planes that are nearly parallel do not place vertices far outside the bounding box") {
+    // The minimum of the quadric of one pair is eight lengths of the tube away.
     TriangleMesh mesh = test::cylinder(10, 10, 10);
     for (Vec3& p : mesh.positions) p[0] *= 0.1;
     mesh = test::shaken(mesh, 1e-4, 2);

@@ -35,7 +35,7 @@ TriangleMesh upper_half(TriangleMesh mesh) {
     return mesh;
 }
 
-// A bumpy sphere, its upper half with this weight.
+// A bumpy sphere. The vertices of its upper half have the given weight, the others weight 1.
 struct Globe {
     explicit Globe(float weight) {
         for (Vec3& p : mesh.positions) {
@@ -57,7 +57,7 @@ struct Globe {
     std::vector<float> weights;
 };
 
-// Calls visit(u, v, without, with) for every pair: what it costs without weights and with them.
+// Calls visit(u, v, without, with) for every pair, with its candidates without and with weights.
 template <class Metric, class Visit>
 void for_each_pair(const CollapseMesh& collapse_mesh, const PairTable& pairs, Metric& plain,
                    WeightedMetric<Metric>& weighted, Visit&& visit) {
@@ -74,7 +74,7 @@ void for_each_pair(const CollapseMesh& collapse_mesh, const PairTable& pairs, Me
 
 }  // namespace
 
-TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing") {
+TEST_CASE("vertex weights: the larger weight of both vertices multiplies the cost of a pair") {
     const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
@@ -93,7 +93,7 @@ TEST_CASE("the larger weight of the ends multiplies the cost and moves nothing")
                   });
 }
 
-TEST_CASE("what refining finds is multiplied too and never falls below the first cost") {
+TEST_CASE("vertex weights: exact costs are multiplied, too, and are at least the lower bound") {
     const TriangleMesh mesh = test::shaken(test::icosphere(1), 0.1, 1);
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
@@ -109,11 +109,12 @@ TEST_CASE("what refining finds is multiplied too and never falls below the first
                   });
 }
 
-TEST_CASE("the new vertex has the weight of its place on the edge") {
+TEST_CASE("vertex weights: the weight of the new vertex is interpolated along the edge") {
     const TriangleMesh mesh = test::quad();
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
-    // Vertices 0 and 1 are at x = 0 and 1; the last one lies beside the edge, the others before and behind.
+    // Vertices 0 and 1 are at x = 0 and 1. The last position is beside the edge, the two before it are
+    // beyond its ends.
     const std::pair<Vector3, double> places[] = {{{0, 0, 0}, 1},  {{1, 0, 0}, 9}, {{0.25, 0, 0}, 3},
                                                  {{-5, 0, 0}, 1}, {{7, 0, 0}, 9}, {{0.5, 3, -2}, 5}};
     for (const auto& [place, expected] : places) {
@@ -125,7 +126,7 @@ TEST_CASE("the new vertex has the weight of its place on the edge") {
     }
 }
 
-TEST_CASE("a cost that is no longer finite is no candidate") {
+TEST_CASE("vertex weights: a cost that overflows gives no candidate") {
     const TriangleMesh mesh = test::scaled(test::tetrahedron(), 1e60);
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     const PairTable pairs(collapse_mesh, {});
@@ -135,7 +136,7 @@ TEST_CASE("a cost that is no longer finite is no candidate") {
     CHECK(metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 2, 3), AllowedPosition::at_first));
 }
 
-TEST_CASE("where the weight is ten, more faces are kept and the error is smaller") {
+TEST_CASE("vertex weights: a region of weight 10 keeps more faces and has a smaller error") {
     const Globe even(1), tilted(10);
     const TriangleMesh upper = upper_half(even.mesh);
     for (const Preset preset : all_presets) {
@@ -150,7 +151,7 @@ TEST_CASE("where the weight is ten, more faces are kept and the error is smaller
     }
 }
 
-TEST_CASE("weights that are the same everywhere change nothing") {
+TEST_CASE("vertex weights: weights of 1 do not change the result") {
     const Globe none(1);
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
@@ -164,9 +165,9 @@ TEST_CASE("weights that are the same everywhere change nothing") {
     }
 }
 
-TEST_CASE("one weight for all scales the price of handles and parts, too") {
-    // A ring whose cross-section is a triangle cannot be collapsed under the link condition; beside it are
-    // parts to delete. With a power of two all costs stay exact.
+TEST_CASE("vertex weights: a uniform weight does not change the result, lifted rules or deletions") {
+    // A ring with a triangular cross-section cannot be collapsed under the link condition; beside it are
+    // components to delete. A power of two as the weight keeps all costs exact.
     TriangleMesh mesh = test::shaken(test::torus(60, 3), 0.02, 1);
     for (int i = 0; i < 6; ++i)
         mesh =
@@ -189,8 +190,8 @@ TEST_CASE("one weight for all scales the price of handles and parts, too") {
     }
 }
 
-TEST_CASE("of vertices at one place the largest weight counts") {
-    // Each face has corners of its own; a quarter of those at a vertex have the weight.
+TEST_CASE("vertex weights: welded vertices have the largest of their weights") {
+    // Each face has its own three vertices. Of those at one position, only one has the weight.
     const Globe globe(10);
     TriangleMesh split;
     std::vector<float> weights;
@@ -213,7 +214,7 @@ TEST_CASE("of vertices at one place the largest weight counts") {
     CHECK(upper_share(a.mesh) == Approx(upper_share(b.mesh)).margin(0.01));
 }
 
-TEST_CASE("weights have a range, and the vertex that leaves it is named") {
+TEST_CASE("vertex weights: a weight out of range is an error that names the vertex") {
     const TriangleMesh mesh = test::quad();
     for (const float bad : {0.0f, -1.0f, 1e-7f, 2e6f, std::numeric_limits<float>::quiet_NaN(),
                             std::numeric_limits<float>::infinity()}) {

@@ -13,7 +13,7 @@ Quadric plane_x(double x, double weight) { return Quadric::plane_through({1, 0, 
 
 }  // namespace
 
-TEST_CASE("a well-conditioned quadric gives its minimum") {
+TEST_CASE("the optimal position of a well-conditioned quadric is its minimum") {
     Quadric q = plane_x(7, 1);
     q += Quadric::plane_through({0, 1, 0}, {0, 8, 0}, 1);
     q += Quadric::plane_through({0, 0, 1}, {0, 0, 9}, 1);
@@ -22,14 +22,14 @@ TEST_CASE("a well-conditioned quadric gives its minimum") {
     CHECK(optimal_position(q, a, b, AllowedPosition::at_second) == b);
 }
 
-TEST_CASE("a singular quadric gives the best of the ends and the midpoint") {
+TEST_CASE("a singular quadric yields the best of both vertices and their midpoint") {
     // Paper, Sec. 3.1.
     CHECK(optimal_position(plane_x(0.5, 1), a, b, AllowedPosition::anywhere) == a);
     CHECK(optimal_position(plane_x(3.5, 1), a, b, AllowedPosition::anywhere) == b);
     CHECK(optimal_position(plane_x(2.5, 1), a, b, AllowedPosition::anywhere) == Vector3(2, 0, 0));
 }
 
-TEST_CASE("of equally good places the first end comes first, then the second") {
+TEST_CASE("among equally good positions the first vertex is preferred, then the second") {
     CHECK(optimal_position(Quadric(), a, b, AllowedPosition::anywhere) == a);
     CHECK(optimal_position(Quadric(), b, a, AllowedPosition::anywhere) == b);
     CHECK(optimal_position(plane_x(3, 1), a, b, AllowedPosition::anywhere) == b);  // b and midpoint tie
@@ -37,7 +37,7 @@ TEST_CASE("of equally good places the first end comes first, then the second") {
     CHECK(optimal_position(plane_x(2, 1), a, b, AllowedPosition::anywhere) == (a + b) / 2);  // a and b tie
 }
 
-TEST_CASE("two freedoms together are the stricter one, or none where they differ") {
+TEST_CASE("the intersection of allowed positions is the stricter one, or none if they conflict") {
     using enum AllowedPosition;
     for (const AllowedPosition one : {anywhere, at_first, at_second, nowhere}) {
         CHECK(intersection(one, one) == one);
@@ -50,7 +50,7 @@ TEST_CASE("two freedoms together are the stricter one, or none where they differ
     CHECK(intersection(at_second, at_first) == nowhere);
 }
 
-TEST_CASE("a minimum outside of the room there is counts as none") {
+TEST_CASE("a minimum outside the bounds is rejected") {
     Quadric q = plane_x(7, 1);
     q += Quadric::plane_through({0, 1, 0}, {0, 0, 0}, 1);
     q += Quadric::plane_through({0, 0, 1}, {0, 0, 0}, 1);
@@ -60,8 +60,8 @@ TEST_CASE("a minimum outside of the room there is counts as none") {
     CHECK(optimal_position(q, a, b, AllowedPosition::anywhere, &narrow) == b);
 }
 
-TEST_CASE("the room around a surface is its box and a tenth of the diagonal on all sides") {
-    const Eigen::AlignedBox3d room = placement_bounds({Vector3(0, 0, 1), Vector3(3, 4, 1)});
-    CHECK(room.min() == Vector3(-0.5, -0.5, 0.5));
-    CHECK(room.max() == Vector3(3.5, 4.5, 1.5));
+TEST_CASE("placement bounds extend the bounding box by a tenth of its diagonal") {
+    const Eigen::AlignedBox3d bounds = placement_bounds({Vector3(0, 0, 1), Vector3(3, 4, 1)});
+    CHECK(bounds.min() == Vector3(-0.5, -0.5, 0.5));
+    CHECK(bounds.max() == Vector3(3.5, 4.5, 1.5));
 }

@@ -15,7 +15,7 @@ Vector3 point(test::Random& random) {
     return {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)};
 }
 
-// diag(1, 1, e), its minimum in the origin.
+// The quadric diag(1, 1, e), whose minimum is the origin.
 Quadric flat(double e) {
     Quadric q;
     q.xx = q.yy = 1;
@@ -25,14 +25,14 @@ Quadric flat(double e) {
 
 }  // namespace
 
-TEST_CASE("a plane quadric is w (n.p + d)^2, whatever the length of n") {
+TEST_CASE("a plane quadric is w (n.p + d)^2 for normals of any length") {
     const Quadric q = Quadric::plane({1, 2, -2}, 3, 0.5);
     CHECK(q({0, 0, 0}) == 0.5 * 9);
     CHECK(q({1, 1, 1}) == 0.5 * 16);
     CHECK(q({1, -1, 1}) == 0);
 }
 
-TEST_CASE("a plane through a point is zero on it and grows with the squared distance") {
+TEST_CASE("a plane quadric through a point is the weighted squared distance to the plane") {
     const Vector3 n = Vector3(1, 2, 2) / 3, at(4, -5, 6);
     const Quadric q = Quadric::plane_through(n, at, 7);
     CHECK(q(at) == Approx(0).margin(1e-12));
@@ -50,7 +50,7 @@ TEST_CASE("an edge quadric is twice the squared area of the triangle with p") {
     CHECK(Quadric::edge_area({0, 0, 1}, {2, 0, 1}, 100)({0, 3, 1}) == 1800);
 }
 
-TEST_CASE("an edge quadric is the matrix the paper prints") {
+TEST_CASE("an edge quadric equals the matrix printed in the paper") {
     // 1/2 [E^T E, E^T t; t^T E, t^T t] with E = [e]_x
     test::Random random(1);
     for (int i = 0; i < 20; ++i) {
@@ -68,7 +68,7 @@ TEST_CASE("an edge quadric is the matrix the paper prints") {
     }
 }
 
-TEST_CASE("quadrics add and scale as functions do") {
+TEST_CASE("quadrics can be added and scaled") {
     test::Random random(2);
     const Quadric a = Quadric::plane(point(random), 0.3, 2);
     const Quadric b = Quadric::edge_area(point(random), point(random), 3);
@@ -82,7 +82,7 @@ TEST_CASE("quadrics add and scale as functions do") {
     CHECK(Quadric()(p) == 0);
 }
 
-TEST_CASE("the minimum of three planes is the corner where they meet") {
+TEST_CASE("the minimum of three plane quadrics is the intersection of the planes") {
     Quadric q = Quadric::plane_through({1, 0, 0}, {1, 2, 3}, 1);
     q += Quadric::plane_through({0, 1, 0}, {1, 2, 3}, 2);
     q += Quadric::plane_through({0, 0, 1}, {1, 2, 3}, 4);
@@ -111,7 +111,7 @@ TEST_CASE("the minimum solves A p = -b") {
     }
 }
 
-TEST_CASE("a quadric that does not fix a point has no minimum") {
+TEST_CASE("a singular, indefinite or NaN quadric has no minimum") {
     Quadric q;
     CHECK_FALSE(q.minimum());
     q += Quadric::plane_through({1, 0, 0}, {1, 2, 3}, 1);
@@ -123,7 +123,7 @@ TEST_CASE("a quadric that does not fix a point has no minimum") {
     CHECK_FALSE(flat(-1).minimum());
 }
 
-TEST_CASE("how nearly singular is too singular does not depend on the scale") {
+TEST_CASE("the test for nearly singular quadrics is scale-invariant") {
     // det = e and (trace)^3 = (2 + e)^3: the limit 1e-9 (trace)^3 is near e = 8e-9.
     for (const double scale : {1.0, 0x1p60, 0x1p-60}) {
         Quadric good = flat(8.1e-9), bad = flat(7.9e-9);

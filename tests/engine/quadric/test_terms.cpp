@@ -9,7 +9,7 @@ using namespace faqem::engine;
 
 namespace {
 
-// The base terms of all faces at v.
+// Sum of the base terms of the faces at v.
 Quadric base_at(const TriangleMesh& mesh, Index v, BaseWeight weight, double plane_area = 1) {
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     Quadric q;
@@ -33,7 +33,7 @@ double twice_squared_area(const Vector3& a, const Vector3& b, const Vector3& p) 
 
 }  // namespace
 
-TEST_CASE("the base term of a cube corner has the corner as its minimum, under every weight") {
+TEST_CASE("the base terms at a cube corner have the corner as their minimum for every weight") {
     // Paper eq. 1 and 5. At vertex 0 each of the three planes has two faces of area 1/2:
     // K summed is 2 (x^2 + y^2 + z^2), weighted with A half of it, with 1 / (w A) double of it over w.
     const TriangleMesh cube = test::cube();
@@ -42,7 +42,7 @@ TEST_CASE("the base term of a cube corner has the corner as its minimum, under e
     CHECK(base_at(cube, 0, BaseWeight::area)(p) == 14);
     CHECK(base_at(cube, 0, BaseWeight::inverse_area)(p) == 4 * 14);
     CHECK(base_at(cube, 0, BaseWeight::inverse_area, 4)(p) == 14);
-    // At vertex 1 the plane x = 1 has two faces, the others one each.
+    // At vertex 1 the plane x = 1 has two faces, each other plane one.
     CHECK(base_at(cube, 1, BaseWeight::unit)({3, 5, 7}) == 2 * 4 + 25 + 49);
     for (const BaseWeight weight : {BaseWeight::unit, BaseWeight::area, BaseWeight::inverse_area}) {
         for (Index v = 0; v < 8; ++v) {
@@ -53,13 +53,13 @@ TEST_CASE("the base term of a cube corner has the corner as its minimum, under e
     }
 }
 
-TEST_CASE("the base term of a flat grid measures the height above it and has no minimum") {
+TEST_CASE("the base terms of a plane grid measure the squared height above it and have no minimum") {
     const Quadric q = base_at(test::grid(2), 4, BaseWeight::unit);
     CHECK(q({17, -4, 3}) == 6 * 9);
     CHECK_FALSE(q.minimum());
 }
 
-TEST_CASE("inverse area pulls towards small faces, area towards large ones") {
+TEST_CASE("inverse area weights favour small faces, area weights large ones") {
     // A small face (area 1/2) in z = 0 and a large one (area 8) in x = 0.
     Quadric inverse = base_term({0, 0, 1}, Vector3::Zero(), BaseWeight::inverse_area, 1, 0);
     inverse += base_term({16, 0, 0}, Vector3::Zero(), BaseWeight::inverse_area, 1, 0);
@@ -71,7 +71,7 @@ TEST_CASE("inverse area pulls towards small faces, area towards large ones") {
     CHECK(area({0, 0, 1}) == 0.5);
 }
 
-TEST_CASE("areas are clamped from below, and a face without area has no plane") {
+TEST_CASE("areas are clamped from below and a face of zero area has no base term") {
     CHECK(base_term({0, 0, 2e-9}, Vector3::Zero(), BaseWeight::inverse_area, 1, 1e-3)({0, 0, 1}) ==
           Approx(1000));
     CHECK(base_term({0, 0, 0}, {1, 1, 1}, BaseWeight::inverse_area, 1, 1e-3)({5, 5, 5}) == 0);
@@ -79,7 +79,7 @@ TEST_CASE("areas are clamped from below, and a face without area has no plane") 
     CHECK(base_term({nan, 0, 0}, {1, 1, 1}, BaseWeight::unit, 1, 0)({5, 5, 5}) == 0);
 }
 
-TEST_CASE("border neighbours are the two ends of the border, the smaller index first") {
+TEST_CASE("boundary neighbours are found at vertices with two boundary edges, smaller index first") {
     const auto neighbours = [](const TriangleMesh& mesh, Index v) {
         const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
         return boundary_neighbours(PairTable(collapse_mesh, {}), v);
@@ -90,14 +90,14 @@ TEST_CASE("border neighbours are the two ends of the border, the smaller index f
     CHECK(neighbours(test::fan(6), 6) == Two{1, 5});
     CHECK(neighbours(test::quad(), 2) == Two{1, 3});
     CHECK_FALSE(neighbours(test::cube(), 3));
-    CHECK_FALSE(neighbours(test::bow_tie(), 0));  // four open edges
-    CHECK_FALSE(neighbours(test::book(), 0));     // three
+    CHECK_FALSE(neighbours(test::bow_tie(), 0));  // four boundary edges
+    CHECK_FALSE(neighbours(test::book(), 0));     // three boundary edges
     CHECK(neighbours(test::book(), 2) == Two{0, 1});
 }
 
-TEST_CASE("curvature of a circular rim is about 1/(4R)") {
-    // Paper eq. 6 on a regular n-gon, step angle t: |d'| = 2R sin t, |d''| = 2R (1 - cos t), at right angles,
-    // so kappa = (1 - cos t) / (2R sin^2 t) = 1 / (2R (1 + cos t)).
+TEST_CASE("the curvature of a circular boundary is about 1/(4R)") {
+    // Paper eq. 6 on a regular n-gon with step angle t: |d'| = 2R sin t and |d''| = 2R (1 - cos t) are
+    // perpendicular, so that kappa = (1 - cos t) / (2R sin^2 t) = 1 / (2R (1 + cos t)).
     for (const int n : {3, 5, 6, 8, 100}) {
         for (const double radius : {0.5, 1.0, 20.0}) {
             const double t = 2 * test::pi / n;
@@ -112,29 +112,29 @@ TEST_CASE("curvature of a circular rim is about 1/(4R)") {
     }
 }
 
-TEST_CASE("a straight border has no curvature, nor has one that turns back on itself") {
+TEST_CASE("the curvature of a straight boundary, or of one that reverses its direction, is 0") {
     CHECK(boundary_curvature({1, 1, 1}, {0, 0, 0}, {3, 3, 3}) == 0);
     CHECK(boundary_curvature({1, 0, 0}, {0, 0, 0}, {0, 0, 0}) == 0);
     CHECK(boundary_term({1, 1, 1}, {0, 0, 0}, {3, 3, 3})({5, -7, 9}) == 0);
 }
 
-TEST_CASE("boundary planes are scaled by the curvature and keep their length, as printed") {
-    // Paper eq. 6-9 at a right angle of legs s: |d'| = s sqrt 2, |d' x d''| = 2 s^2, kappa = 1 / (s sqrt 2);
-    // n1 = (v1 - v2) x (v3 - v1) = (0, 0, -s^2), d = v1 - v2 = (-s, 0, 0).
+TEST_CASE("boundary planes are scaled by the curvature and their normals are not normalised") {
+    // Paper eq. 6-9 at a right angle with legs s: |d'| = s sqrt 2, |d' x d''| = 2 s^2,
+    // kappa = 1 / (s sqrt 2); n1 = (v1 - v2) x (v3 - v1) = (0, 0, -s^2), d = v1 - v2 = (-s, 0, 0).
     for (const double s : {1.0, 2.0, 10.0}) {
         const double kappa = 1 / (s * std::sqrt(2.0));
         const Quadric q = boundary_term({0, 0, 0}, {s, 0, 0}, {0, s, 0});
         CHECK(q({0, 0, 3}) == Approx(kappa * 9 * s * s * s * s));
         CHECK(q({3, 0, 0}) == Approx(kappa * 9 * s * s));
         CHECK(q({0, 3, 0}) == 0);
-        // The second plane lies across v1 - v2: the order of the neighbours matters.
+        // The second plane is perpendicular to v1 - v2, so that the order of the neighbours matters.
         CHECK(boundary_term({0, 0, 0}, {0, s, 0}, {s, 0, 0})({0, 3, 0}) == Approx(kappa * 9 * s * s));
         CHECK(boundary_term({0, 0, 0}, {0, s, 0}, {s, 0, 0})({3, 0, 0}) == 0);
     }
 }
 
-TEST_CASE("boundary planes of the rim of a half cylinder follow the closed form") {
-    // Radius R, step t: |d| = 2R sin(t/2) and |n1| = |d|^2 sin t; both planes go through v1.
+TEST_CASE("the boundary term on a circular arc agrees with its closed form") {
+    // Radius R, step angle t: |d| = 2R sin(t/2) and |n1| = |d|^2 sin t; both planes pass through v1.
     const double radius = 2, t = test::pi / 8;
     const auto at = [&](int i) { return Vector3(radius * std::cos(i * t), radius * std::sin(i * t), 1); };
     const double kappa = 1 / (2 * radius * (1 + std::cos(t)));
@@ -145,28 +145,29 @@ TEST_CASE("boundary planes of the rim of a half cylinder follow the closed form"
     CHECK(q(at(3)) == Approx(kappa * d * d * d * d));
 }
 
-TEST_CASE("the normal term is the tangent plane of the area-weighted unit normal") {
-    // Paper eq. 10. Corner 0 of the cube: (-1 -1 -1) / sqrt 3. Corner 1: one face each in y and z, two in x.
+TEST_CASE("the normal term is the tangent plane with the area-weighted normal") {
+    // Paper eq. 10. The normal at corner 0 of the cube is (-1 -1 -1) / sqrt 3. Corner 1 has one face each
+    // in y and z, and two in x.
     const CollapseMesh cube = test::collapse_mesh_of(test::cube());
     CHECK(normal_term(cube, 0)({1, 2, 3}) == Approx(36 / 3.0));
     CHECK(normal_term(cube, 0)({1, -3, 2}) == Approx(0).margin(1e-12));
     CHECK(normal_term(cube, 1)({3, 1, 1}) == Approx(4 / 6.0));
-    // Faces of area 1/2 (along z) and 2 (along y): 1 : 4, not 1 : 1.
+    // Faces of area 1/2 (normal z) and 2 (normal y) have the weights 1 : 4.
     const CollapseMesh uneven = test::collapse_mesh_of(
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, 0, 2}}, {{0, 1, 2}, {0, 3, 4}}));
     CHECK(normal_term(uneven, 0)({0, 0, 1}) == Approx(1 / 17.0));
     CHECK(normal_term(uneven, 0)({0, 1, 0}) == Approx(16 / 17.0));
 }
 
-TEST_CASE("where the normals cancel there is no normal term") {
+TEST_CASE("the normal term is zero if the normals cancel") {
     const CollapseMesh sheet =
         test::collapse_mesh_of(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}));
     CHECK(normal_term(sheet, 0)({5, 6, 7}) == 0);
 }
 
-TEST_CASE("the area term sums the open edges at both ends, the one between them once") {
-    // Paper eq. 11 on the unit square, p = (1/2, -1, 2). Squared distances of p to the sides:
-    // 0-1: 1 + 4, 0-3 and 1-2: 1/4 + 4, 2-3: 4 + 4; each side of length 1 gives half of that.
+TEST_CASE("the area term sums the boundary edges at both vertices and counts a shared edge once") {
+    // Paper eq. 11 on the unit square, p = (1/2, -1, 2). Squared distances from p to the sides: 0-1: 1 + 4,
+    // 0-3 and 1-2: 1/4 + 4, 2-3: 4 + 4; each side, of length 1, contributes half of that.
     const Vector3 p(0.5, -1, 2);
     CHECK(area_of_pair(test::quad(), 0, 1)(p) == Approx((5 + 4.25 + 4.25) / 2));
     CHECK(area_of_pair(test::quad(), 1, 0)(p) == Approx((5 + 4.25 + 4.25) / 2));
@@ -174,15 +175,15 @@ TEST_CASE("the area term sums the open edges at both ends, the one between them 
     CHECK(area_of_pair(test::quad(), 0, 1)({0, 0, 0}) == Approx(0.5));
 }
 
-TEST_CASE("the area term sees open edges only") {
+TEST_CASE("the area term includes boundary edges only") {
     const Vector3 p(0.3, 0.4, 0.5);
     CHECK(area_of_pair(test::cube(), 0, 1)(p) == 0);
-    // From the hub of a disc: the two rim edges at the rim vertex.
+    // Pair of the centre of a disc and a boundary vertex: the two boundary edges at the latter.
     const TriangleMesh fan = test::fan(6);
     const auto at = [&](Index v) { return to_eigen(fan.positions[v]); };
     CHECK(area_of_pair(fan, 0, 1)(p) ==
           Approx(twice_squared_area(at(1), at(2), p) + twice_squared_area(at(1), at(6), p)));
-    // The spine of the book has three faces; the virtual pair of two quads has none.
+    // The edge (0, 1) of the book has three faces; the virtual pair of the two quads has none.
     const TriangleMesh book = test::book();
     double six = 0;
     for (Index page = 2; page < 5; ++page) {

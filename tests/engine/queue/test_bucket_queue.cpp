@@ -10,20 +10,20 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-TEST_CASE("buckets give out nearly equal costs in the order in which they came") {
+TEST_CASE("bucket queue: nearly equal costs are popped in the order of insertion") {
     BucketQueue queue;
     queue.reserve(6);
     for (const Index pair : {4u, 1u, 5u}) queue.set(pair, 1 + pair * 1e-4);
     queue.set(2, 1.1);
     queue.set(0, 0.0);
-    queue.set(3, 1e300);  // beyond what a float holds
-    queue.set(1, 1.1);    // beside 2 now, later than that
+    queue.set(3, 1e300);  // larger than any float
+    queue.set(1, 1.1);    // now in the bucket of 2, inserted later
     std::vector<Index> order;
     while (!queue.empty()) order.push_back(queue.pop());
     CHECK(order == std::vector<Index>{0, 4, 5, 2, 1, 3});
 }
 
-TEST_CASE("buckets never give out a cost that is a sixty-fourth above another") {
+TEST_CASE("bucket queue: a popped cost is at most 1/64 above the lowest one") {
     test::Random random(6);
     BucketQueue queue;
     std::vector<double> cost(300, -1);
@@ -46,7 +46,7 @@ TEST_CASE("buckets never give out a cost that is a sixty-fourth above another") 
             REQUIRE(taken >= 0);
             for (const double other : cost) {
                 if (other >= 0 && other * (1 + 1.0 / 64) < taken)
-                    FAIL("a lower one is left at step " << step);
+                    FAIL("a cheaper pair is left in the queue at step " << step);
             }
         }
         REQUIRE(queue.empty() == (size == 0));

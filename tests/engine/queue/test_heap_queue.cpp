@@ -12,7 +12,7 @@ using namespace faqem::engine;
 
 static_assert(CollapseQueue<HeapQueue> && !LazyQueue<HeapQueue> && !TargetDependentQueue<HeapQueue>);
 
-TEST_CASE("equal costs come out by index, however they went in") {
+TEST_CASE("heap queue: equal costs are popped by index") {
     HeapQueue queue;
     queue.reserve(6);
     for (const Index pair : {4u, 1u, 5u, 0u, 3u, 2u}) queue.set(pair, pair == 5 ? 1.0 : 7.0);
@@ -23,7 +23,7 @@ TEST_CASE("equal costs come out by index, however they went in") {
     CHECK(order == std::vector<Index>{5, 0, 1, 2, 3, 4});
 }
 
-TEMPLATE_TEST_CASE("the queue knows what is in it", "", HeapQueue, BucketQueue) {
+TEMPLATE_TEST_CASE("a queue tracks its contents", "", HeapQueue, BucketQueue) {
     TestType queue;
     queue.reserve(3);
     CHECK(queue.empty());
@@ -42,7 +42,7 @@ TEMPLATE_TEST_CASE("the queue knows what is in it", "", HeapQueue, BucketQueue) 
     CHECK(queue.empty());
 }
 
-TEST_CASE("the heap does what an ordered set does") {
+TEST_CASE("heap queue: agrees with an ordered set") {
     test::Random random(5);
     HeapQueue queue;
     std::set<std::pair<double, Index>> expected;
@@ -61,12 +61,15 @@ TEST_CASE("the heap does what an ordered set does") {
             expected.erase({cost[pair], pair});
             queue.erase(pair);
         } else if (!expected.empty()) {
-            if (queue.has_cheaper(expected.begin()->first)) FAIL("before the first at step " << step);
-            if (!queue.has_cheaper(expected.begin()->first + 0.5)) FAIL("first at step " << step);
-            if (queue.pop() != expected.begin()->second) FAIL("pop at step " << step);
+            if (queue.has_cheaper(expected.begin()->first))
+                FAIL("has_cheaper() is true for the lowest cost at step " << step);
+            if (!queue.has_cheaper(expected.begin()->first + 0.5))
+                FAIL("has_cheaper() is false above the lowest cost at step " << step);
+            if (queue.pop() != expected.begin()->second)
+                FAIL("pop() returned the wrong pair at step " << step);
             expected.erase(expected.begin());
         }
-        if (queue.empty() != expected.empty()) FAIL("empty at step " << step);
+        if (queue.empty() != expected.empty()) FAIL("empty() is wrong at step " << step);
     }
     while (!expected.empty()) {
         REQUIRE(queue.pop() == expected.begin()->second);
@@ -75,7 +78,7 @@ TEST_CASE("the heap does what an ordered set does") {
     CHECK(queue.empty());
 }
 
-TEMPLATE_TEST_CASE("reserve forgets what was in the queue", "", HeapQueue, BucketQueue) {
+TEMPLATE_TEST_CASE("reserve clears a queue", "", HeapQueue, BucketQueue) {
     TestType queue;
     queue.reserve(2);
     queue.set(1, 1);

@@ -17,7 +17,8 @@ std::vector<Index> all_of(SweepQueue& queue) {
     return order;
 }
 
-// Of which nine tenths are to go: a fourth of them in the first round, those up to 0.3 * 0.9^2 of the largest cost.
+// Pairs with ascending costs, of which nine tenths are to be removed. The first limit is the quantile of
+// 0.3 * 0.9^2 of the costs, so that the first round pops about a fourth of the pairs.
 SweepQueue ascending(std::size_t pairs) {
     SweepQueue queue;
     queue.reserve(pairs);
@@ -28,7 +29,7 @@ SweepQueue ascending(std::size_t pairs) {
 
 }  // namespace
 
-TEST_CASE("rounds give out by index all pairs up to a limit") {
+TEST_CASE("sweep queue: a round pops all pairs up to the limit by index") {
     SweepQueue queue;
     queue.reserve(64);
     queue.set_target(2);
@@ -41,11 +42,11 @@ TEST_CASE("rounds give out by index all pairs up to a limit") {
     std::vector<Index> first;
     for (std::size_t i = 0; i < expected.size(); ++i) first.push_back(queue.pop());
     CHECK(first == expected);
-    CHECK(queue.pop() == 5);  // within four times the limit
+    CHECK(queue.pop() == 5);  // at most four times the limit
     CHECK(queue.pop() == 0);
 }
 
-TEST_CASE("a pair whose cost has changed waits for the next round") {
+TEST_CASE("sweep queue: a stale pair is popped in the next round") {
     SweepQueue queue = ascending(160);
     CHECK(queue.pop() == 0);
     CHECK(queue.mark_stale(2));
@@ -59,7 +60,7 @@ TEST_CASE("a pair whose cost has changed waits for the next round") {
     CHECK_FALSE(queue.mark_stale(2));
 }
 
-TEST_CASE("what costs more than the limit comes after what does not") {
+TEST_CASE("sweep queue: pairs above the limit are popped after those below it") {
     SweepQueue queue = ascending(160);
     CHECK(queue.pop() == 0);
     CHECK_FALSE(queue.has_cheaper(1));
@@ -68,7 +69,7 @@ TEST_CASE("what costs more than the limit comes after what does not") {
     CHECK(all_of(queue).back() == 0);
 }
 
-TEST_CASE("near the end the cheapest comes first") {
+TEST_CASE("sweep queue: near the target the cheapest pair is popped first") {
     test::Random random(3);
     SweepQueue queue;
     queue.reserve(200);
@@ -84,7 +85,7 @@ TEST_CASE("near the end the cheapest comes first") {
         CHECK(costs[order[i + 1]] * (1 + 1.0 / 64) > costs[order[i]]);
 }
 
-TEST_CASE("few pairs come out as from buckets, whatever is done to them") {
+TEST_CASE("sweep queue: few pairs are popped in the order of a bucket queue") {
     test::Random random(6);
     SweepQueue queue(300);
     BucketQueue buckets;
@@ -116,7 +117,7 @@ TEST_CASE("few pairs come out as from buckets, whatever is done to them") {
     }
 }
 
-TEST_CASE("what is in comes out, once, and in the end all") {
+TEST_CASE("sweep queue: each inserted pair is popped once") {
     test::Random random(8);
     for (const std::size_t end : {0u, 40u, 4000u}) {
         SweepQueue queue;
@@ -149,7 +150,7 @@ TEST_CASE("what is in comes out, once, and in the end all") {
     }
 }
 
-TEST_CASE("a pair that waits for more rounds than a byte counts comes out") {
+TEST_CASE("sweep queue: a pair that is stale for more than 255 rounds is popped in the end") {
     SweepQueue queue;
     queue.reserve(2);
     queue.set(0, 0);
@@ -163,9 +164,9 @@ TEST_CASE("a pair that waits for more rounds than a byte counts comes out") {
     CHECK(queue.pop() == 1);
 }
 
-TEST_CASE("whoever asks is not kept waiting while a long round finds nothing") {
-    int asked = 0;
-    ProgressMonitor monitor([&] { return ++asked, Continue::yes; });
+TEST_CASE("sweep queue: cancellation is checked during a long round without a pop") {
+    int checks = 0;
+    ProgressMonitor monitor([&] { return ++checks, Continue::yes; });
     SweepQueue queue;
     queue.reserve(1'000'000);
     queue.set_target(0, CancellationCheck(monitor));
@@ -173,5 +174,5 @@ TEST_CASE("whoever asks is not kept waiting while a long round finds nothing") {
     queue.set(999'999, 1);
     CHECK(queue.pop() == 0);
     CHECK(queue.pop() == 999'999);
-    CHECK(asked >= 3);
+    CHECK(checks >= 3);
 }

@@ -16,26 +16,26 @@ struct Bench {
         : original(mesh),
           collapse_mesh(original.positions, original.triangles),
           pairs(collapse_mesh, {}),
-          border(original.surface, original.tracked, collapse_mesh, pairs) {}
+          bindings(original.surface, original.tracked, collapse_mesh, pairs) {}
     double squared_distance(Index u, Index v, const Vector3& p) {
-        return border.squared_distance(collapse_mesh, pairs, u, v, p);
+        return bindings.squared_distance(collapse_mesh, pairs, u, v, p);
     }
     void collapse(Index u, Index v, const Vector3& p) {
-        border.before_collapse(pairs, u, v);
+        bindings.before_collapse(pairs, u, v);
         collapse_mesh.collapse(u, v, p);
         std::vector<Index> killed;
         std::vector<PairTable::Change> changes;
         pairs.merge(collapse_mesh, u, v, killed, changes);
-        border.after_collapse(collapse_mesh, pairs, u, changes);
+        bindings.after_collapse(collapse_mesh, pairs, u, changes);
     }
 
     test::OriginalOf original;
     CollapseMesh collapse_mesh;
     PairTable pairs;
-    BoundaryBindings border;
+    BoundaryBindings bindings;
 };
 
-// The unit square with its middle.
+// The unit square with its centre.
 //
 //     3---2
 //     | 4 |
@@ -45,19 +45,20 @@ const TriangleMesh square = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 
 
 }  // namespace
 
-TEST_CASE("border bindings: corners that are cut off are as far away as the cut") {
+TEST_CASE("boundary bindings: corners that are cut off are measured to the new boundary") {
     Bench bench(square);
-    CHECK(bench.squared_distance(0, 1, {0.5, 0, 0}) == Approx(0.2));  // of 0 from the side 3 (0.5, 0)
+    // From 0 to the side between 3 and (0.5, 0)
+    CHECK(bench.squared_distance(0, 1, {0.5, 0, 0}) == Approx(0.2));
     CHECK(bench.squared_distance(4, 0, {0.1, 0.1, 0}) == Approx(0.02));
     CHECK(bench.squared_distance(4, 0, {0, 0, 0}) == 0);
 }
 
-TEST_CASE("border bindings: the new vertex may be far from the original border") {
+TEST_CASE("boundary bindings: the new vertex is measured to the original boundary") {
     Bench bench(square);
     CHECK(bench.squared_distance(0, 1, {0.5, -2, 0}) == Approx(4));
 }
 
-TEST_CASE("border bindings: an open edge from one border to another is as far away as its middle") {
+TEST_CASE("boundary bindings: an edge between two sides of the boundary is measured at its midpoint") {
     //  5---6---7---8---9
     //  | / | / | / | / |
     //  0---1---2---3---4
@@ -70,19 +71,20 @@ TEST_CASE("border bindings: an open edge from one border to another is as far aw
         strip.triangles.push_back({i, i + 6, i + 5});
     }
     Bench bench(strip);
-    // Corner 7 is sqrt(1/5) away from the edge to 8; the middles of those to 6 and 8 are 1/2 away from both
-    // sides.
+    // Vertex 7 has distance sqrt(1/5) from the edge to 8; the midpoints of the edges to 6 and 8 have
+    // distance 1/2 from both sides.
     CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
 }
 
-TEST_CASE("border bindings: what is bound goes with the border from collapse to collapse") {
-    // The rim of a disc of 16 triangles; vertices 1, 2, 3 ... go into 1 one after the other.
+TEST_CASE("boundary bindings: bound vertices follow the boundary through collapses") {
+    // The boundary of a disc of 16 triangles: vertices 2, 3, ... are merged into 1 one after the other.
     Bench bench(test::fan(16));
     double last = 0;
     for (Index next = 2; next < 8; ++next) {
         const Vector3 p = bench.collapse_mesh.position(1);
         const double distance = bench.squared_distance(1, next, p);
-        // The chord from 1 to next + 1 stands for an arc of `next` sides: it is farthest from its middle.
+        // The chord from 1 to next + 1 replaces an arc of `next` sides, whose midpoint is the farthest from
+        // it.
         const double half = test::pi * next / 16;
         const double height = 1 - std::cos(half);
         CHECK(distance <= height * height * 1.0001);
@@ -93,28 +95,28 @@ TEST_CASE("border bindings: what is bound goes with the border from collapse to 
     }
 }
 
-TEST_CASE("border bindings: where nothing is bound to the edges at hand, the next ones tell") {
-    // Of the square only corner 1 is looked after: nothing is bound to the edges at corner 3.
+TEST_CASE("boundary bindings: without vertices bound at the pair those of adjacent edges are used") {
+    // Only corner 1 of the square is tracked: no vertex is bound to the edges at corner 3.
     const test::OriginalOf original(square);
     CollapseMesh collapse_mesh(original.positions, original.triangles);
     PairTable pairs(collapse_mesh, {});
     TrackedVertices corner;
     corner.add(1, 1);
-    BoundaryBindings border(original.surface, corner, collapse_mesh, pairs);
-    CHECK(border.squared_distance(collapse_mesh, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
-    // On the side 0 1, but the middle of the edge to 2 is 1/4 away from the side 1 2.
-    CHECK(border.squared_distance(collapse_mesh, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
+    BoundaryBindings bindings(original.surface, corner, collapse_mesh, pairs);
+    CHECK(bindings.squared_distance(collapse_mesh, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
+    // The point is on the side (0, 1), but the midpoint of the edge to 2 has distance 1/4 from (1, 2).
+    CHECK(bindings.squared_distance(collapse_mesh, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
 }
 
-TEST_CASE("border bindings: inside, and where a border ends, there is nothing to tell") {
+TEST_CASE("boundary bindings: the distance is 0 for inner pairs and for a loop that vanishes") {
     Bench inside(test::icosphere(1));
     CHECK(inside.squared_distance(0, 12, {5, 5, 5}) == 0);
     Bench triangle(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     CHECK(triangle.squared_distance(0, 1, {0.5, 0, 0}) == 0);
 }
 
-TEST_CASE("border bindings: a border that begins where the original had none is let be") {
-    // Each side of the triangle 0 1 2 has a flap of two faces, back to back.
+TEST_CASE("boundary bindings: a new loop is ignored if the original has no boundary") {
+    // Each side of the triangle 0 1 2 has two more faces, back to back.
     Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                            {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}}));
     bench.collapse(0, 3, {0, 0, 0});
@@ -123,7 +125,7 @@ TEST_CASE("border bindings: a border that begins where the original had none is 
     bench.collapse(0, 1, {0, 0, 0});
 }
 
-TEST_CASE("border bindings: a simplified disc keeps its rim as a polygon of equal sides would") {
+TEST_CASE("boundary bindings: a simplified disc is nearly as close as a regular polygon") {
     const TriangleMesh disc = test::fan(128);
     Options options;
     options.target = faces(16);

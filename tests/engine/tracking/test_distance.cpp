@@ -9,16 +9,16 @@ using namespace faqem;
 using engine::TriangleDistance;
 using engine::Vector3;
 
-TEST_CASE("distance: inside, beyond a side and beyond a corner of a right triangle") {
+TEST_CASE("distance: the nearest point of a triangle is inside, on a side or a corner") {
     const TriangleDistance triangle({0, 0, 0}, {4, 0, 0}, {0, 3, 0});
     CHECK(triangle({1, 1, 2}) == Approx(4));
     CHECK(triangle({1, -2, 0}) == Approx(4));
     CHECK(triangle({-3, -4, 0}) == Approx(25));
     CHECK(triangle({7, 0, 4}) == Approx(25));
-    CHECK(triangle({4, 3, 0}) == Approx(2.4 * 2.4));  // the height over the hypotenuse
+    CHECK(triangle({4, 3, 0}) == Approx(2.4 * 2.4));  // the height above the hypotenuse
 }
 
-TEST_CASE("distance: it is that of the closest point, on slivers, segments and points too") {
+TEST_CASE("distance: agrees with the closest point, also for slivers, segments and points") {
     test::Random random(3);
     const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
     for (int i = 0; i < 2000; ++i) {
@@ -36,7 +36,7 @@ TEST_CASE("distance: it is that of the closest point, on slivers, segments and p
     }
 }
 
-TEST_CASE("distance: of several triangles the nearest is found, the first of equals") {
+TEST_CASE("distance: the nearest of several triangles is found, the first of equal ones") {
     const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), up(0, 0, 1);
     const std::vector<TriangleDistance> layers = {
         {a, b, c}, {a + up, b + up, c + up}, {a + up, b + up, c + up}};
@@ -45,8 +45,7 @@ TEST_CASE("distance: of several triangles the nearest is found, the first of equ
     CHECK(engine::nearest_index(std::vector<TriangleDistance>(), a) == 0);
 }
 
-TEST_CASE(
-    "distance: a segment's is that of the triangle with two equal corners, a point's that of the point") {
+TEST_CASE("distance: a segment is equivalent to a triangle with two equal corners") {
     test::Random random(5);
     const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
     for (int i = 0; i < 500; ++i) {
@@ -55,7 +54,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("distance: the farthest point is that with the largest smallest distance, in any order") {
+TEST_CASE("distance: the farthest point has the largest distance from its nearest shape") {
     test::Random random(7);
     const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
     for (int i = 0; i < 100; ++i) {

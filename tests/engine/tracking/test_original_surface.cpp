@@ -7,18 +7,18 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-TEST_CASE("original: distances around a vertex are those to its faces and no others") {
-    // A fan of six triangles about vertex 0 in the plane z = 0: vertex 1 has two of them.
+TEST_CASE("original surface: the distance to a vertex ring considers the faces of the vertex only") {
+    // A fan of six triangles around vertex 0 in the plane z = 0. Vertex 1 has two of them.
     const test::OriginalOf original(test::fan(6));
     CHECK(original.surface.squared_distance_to_ring(0, {0.1, 0.1, 2}, 100) == Approx(4));
     CHECK(original.surface.squared_distance_to_ring(0, {0.1, 0.1, 2}, 1) == 1);
-    const Vector3 beyond = -original.positions[1];  // a corner opposite to vertex 1, at distance 1 from 0
+    const Vector3 beyond = -original.positions[1];  // the corner opposite to vertex 1, at distance 1 from 0
     CHECK(original.surface.squared_distance_to_ring(0, beyond, 100) == Approx(0).margin(1e-12));
     CHECK(original.surface.squared_distance_to_ring(1, beyond, 100) > 0.5);
     CHECK(original.surface.boundary_edges().size() == 6);
 }
 
-TEST_CASE("original: the open ends of a vertex are in order, and there are none on a closed surface") {
+TEST_CASE("original surface: boundary neighbours are ascending, and absent on a closed surface") {
     const test::OriginalOf fan(test::fan(6));
     const auto ends = [&](Index v) {
         const auto all = fan.surface.boundary_neighbours(v);
@@ -32,7 +32,7 @@ TEST_CASE("original: the open ends of a vertex are in order, and there are none 
     for (Index v = 0; v < 8; ++v) CHECK(closed.surface.boundary_neighbours(v).empty());
 }
 
-TEST_CASE("original: a lineage leaves out what has gone into nothing") {
+TEST_CASE("original surface: vertices without a current vertex are not tracked") {
     const TrackedVertices tracked(std::vector<Index>{4, no_index, 2});
     CHECK(tracked.original == std::vector<Index>{0, 2});
     CHECK(tracked.current == std::vector<Index>{4, 2});

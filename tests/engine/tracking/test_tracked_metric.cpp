@@ -41,9 +41,9 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("tracked: a collapse costs the mean face area times the largest squared distance, besides") {
-    // A pyramid over the unit square: apex 4 at height h joined with corner 0 leaves the flat square, from
-    // which the apex is h away. Faces there would be: (0, 1, 2) and (0, 2, 3).
+TEST_CASE("tracked metric: the mean face area times the largest squared distance is added to the cost") {
+    // A pyramid on the unit square. Collapsing the apex 4, at height h, to corner 0 leaves the faces (0, 1,
+    // 2) and (0, 2, 3), from which the apex has distance h.
     const double h = 0.5;
     const TriangleMesh pyramid = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, h}},
                                             {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
@@ -53,9 +53,9 @@ TEST_CASE("tracked: a collapse costs the mean face area times the largest square
     CHECK(bench.exact_cost(0, 4, flat) == Approx(7 + face_area * h * h));
 }
 
-TEST_CASE("tracked: the way back counts, from the new vertex to the original") {
-    // A flat square with two vertices inside: they lifted by 1 leave all vertices on the surface there would
-    // be, or near it; the new vertex is 1 away from the original.
+TEST_CASE("tracked metric: the distance from the new vertex to the original is measured, too") {
+    // A plane square with two inner vertices. If they are collapsed to a point at height 1, all original
+    // vertices are on or near the new faces, but the new vertex has distance 1 from the original.
     const TriangleMesh flat =
         test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0.25, 0}},
                    {{0, 1, 5}, {1, 4, 5}, {0, 5, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
@@ -64,9 +64,9 @@ TEST_CASE("tracked: the way back counts, from the new vertex to the original") {
     CHECK(bench.exact_cost(4, 5, lifted) == Approx(1.0 / 6));
 }
 
-TEST_CASE("tracked: small errors in one direction add up") {
-    // A strip bent into half a circle: after some collapses onto one vertex the distance from those that are
-    // gone is counted, though the faces of today know nothing of them.
+TEST_CASE("tracked metric: small errors in one direction add up") {
+    // A strip bent into half a circle. After several collapses onto one vertex, the distance from the
+    // removed vertices counts, although the current faces do not contain them.
     TriangleMesh strip;
     const int n = 8;
     for (int i = 0; i <= n; ++i) {
@@ -89,12 +89,12 @@ TEST_CASE("tracked: small errors in one direction add up") {
     }
 }
 
-TEST_CASE("tracked: where nothing is left around the pair the planes alone tell") {
+TEST_CASE("tracked metric: without faces around the pair the cost is that of the planes") {
     Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     CHECK(bench.exact_cost(0, 1, {{0.5, 0, 0}, 3}) == 3);
 }
 
-TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the largest distance") {
+TEST_CASE("tracked metric: balanced has a smaller Hausdorff distance than fast") {
     const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.03, 5);
     const auto hausdorff = [&](Preset preset) {
         const SimplifyResult r = simplify(mesh.view(), {.target = ratio(0.1), .preset = preset});
@@ -104,8 +104,9 @@ TEST_CASE("tracked: balanced comes closer to a bumpy sphere than fast, in the la
     CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
 }
 
-TEST_CASE("tracked: far above the target planes and border tell, then the lineage what is bound where") {
-    // A cylinder of 16 sides and 16 rings; four times the target is reached by joining a rim with the next.
+TEST_CASE("tracked metric: far above the target only boundaries are tracked, then all vertices") {
+    // A cylinder of 16 sides and 16 rings. Four times the target is reached by collapses along the
+    // boundaries.
     const TriangleMesh tube = test::cylinder(16, 16, 4);
     Bench bench(tube, 120);
     const Candidate in_place{bench.collapse_mesh.position(1), 0}, inside{bench.collapse_mesh.position(17), 0};
@@ -115,16 +116,18 @@ TEST_CASE("tracked: far above the target planes and border tell, then the lineag
     for (Index v = 0; bench.collapse_mesh.face_count() > 480; v += 2) {
         bench.collapse(v + 1, v, bench.collapse_mesh.position(v + 1));
     }
-    // Vertex 0 went into 1 and is now as far from the surface as its arc is high over the chord from 15 to 1.
+    // Vertex 0 was merged into 1. Its distance from the surface is the height of its arc above the chord
+    // from 15 to 1.
     const double height = 1 - std::cos(test::pi / 8);
     const double face_area = 2 * test::pi * 4 / 120;
     const double cost = bench.exact_cost(1, 17, in_place);
     CHECK(cost > 0.9 * face_area * height * height);
 }
 
-TEST_CASE("tracked: squared distances of the border count twice") {
-    // The side 0 1 of a flat square becomes its middle: corners 0 and 1 stay on the surface's plane, but are
-    // sqrt(1/5) away from the new sides. Only the middle of the square is inside.
+TEST_CASE("tracked metric: squared boundary distances count twice") {
+    // The side (0, 1) of a plane square is collapsed to its midpoint. Corners 0 and 1 stay in the plane of
+    // the faces, but have distance sqrt(1/5) from the new sides. Only the centre of the square is an inner
+    // vertex.
     const TriangleMesh flat = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
                                          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
     Bench bench(flat);

@@ -18,7 +18,7 @@ std::vector<Index> bound_to(const VertexBindings& bindings, Index f) {
 
 }  // namespace
 
-TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces") {
+TEST_CASE("vertex bindings: initially every vertex is bound to exactly one of its faces") {
     const test::OriginalOf original(test::icosphere(1));
     const CollapseMesh collapse_mesh(original.positions, original.triangles);
     VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
@@ -34,7 +34,7 @@ TEST_CASE("bindings: at first every vertex is bound to exactly one of its faces"
     CHECK(times == std::vector<int>(times.size(), 1));
 }
 
-TEST_CASE("bindings: what is released is bound to nothing until it is bound anew") {
+TEST_CASE("vertex bindings: released vertices are not bound until they are bound again") {
     const test::OriginalOf original(test::quad());
     const CollapseMesh collapse_mesh(original.positions, original.triangles);
     VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
@@ -49,7 +49,7 @@ TEST_CASE("bindings: what is released is bound to nothing until it is bound anew
     CHECK(bound_to(bindings, 1) == std::vector<Index>{0, 2});
 }
 
-TEST_CASE("bindings: a vertex without faces is bound to nothing") {
+TEST_CASE("vertex bindings: a vertex without faces is not bound") {
     const test::OriginalOf original(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 2}}));
     const CollapseMesh collapse_mesh(original.positions, original.triangles);
     VertexBindings bindings(original.surface, original.tracked, collapse_mesh);
@@ -57,8 +57,8 @@ TEST_CASE("bindings: a vertex without faces is bound to nothing") {
     CHECK(bound_to(bindings, 0) == std::vector<Index>{0, 1, 2});
 }
 
-TEST_CASE("bindings: what went into another vertex is bound to the face nearest to where it was") {
-    // Every second column of a grid goes into its left neighbour, which stays in place.
+TEST_CASE("vertex bindings: a merged vertex is bound to the face nearest to its original position") {
+    // Every second column of a grid is merged into its left neighbour, which does not move.
     const TriangleMesh mesh = test::grid(6);
     const test::OriginalOf original(mesh);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -93,7 +93,7 @@ TEST_CASE("bindings: what went into another vertex is bound to the face nearest 
     CHECK(found == mesh.positions.size());
 }
 
-TEST_CASE("bindings: the lineage is followed over many steps") {
+TEST_CASE("vertex bindings: chains of collapse targets are followed") {
     const TriangleMesh mesh = test::fan(8);
     const test::OriginalOf original(mesh);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -110,7 +110,7 @@ TEST_CASE("bindings: the lineage is followed over many steps") {
     CHECK(found == 9);
 }
 
-TEST_CASE("bindings: distances to the original stay those to the original") {
+TEST_CASE("vertex bindings: distances to the original are not affected by collapses") {
     const TriangleMesh mesh = test::fan(6);
     const test::OriginalOf original(mesh);
     CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
@@ -121,8 +121,8 @@ TEST_CASE("bindings: distances to the original stay those to the original") {
     CHECK(bindings.squared_distance_to_ring(1, {2, 0, 0}, 100) == Approx(1));
 }
 
-TEST_CASE("bindings: of a complex that is what the original has become, and for some vertices only") {
-    // A square of two triangles over what was a square of a hundred and twenty-eight.
+TEST_CASE("vertex bindings: some vertices can be bound to a mesh that is already simplified") {
+    // The original square has 128 triangles, the current one has two.
     const test::OriginalOf original(test::grid(8));
     const CollapseMesh collapse_mesh({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}});
     TrackedVertices tracked;

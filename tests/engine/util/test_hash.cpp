@@ -5,8 +5,8 @@
 
 using faqem::engine::splitmix64;
 
-TEST_CASE("splitmix64: after the step of SplitMix64 it gives that generator's numbers") {
-    // The first three for seed 1234567, as published with the generator.
+TEST_CASE("splitmix64: reproduces the published output of the SplitMix64 generator") {
+    // The first three outputs for seed 1234567, as published with the generator.
     std::uint64_t state = 1234567;
     const auto next = [&] { return splitmix64(state += 0x9e3779b97f4a7c15u); };
     CHECK(next() == 6457827717110365317u);
@@ -14,7 +14,7 @@ TEST_CASE("splitmix64: after the step of SplitMix64 it gives that generator's nu
     CHECK(next() == 9817491932198370423u);
 }
 
-TEST_CASE("splitmix64: one bit of the argument changes about half of the bits") {
+TEST_CASE("splitmix64: flipping one input bit changes about half of the output bits") {
     int changed = 0;
     for (int bit = 0; bit < 64; ++bit) {
         changed += std::popcount(splitmix64(12345) ^ splitmix64(12345 ^ (std::uint64_t{1} << bit)));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The borders of a surface while it is simplified: where they end or begin, and how far the next one is.
+/// The boundary loops of a mesh during simplification, and the distances between them.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,14 +19,17 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Where a small hole closes the surface hardly moves, but its border is gone: what stood there is as far
-/// from a border as the next one is. Borders are connected sets of open edges; one lives as long as it has an
-/// edge.
+/// Measures the error of collapses that close or open a boundary loop. Closing a small hole hardly moves
+/// the surface, but its boundary vanishes; the points on it are then as far from the boundary as the
+/// nearest other loop. A loop is a connected set of boundary edges and exists as long as it has an edge.
+/// Not thread-safe.
 class BoundaryLoops {
 public:
-    /// \param first_context_vertex  vertices from here on, and the edges between them, are not looked at
-    /// \throws what the poll throws
-    /// O(vertices + n log n), where n vertices are on borders
+    /// Finds the boundary loops. O(vertices + n log n) for n boundary vertices
+    /// \param first_context_vertex  vertices from this index on, and edges between them, are ignored;
+    ///     no_index: none
+    /// \param check_cancelled       called for each vertex and pair
+    /// \throws whatever `check_cancelled` throws
     BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs, Index first_context_vertex = no_index,
                   CancellationCheck check_cancelled = {}) {
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
@@ -39,10 +42,17 @@ public:
         build_kd_tree(0, points_.size(), 0, check_cancelled);
     }
 
-    /// What the collapse of (u, v) would do to borders, as a squared distance: where one ends, that to the
-    /// nearest other one that lives, as it was at the start; where one begins, that to the nearest border of
-    /// the start; that over the whole mesh where there is none; else 0.
-    /// O(valence) at borders longer than their part at u and v; O(log n) typically where one ends
+    /// Error of the collapse of (u, v) at the boundary loops, as a squared distance:
+    /// * if a loop vanishes, the distance from the pair to the nearest other loop that still exists, in its
+    ///     initial position, plus the largest distance of loops that vanished next to this one before
+    /// * if a loop appears, the distance from the pair to the nearest initial loop
+    /// * otherwise 0
+    ///
+    /// If there is no other loop, the distance is the diagonal of the bounding box. O(1), unless a loop can
+    /// vanish or appear: then O(valence squared), plus typically O(log n) for n boundary vertices.
+    /// \param u, v  vertices of the pair, before the collapse
+    /// \param pair  their index in `pairs`
+    /// \return engine units squared
     double squared_distance(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v, Index pair) {
         const std::uint32_t at_u = pairs.boundary_degree(u), at_v = pairs.boundary_degree(v);
         if (at_u + at_v == 0)
@@ -64,7 +74,7 @@ public:
         return farthest;
     }
 
-    /// u and v are about to become u.
+    /// Must be called before v is merged into u. `pair` is their index in `pairs`.
     void before_collapse(const PairTable& pairs, Index u, Index v, Index pair) {
         const std::uint32_t at_u = pairs.boundary_degree(u), at_v = pairs.boundary_degree(v);
         edges_before_ = at_u + at_v;
@@ -74,7 +84,7 @@ public:
         if (at_u > 0 && at_v > 0) merge_boundaries(boundary_of(u), boundary_of(v));
     }
 
-    /// They have. O(valence)
+    /// Must be called after v was merged into u. O(valence)
     void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index u) {
         if (edges_before_ + pairs.boundary_degree(u) == 0) return;
         if (edges_before_ == 0) boundary_of_vertex_[u] = add_boundary();
@@ -100,10 +110,10 @@ private:
         Index vertex;
     };
     struct Boundary {
-        std::uint32_t edges = 0;      ///< living ones
-        Index next = no_index;        ///< vertex of the nearest other border, where that was asked for
-        double squared_distance = 0;  ///< to it
-        double reach = 0;             ///< distance of ended borders to which this one was the next
+        std::uint32_t edges = 0;      ///< current number of edges
+        Index next = no_index;        ///< vertex of the nearest other loop, if already searched
+        double squared_distance = 0;  ///< distance to it
+        double reach = 0;             ///< largest distance to this loop from loops that have vanished
     };
 
     void find_boundaries(std::size_t vertices, const PairTable& pairs, Index first_context_vertex,
@@ -119,7 +129,7 @@ private:
             check_cancelled();
             if (is_open(pair)) joined.unite(pairs.first(pair), pairs.second(pair));
         }
-        for (const auto& [position, v] : points_) {  // the smallest vertex of a set comes first
+        for (const auto& [position, v] : points_) {  // the smallest vertex of each set comes first
             if (joined.find(v) == v) boundary_of_vertex_[v] = add_boundary();
             boundary_of_vertex_[v] = boundary_of_vertex_[joined.find(v)];
         }
@@ -133,7 +143,7 @@ private:
         return sets_.add();
     }
 
-    // \pre v is or was on a border
+    // \pre v is or was on a boundary
     Index boundary_of(Index v) { return sets_.find(boundary_of_vertex_[v]); }
 
     void merge_boundaries(Index a, Index b) {
@@ -164,7 +174,7 @@ private:
         return nearest.squared_distance;
     }
 
-    // From border `own` at p, and from those that have ended and went to it.
+    // Squared distance of loop `own` at p, and of vanished loops assigned to it, to the next loop.
     double squared_distance_to_next(const Vector3& p, Index own) {
         Boundary& boundary = boundaries_[own];
         if (boundary.next == no_index || !is_other_boundary(boundary.next, own)) {
@@ -177,7 +187,7 @@ private:
         return distance * distance;
     }
 
-    // A k-d tree: the middle of a range splits it.
+    // Builds a k-d tree: the middle element of a range is the node that splits it.
     void build_kd_tree(std::size_t begin, std::size_t end, int axis, CancellationCheck check_cancelled) {
         if (end - begin < 2) return;
         check_cancelled(end - begin);
@@ -209,12 +219,12 @@ private:
             search(halves[1].first, halves[1].second, (axis + 1) % 3, p, filter, nearest);
     }
 
-    Eigen::AlignedBox3d box_;                // of the surface
-    std::vector<Point> points_;              // on its borders
-    std::vector<Index> boundary_of_vertex_;  // of each vertex; no_index where it was never on one
-    std::vector<Boundary> boundaries_;       // by the smallest member of each set
-    UnionFind sets_;                         // of borders that have met
-    std::uint32_t edges_before_ = 0;         // open ones of the pair that is being collapsed
+    Eigen::AlignedBox3d box_;                // bounding box of the mesh
+    std::vector<Point> points_;              // initial boundary vertices, as a k-d tree
+    std::vector<Index> boundary_of_vertex_;  // per vertex; no_index if it was never on a boundary
+    std::vector<Boundary> boundaries_;       // indexed by the smallest member of a set in sets_
+    UnionFind sets_;                         // loops that were merged
+    std::uint32_t edges_before_ = 0;         // boundary edges at the pair that is collapsed
 };
 
 }  // namespace engine

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// The curves along which faces of different groups (materials) meet, kept while the surface is simplified.
+/// Curves between faces of different groups (materials), which are preserved during simplification.
 ///
-/// Together with the open edges they touch they are a graph on the surface. A collapse must not tear it,
-/// close it up, or move one of its nodes: places where it branches, ends, or meets an open border.
+/// Together with the boundary edges they touch, the curves form a graph on the surface. A collapse must not
+/// split or close a curve, and must not move a node: a vertex at which the graph branches, ends or meets a
+/// boundary.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,14 +21,16 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Which vertices are on a curve, and what may be done to them. Empty (no memory, no rule) where none is to
-/// be kept.
+/// The vertices on curves between groups, and the positions that collapses may have. Empty, without memory
+/// or constraints, if there are no curves to preserve. Not thread-safe.
 class FeatureCurves {
 public:
     FeatureCurves() = default;
 
-    /// \param groups  empty, or one per face slot; borrowed, must outlive this
-    /// \throws what the poll throws
+    /// Finds the vertices on curves. O(vertices + faces)
+    /// \param groups           empty, or the group of each face slot; borrowed, must outlive this object
+    /// \param check_cancelled  called for each vertex
+    /// \throws whatever `check_cancelled` throws
     FeatureCurves(const CollapseMesh& mesh, std::span<const Index> groups,
                   CancellationCheck check_cancelled = {})
         : groups_(groups) {
@@ -45,14 +48,14 @@ public:
         if (std::count(is_on_curve_.begin(), is_on_curve_.end(), 1) == 0) *this = {};
     }
 
+    /// Whether there are no curves.
     bool empty() const { return groups_.empty(); }
-    /// Is v on a curve, or was it? Never, when empty.
+    /// Whether v is or was on a curve; false if empty().
     bool has_vertex(Index v) const { return !is_on_curve_.empty() && is_on_curve_[v]; }
-    /// Are two faces of different groups? Never, when empty.
+    /// Whether faces f and g have different groups; false if empty().
     bool are_different_groups(Index f, Index g) const { return !groups_.empty() && groups_[f] != groups_[g]; }
 
-    /// Calls visit(face, neighbour) for each face on an edge (v, neighbour) where groups meet.
-    /// O(valence squared)
+    /// Calls visit(face, neighbour) for each face of each curve edge (v, neighbour). O(valence squared)
     template <class Visit>
     void for_each_curve_edge(const CollapseMesh& mesh, Index v, Visit&& visit) const {
         mesh.for_each_face(v, [&](Index f, unsigned corner) {
@@ -66,10 +69,12 @@ public:
         });
     }
 
-    /// Where the pair (u, v) may go. O(valence) next to curves, else O(1).
+    /// Positions that the pair (u, v) may be collapsed to without changing the graph of curves. O(valence)
+    /// at curves, else O(1)
     AllowedPosition allowed_position(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
         if (empty()) return AllowedPosition::anywhere;
-        // Without curves an edge has one group on all sides; the ends of a virtual pair may have two.
+        // If neither vertex is on a curve, all faces of an edge have one group; the vertices of a virtual
+        // pair may have different groups.
         if (!has_vertex(u) && !has_vertex(v))
             return are_same_group(mesh, u, v) ? AllowedPosition::anywhere : AllowedPosition::nowhere;
         shared_groups_.clear();
@@ -86,25 +91,26 @@ public:
                          : AllowedPosition::anywhere;
     }
 
-    /// u and v are about to become u.
+    /// Must be called before v is merged into u.
     void before_collapse(Index u, Index v) {
         if (!empty()) is_on_curve_[u] |= is_on_curve_[v];
     }
 
 private:
-    /// An edge from the vertex in hand.
+    /// An edge at the current vertex.
     struct IncidentEdge {
-        Index vertex, group;              ///< the group of one of its faces
-        std::uint32_t faces = 0;          ///< it has
-        bool has_several_groups = false;  ///< groups
-        std::uint64_t group_parity =
-            0;  ///< 0 where each group has an even number of faces, and else but by chance
+        Index vertex, group;              ///< the other end, and the group of one of its faces
+        std::uint32_t faces = 0;          ///< number of faces
+        bool has_several_groups = false;  ///< whether its faces have different groups
+        /// 0 if each group has an even number of faces; otherwise 0 only in case of a hash collision.
+        std::uint64_t group_parity = 0;
         void add(Index other) {
             ++faces;
             has_several_groups |= other != group;
             group_parity ^= splitmix64((std::uint64_t{other} + 1) * 0x9e3779b97f4a7c15u);
         }
-        /// Where all groups go on, as in sheets that lie back to back, none has a border.
+        /// Whether it is on a curve. If each group continues across the edge, as in surface patches back to
+        /// back, none of them has a boundary there.
         bool is_on_curve() const { return has_several_groups && group_parity != 0; }
         bool is_in_graph() const { return faces == 1 || is_on_curve(); }
     };
@@ -125,7 +131,7 @@ private:
         });
     }
 
-    // Does the graph do anything else at v than go by or through?
+    // Whether v is a node: on a curve, but not an inner vertex of one curve.
     bool is_node(const CollapseMesh& mesh, const PairTable& pairs, Index v) {
         find_incident_edges(mesh, v);
         const auto degree = std::count_if(incident_edges_.begin(), incident_edges_.end(),
@@ -133,8 +139,8 @@ private:
         return degree > 0 && (degree != 2 || pairs.boundary_degree(v) > 0);
     }
 
-    // Do edges of the graph from u and from v meet at a third vertex? The collapse would make one of two, and
-    // what they enclose would go.
+    // Whether graph edges from u and from v meet at a third vertex. The collapse would merge them, and the
+    // region enclosed by them would vanish.
     bool closes_loop(const CollapseMesh& mesh, Index u, Index v) {
         find_incident_edges(mesh, u);
         std::swap(incident_edges_, edges_at_u_);
@@ -149,7 +155,7 @@ private:
         return closes;
     }
 
-    // Fills ring_ with the edges at v.
+    // Sets incident_edges_ to the edges at v.
     void find_incident_edges(const CollapseMesh& mesh, Index v) {
         incident_edges_.clear();
         mesh.for_each_face(v, [&](Index f, unsigned corner) {
@@ -168,9 +174,9 @@ private:
 
     std::span<const Index> groups_;
     std::vector<std::uint8_t> is_on_curve_;
-    std::vector<Index> shared_groups_;                       // groups of the pair in hand
-    std::vector<IncidentEdge> incident_edges_, edges_at_u_;  // edges of the vertex in hand
-    std::vector<Index> mark_;  // 1 + place in a ring, while looking around; else 0
+    std::vector<Index> shared_groups_;                       // groups of the faces at the pair
+    std::vector<IncidentEdge> incident_edges_, edges_at_u_;  // edges at the current vertex, at u
+    std::vector<Index> mark_;                                // scratch: 1 + index in incident_edges_, else 0
 };
 
 }  // namespace engine

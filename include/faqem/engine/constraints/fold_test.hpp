@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Would a collapse fold the surface? A fold is an edge with two faces that look away from each other, if
-/// both are wound the same way.
+/// Test whether a collapse folds the surface. A fold is an edge with two faces whose normals, for
+/// consistent windings, point in nearly opposite directions.
 
 #include <cmath>
 #include <cstdint>
@@ -13,25 +13,30 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A face around a pair as its collapse leaves it: the new vertex, then corners a and b.
+/// A face at a pair as it will be after the collapse. Its corners are the new vertex, a and b.
 struct MovedFace {
     Index face, a, b;
-    Vector3 normal;        ///< unit; zero without area
-    double normal_cosine;  ///< cosine to the normal it has now
+    Vector3 normal;        ///< new unit normal; zero if it has no area
+    double normal_cosine;  ///< cosine between the old and the new normal
 };
 
-/// Counts folds; holds scratch memory only.
+/// Compares the number of folds before and after a collapse. Contains only temporary memory. Not
+/// thread-safe.
 class FoldTest {
 public:
+    /// \param mesh  used for its number of vertex slots
     explicit FoldTest(const CollapseMesh& mesh) : mark_(mesh.vertex_slots(), 0) {}
 
-    /// Are there more folds after (u, v) has become one vertex than there are?
-    /// \param moved_faces  the faces around both but those with both
-    /// \param min_cosine   cosine between the faces of an edge below which it is a fold, in (-1, 0)
-    /// O(valence squared), O(valence) typically
+    /// Whether collapsing (u, v) increases the number of folds. O(valence) typically, O(valence squared) at
+    /// worst
+    /// \param u, v         vertices of the pair
+    /// \param moved_faces  the faces with exactly one of both vertices
+    /// \param min_cosine   an edge is a fold if the cosine between the normals of its faces is below this;
+    ///     in (-1, 0)
     bool adds_folds(const CollapseMesh& mesh, Index u, Index v, const std::vector<MovedFace>& moved_faces,
                     double min_cosine) {
-        // Normals at most 120 degrees apart, of which one turns by less than this, make no fold.
+        // Two normals at most 120 degrees apart do not become a fold if one of them deviates by less than
+        // this.
         const double safe_cosine =
             min_cosine < -0.5 ? -0.5 * min_cosine + std::sqrt(0.75 * (1 - min_cosine * min_cosine)) : 2;
         std::uint32_t before = 0, after = 0;
@@ -53,19 +58,19 @@ public:
     }
 
 private:
-    // The other face of edge (a, b); no_index where there is not exactly one.
+    // The other face of edge (a, b); no_index unless there is exactly one.
     static Index opposite_face(const CollapseMesh& mesh, const MovedFace& moved) {
         Index other = no_index;
         std::uint32_t others = 0;
-        const auto ends =
-            mesh.lower_degree_first(moved.a, moved.b);  // whole: clang 14 captures no part of a binding
+        // Not a structured binding, which clang 14 cannot capture in a lambda.
+        const auto ends = mesh.lower_degree_first(moved.a, moved.b);
         mesh.for_each_face(ends.first, [&](Index g, unsigned) {
             if (g != moved.face && mesh.has_corner(g, ends.second)) other = g, ++others;
         });
         return others == 1 ? other : no_index;
     }
 
-    // Folds at w, but for its edge to `except`.
+    // Number of folds at w, without its edge to `except`.
     std::uint32_t count_folds_at(const CollapseMesh& mesh, Index w, Index except, double min_cosine) {
         current_faces_.clear();
         mesh.for_each_face(w, [&](Index f, unsigned corner) {
@@ -77,12 +82,14 @@ private:
         return count_folds_among(current_faces_, min_cosine);
     }
 
-    // Folds among the edges from the vertex in hand to corners of exactly two of its faces.
+    // Number of folds among the edges from the common vertex of the faces to vertices of exactly two of
+    // them.
     std::uint32_t count_folds_among(const std::vector<MovedFace>& moved_faces, double min_cosine) {
         if (are_within_one_cone(moved_faces, min_cosine)) return 0;
         edges_.clear();
         for (const MovedFace& moved : moved_faces) {
-            // Faces of one winding have an edge at different places.
+            // Consistently oriented faces contain their common edge once as (vertex, a) and once as (b,
+            // vertex).
             add_edge_face(moved.a, moved.normal);
             add_edge_face(moved.b, -moved.normal);
         }
@@ -106,8 +113,8 @@ private:
         ++end.faces;
     }
 
-    // Two normals at angles below x from a third are less than 2 x apart: cos 2x = 2 cos^2 x - 1. Only
-    // windings that disagree could make a fold of such.
+    // Two normals at angles below x from a third one are less than 2 x apart: cos 2x = 2 cos^2 x - 1. Such
+    // normals can only be a fold if the windings are inconsistent.
     static bool are_within_one_cone(const std::vector<MovedFace>& moved_faces, double min_cosine) {
         Vector3 sum = Vector3::Zero();
         for (const MovedFace& moved : moved_faces) sum += moved.normal;
@@ -121,11 +128,12 @@ private:
     struct EdgeNormals {
         Index vertex;
         std::uint32_t faces;
-        Vector3 first, last;  ///< normals of its faces, turned over where the vertex in hand comes after it
+        /// normals of its faces; negated for faces that pass the edge towards the common vertex
+        Vector3 first, last;
     };
     std::vector<MovedFace> current_faces_;
     std::vector<EdgeNormals> edges_;
-    std::vector<std::uint32_t> mark_;  // 1 + place in ends_, while counting; else 0
+    std::vector<std::uint32_t> mark_;  // scratch: 1 + index in edges_, else 0
 };
 
 }  // namespace engine

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// May this pair be collapsed to this point? The answer is nothing, or the reason why not.
+/// Legality of a collapse.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,25 +17,34 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// The rules a collapse must keep. The starvation ladder relaxes them.
+/// Rules that a legal collapse satisfies. The starvation ladder relaxes them.
 struct Rules {
-    LinkCondition link = LinkCondition::off;  ///< not as_preset; by_size is `on` until the engine lifts it
-    /// A face may not turn so far that the cosine between its old and new normal is below this; -1: no test.
+    LinkCondition link = LinkCondition::off;  ///< not `as_preset`; `by_size` is treated as `on`
+    /// Smallest allowed cosine between the old and the new normal of a face, in [-1, 1]; -1: not tested.
     double min_normal_cosine = 0;
-    /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units.
+    /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units. Tested
+    /// by the engine, not by Legality.
     double min_pair_length = 0;
-    /// Edges whose faces have a cosine below this are folds, of which there may not be more; -1: no test.
+    /// An edge is a fold if the cosine between the normals of its two faces is below this. A collapse must
+    /// not increase the number of folds. -1: not tested.
     double min_fold_cosine = -1;
 };
 
-/// Tests collapses; holds scratch memory only.
+/// Tests whether a collapse is legal. Contains only temporary memory: 8 bytes per vertex slot. Not
+/// thread-safe.
 class Legality {
 public:
+    /// \param mesh  used for its number of vertex slots; any mesh with the same slots can be tested
     explicit Legality(const CollapseMesh& mesh) : folds_(mesh), mark_(mesh.vertex_slots(), 0) {}
 
-    /// \pre u != v, both alive
-    /// \return why (u, v) may not become one vertex at p, or nothing.
-    /// O(valence of u and v)
+    /// Tests whether (u, v) may be collapsed to a point. O(valence of u and v), except for duplicate faces
+    /// and folds: O(valence squared) at worst
+    /// \pre u != v, both with faces
+    /// \param u, v   vertices of the pair
+    /// \param pair   their index in `pairs`
+    /// \param p      position of the new vertex, engine units
+    /// \param rules  min_pair_length is not tested
+    /// \return the reason why the collapse is illegal, or nothing
     std::optional<Refusal> check(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                                  Index pair, const Vector3& p, const Rules& rules) {
         moved_faces_.clear();
@@ -50,8 +59,8 @@ public:
     }
 
 private:
-    // Faces of `moved` without `partner`: none may turn over or lose its area (paper, Sec. 3.3). A face that
-    // was degenerate before has no normal to turn and no area to lose.
+    // Tests the faces of `moved` that do not contain `partner`: none may flip or lose its area (Sec. 3.3 of
+    // the paper). A face that is already degenerate has neither a normal nor an area to preserve.
     std::optional<Refusal> check_faces(const CollapseMesh& mesh, Index moved, Index partner, const Vector3& p,
                                        double min_normal_cosine) {
         std::optional<Refusal> refusal;
@@ -75,9 +84,10 @@ private:
         return refusal;
     }
 
-    // Where (u, v) is an edge and all edges at u and v have at most two faces: the link condition for
-    // surfaces with border (Dey et al. 1999), the border joined to a vertex at infinity. Elsewhere: no double
-    // faces, and no edge gets more faces than the fuller one of the two that merge into it.
+    // If (u, v) is an edge, and no edge at u or v has more than two faces: the link condition for surfaces
+    // with boundary (Dey et al. 1999), where a vertex at infinity closes the boundary. Otherwise: the
+    // collapse must not create duplicate faces, and no edge may get more faces than the larger of the two
+    // face counts that are merged into it.
     bool link_condition(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v, Index pair,
                         LinkCondition link) {
         const std::uint32_t shared = pairs.face_count(pair);
@@ -92,7 +102,7 @@ private:
             if (at_u == 0 || at_v == 0 || n.vertex == u) return;
             ++common;
             if (manifold && shared == 1 && at_u == 1 && at_v == 1)
-                legal = false;  // last triangle or its hole
+                legal = false;  // the last triangle or a triangular hole
             if (!manifold && at_u + at_v - 2 * mesh.count_faces_with(v, u, n.vertex) > std::max(at_u, at_v))
                 legal = false;
         });
@@ -114,7 +124,7 @@ private:
         pairs.for_each_pair(u, [&](Neighbour n) { mark_[n.vertex] = pairs.face_count(n.pair); });
     }
 
-    // Is there a face (v, x, y) beside a face (u, x, y)? Only edges marked at u can be such.
+    // Whether there are faces (v, x, y) and (u, x, y). Only the edges marked at u need to be tested.
     bool makes_duplicate_face(const CollapseMesh& mesh, Index u, Index v) const {
         return !mesh.all_of_faces(v, [&](Index f, unsigned corner) {
             const Index x = mesh.triangle(f)[(corner + 1) % 3];
@@ -126,8 +136,8 @@ private:
     }
 
     FoldTest folds_;
-    std::vector<MovedFace> moved_faces_;  // those that the collapse in hand leaves
-    std::vector<std::uint32_t> mark_;     // faces of the edge from u, while checking
+    std::vector<MovedFace> moved_faces_;  // faces that remain after the collapse
+    std::vector<std::uint32_t> mark_;     // scratch: face count of the edge from u to the vertex, else 0
 };
 
 }  // namespace engine

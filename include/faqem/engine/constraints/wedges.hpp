@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Corner attributes (UVs, colours) that stay on the surface while it is simplified.
+/// Corner attributes (UVs, colours) that are preserved during simplification.
 ///
-/// Corners at one vertex with equal values share a wedge. A vertex with several wedges lies on a seam. A
-/// collapse joins the wedges that meet in a face it removes; it must not join two wedges of one vertex, or
-/// the charts on both sides of the seam would run into each other.
+/// The corners of a vertex with equal values form a wedge. A vertex with several wedges is on a seam. A
+/// collapse merges the wedges that meet in a face it removes. It must not merge two wedges of one vertex,
+/// because this would connect the UV charts on both sides of the seam.
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +18,17 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// The wedges of a complex and their values. Empty (no memory, no rule) without attributes.
+/// The wedges of a mesh and their values. Empty, without memory or constraints, if there are no attributes.
+/// Not thread-safe.
 class Wedges {
 public:
     Wedges() = default;
 
-    /// \param attributes  one entry per corner of the complex's face slots; width >= 1
-    /// \throws what the poll throws
+    /// Finds the wedges. O(corners) for a bounded number of wedges per vertex
+    /// \param mesh             the initial mesh
+    /// \param attributes       values for each corner of each face slot of `mesh`; width >= 1; copied
+    /// \param check_cancelled  called for each vertex
+    /// \throws whatever `check_cancelled` throws
     Wedges(const CollapseMesh& mesh, const CornerAttributes& attributes,
            CancellationCheck check_cancelled = {})
         : width_(attributes.width), wedge_of_corner_(3 * mesh.face_slots(), no_index) {
@@ -39,13 +43,16 @@ public:
         }
     }
 
+    /// Whether there are no attributes.
     bool empty() const { return width_ == 0; }
+    /// Number of floats per corner.
     std::uint32_t width() const { return width_; }
-    /// Values of a living corner; width() floats.
+    /// Values of a corner of a face that is alive: width() floats. Valid until the next before_collapse().
     const float* values(Index face, unsigned corner) const {
         return &values_[std::size_t{wedge_of_corner_[3 * std::size_t{face} + corner]} * width_];
     }
 
+    /// Whether the corners of v have different wedges. O(valence)
     bool is_seam(const CollapseMesh& mesh, Index v) const {
         Index first = no_index;
         return !mesh.all_of_faces(v, [&](Index f, unsigned corner) {
@@ -55,8 +62,8 @@ public:
         });
     }
 
-    /// Where the pair (u, v) may go so that no seam is torn: a vertex with a wedge that the other one lacks
-    /// stays.
+    /// Positions that the pair (u, v) may be collapsed to without tearing a seam: a vertex with a wedge
+    /// that has no counterpart at the other vertex must not move. O(valence)
     AllowedPosition allowed_position(const CollapseMesh& mesh, Index u, Index v) {
         if (empty()) return AllowedPosition::anywhere;
         if (!match(mesh, u, v)) return AllowedPosition::nowhere;
@@ -68,13 +75,16 @@ public:
                          : AllowedPosition::anywhere;
     }
 
-    /// u and v are about to become one vertex at p: joins their wedges, with the values that the surface has
-    /// at the place closest to p among the faces of each joined wedge.
-    /// \pre freedom() did not say nowhere
+    /// Must be called before u and v are merged. Merges their wedges; each merged wedge gets the values
+    /// interpolated at the point of its faces closest to p. O(valence)
+    /// \param u, v  vertices of the pair
+    /// \param p     position of the new vertex
+    /// \pre allowed_position() is not `nowhere`
     void before_collapse(const CollapseMesh& mesh, Index u, Index v, const Vector3& p) {
         if (empty()) return;
         match(mesh, u, v);
-        // Among faces without area there is no place to interpolate at: the nearer end's values are kept.
+        // If all faces of a wedge are without area, there is nothing to interpolate in, and the values of
+        // the nearer vertex are used.
         const bool v_is_nearer = (mesh.position(v) - p).squaredNorm() < (mesh.position(u) - p).squaredNorm();
         std::vector<float>& new_values = scratch_;
         new_values.clear();
@@ -120,7 +130,7 @@ private:
         return wedge_of_corner_[3 * std::size_t{f} + corner];
     }
 
-    // Fills matches_ from the faces shared by u and v; false if one wedge would meet two.
+    // Sets matches_ from the faces shared by u and v. Returns false if a wedge would be merged with two.
     bool match(const CollapseMesh& mesh, Index u, Index v) {
         matches_.clear();
         bool good = true;
@@ -152,7 +162,8 @@ private:
         });
     }
 
-    // Projects p into the plane of abc and clamps the barycentrics: exact inside, close enough at the rim.
+    // Projects p onto the plane of abc and clamps the barycentric coordinates. Exact inside the triangle,
+    // approximate outside.
     static void update_closest(const Vector3& p, Index f, const Vector3& a, const Vector3& b,
                                const Vector3& c, Closest& best) {
         const Vector3 n = area_vector(a, b, c);
@@ -183,7 +194,7 @@ private:
     std::uint32_t width_ = 0;
     std::vector<Index> wedge_of_corner_;
     std::vector<float> values_;
-    std::vector<Match> matches_;  // of the pair in hand
+    std::vector<Match> matches_;  // wedges to merge at the current pair
     std::vector<float> scratch_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The open edges of a surface, and those that a collapse would leave.
+/// Boundary edges of a mesh, and those that a collapse would leave.
 
 #include <algorithm>
 #include <array>
@@ -16,14 +16,15 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// An edge with one face, from the vertex that a pair (u, v) would become.
+/// A boundary edge at the new vertex of a pair (u, v), as it will be after the collapse.
 struct BoundaryEdge {
-    Index vertex;                  ///< its other end
-    std::uint32_t with_u, with_v;  ///< faces that the other end has with u and with v until then
+    Index vertex;                  ///< the other end
+    std::uint32_t with_u, with_v;  ///< current face counts of the edges (u, vertex) and (v, vertex)
 };
 
 namespace boundary_edges {
 
+// Number of faces of the edge (v, other); 0 if there is no such edge. O(smaller valence)
 inline std::uint32_t edge_face_count(const CollapseMesh& mesh, const PairTable& pairs, Index v, Index other) {
     std::uint32_t count = 0;
     const auto [lower, higher] = mesh.lower_degree_first(v, other);
@@ -35,11 +36,13 @@ inline std::uint32_t edge_face_count(const CollapseMesh& mesh, const PairTable& 
 
 }  // namespace boundary_edges
 
-/// The edges with one face, each by its smaller end first, in order.
-/// \param triangles  of different corners
-/// \param vertices   more than any corner
-/// \throws what the poll throws
-/// O(triangles) for bounded valence; 12 bytes per triangle
+/// Finds the boundary edges, which have exactly one face. O(triangles) for bounded valence; 12 bytes of
+/// temporary memory per triangle
+/// \param triangles        with pairwise different corners
+/// \param vertices         number of vertices; larger than any corner
+/// \param check_cancelled  called for each triangle and vertex
+/// \return the edges, each with its smaller end first, in lexicographic order
+/// \throws whatever `check_cancelled` throws
 inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Triangle> triangles,
                                                              std::size_t vertices,
                                                              CancellationCheck check_cancelled = {}) {
@@ -59,7 +62,7 @@ inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Tri
     for_each_edge([&](Index a, Index b) { larger[offsets[a]++] = b; });
     std::vector<std::array<Index, 2>> open;
     std::size_t begin = 0;
-    for (Index a = 0; a < vertices; ++a) {  // each place is where the next vertex begins now
+    for (Index a = 0; a < vertices; ++a) {  // offsets[a] is now the end of the edges of a
         check_cancelled();
         const std::size_t end = offsets[a];
         std::sort(larger.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -75,8 +78,8 @@ inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Tri
     return open;
 }
 
-/// Calls visit(BoundaryEdge) for each open edge there would be at the vertex that u and v become. O(valence
-/// squared)
+/// Calls visit(BoundaryEdge) for each boundary edge that the new vertex of a pair would have after the
+/// collapse. O(valence squared)
 template <class Visit>
 void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                                   Visit&& visit) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface as the engine sees it: any triangle soup, edges with three faces and more included.
+/// The mesh that the engine collapses: any triangle soup, including edges with three or more faces.
 
 #include <array>
 #include <cassert>
@@ -17,20 +17,25 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// 6 * max_faces < 2^32: a soup has up to three edges per face, and a pair two ends.
+/// Largest number of faces of a CollapseMesh. A soup has up to three edges per face and a pair has two
+/// ends, so that 6 * max_faces < 2^32 ends can be numbered in 32 bits.
 inline constexpr std::size_t max_faces = 715'827'880;
 
-/// Vertices, triangles with their normals, and for each vertex a list of its corners. Faces keep their index
-/// for life.
+/// Triangle mesh with one list of corners per vertex. Vertices and faces are identified by slots, whose
+/// numbers never change; a removed face keeps its slot and is no longer alive.
 ///
-/// Lists are cleaned lazily: a corner of a dead face stays in the list of a vertex until that vertex survives
-/// a collapse, so that removing a face next to a vertex of valence n costs O(1), not O(n). At most max_faces
-/// faces: corners and pairs are numbered in 32 bits.
+/// Lists are cleaned up lazily: the corner of a removed face stays in the list of a vertex until that
+/// vertex survives a collapse, so that removing a face at a vertex of valence n takes O(1), not O(n).
+///
+/// Not thread-safe: has_narrow_normal_cone() is const but updates a cache.
 class CollapseMesh {
 public:
-    /// \param positions  one per vertex
-    /// \param triangles  indices into positions; a face with no_index corners is dead from the start
-    /// \throws what the poll throws
+    /// Builds the mesh. O(vertices + faces)
+    /// \param positions  one per vertex slot, engine units
+    /// \param triangles  one per face slot: indices into `positions`, pairwise different, or three times
+    ///     no_index for a face that is not alive. At most max_faces
+    /// \param check_cancelled  called for each element
+    /// \throws whatever `check_cancelled` throws
     CollapseMesh(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles,
                  CancellationCheck check_cancelled = {}) {
         vertices_.reserve(positions.size());
@@ -56,26 +61,32 @@ public:
         }
     }
 
+    /// Number of vertex slots, including vertices without faces.
     std::size_t vertex_slots() const { return vertices_.size(); }
+    /// Number of face slots, including removed faces.
     std::size_t face_slots() const { return faces_.size(); }
-    /// Faces that are alive.
+    /// Number of faces that are alive.
     std::size_t face_count() const { return face_count_; }
 
+    /// Position of vertex v, engine units.
     const Vector3& position(Index v) const { return vertices_[v].position; }
+    /// Vertices of face f; three times no_index if it was removed.
     const Triangle& triangle(Index f) const { return faces_[f].corners; }
+    /// Whether face f has not been removed.
     bool is_alive(Index f) const { return faces_[f].corners[0] != no_index; }
-    /// Number of living faces at v.
+    /// Number of faces at v. Removed faces do not count.
     std::uint32_t degree(Index v) const { return vertices_[v].degree; }
-    /// Has it so many faces that they cannot all be looked at for each collapse beside it?
+    /// Whether v has more than 256 faces, too many to visit all of them for each collapse nearby.
     bool is_high_valence(Index v) const { return degree(v) > 256; }
 
-    /// Both, the one with fewer faces first: what is asked of their edge is found sooner there, above all if
-    /// the other one is a hub.
+    /// Both vertices, the one with fewer faces first. A search for the faces of their edge is fastest among
+    /// the faces of the first one, in particular if the other one has a high valence.
     std::pair<Index, Index> lower_degree_first(Index a, Index b) const {
         return degree(b) < degree(a) ? std::pair(b, a) : std::pair(a, b);
     }
 
-    /// Calls visit(face, corner) for every living face at v; corner is 0, 1 or 2.
+    /// Calls visit(face, corner) for every face at v. O(valence)
+    /// \param visit  `corner` is the position of v in triangle(face): 0, 1 or 2
     template <class Visit>
     void for_each_face(Index v, Visit&& visit) const {
         for (const Index c : corners_[vertices_[v].corners]) {
@@ -84,7 +95,8 @@ public:
         }
     }
 
-    /// Calls visit(face, corner) until it returns false; tells whether it never did.
+    /// Calls visit(face, corner) for the faces at v until it returns false. Returns whether it never did.
+    /// O(valence)
     template <class Visit>
     bool all_of_faces(Index v, Visit&& visit) const {
         for (const Index c : corners_[vertices_[v].corners]) {
@@ -94,8 +106,8 @@ public:
         return true;
     }
 
-    /// Calls visit(face, corner) for every living face at u, then for every one at v that is not at u; corner
-    /// is that of u or v.
+    /// Calls visit(face, corner) once for every face at u or v: first for the faces at u, with the corner
+    /// of u, then for the others, with the corner of v. O(valence)
     template <class Visit>
     void for_each_face_around(Index u, Index v, Visit&& visit) const {
         for_each_face(u, visit);
@@ -104,40 +116,44 @@ public:
         });
     }
 
+    /// Whether v is a vertex of f. O(1)
     bool has_corner(Index f, Index v) const {
         const Triangle& t = triangle(f);
         return t[0] == v || t[1] == v || t[2] == v;
     }
 
-    /// Does f go along its edge from a to b, not from b to a? Faces of one winding disagree about it.
+    /// Whether the winding of f passes its edge from a to b, rather than from b to a. For two faces of the
+    /// same orientation exactly one of them does. O(1)
     bool has_directed_edge(Index f, Index a, Index b) const {
         const Triangle& t = triangle(f);
         return t[0] == a ? t[1] == b : t[1] == a ? t[2] == b : t[2] == a && t[0] == b;
     }
 
-    /// Twice the area of f, along its normal.
+    /// Area vector of f: its unit normal times twice its area.
     Vector3 area_vector(Index f) const {
         const Triangle& t = triangle(f);
         return engine::area_vector(position(t[0]), position(t[1]), position(t[2]));
     }
 
-    /// Unit normal of f; zero where it has no area.
+    /// Unit normal of f; zero if f has no area.
     const Vector3& normal(Index f) const { return faces_[f].normal; }
+    /// Area of f.
     double area(Index f) const { return faces_[f].area; }
 
-    /// Are all normals at v at most 120 degrees apart? May be false where they are. O(1) where they are
-    /// within about 30 degrees, else O(valence); at hubs that has to be found out rarely
+    /// Whether no two face normals at v are more than 120 degrees apart. The test is conservative: it may
+    /// return false although none are. O(1) if all normals are within about 30 degrees, otherwise
+    /// O(valence); the result is cached for high-valence vertices.
     bool has_narrow_normal_cone(Index v) const {
         const Vertex& vertex = vertices_[v];
-        // The sum of two at more than 120 degrees is no longer than 1, and that of all than one less than
-        // there are.
+        // The sum of two unit normals more than 120 degrees apart is shorter than 1, so that the sum of all
+        // normals is shorter than their number minus 1.
         const double square = vertex.normals.squaredNorm();
         const double max_length = static_cast<double>(vertex.degree) - 1 + 1e-6;
         if (vertex.degree > 0 && square > max_length * max_length) return true;
         return is_high_valence(v) ? has_narrow_cached_cone(v) : has_normals_within_one_cone(v);
     }
 
-    /// Number of faces with the corners a, b and c. O(the smallest of their valences)
+    /// Number of faces with the vertices a, b and c, in any winding. O(smallest valence of the three)
     std::uint32_t count_faces_with(Index a, Index b, Index c) const {
         std::uint32_t count = 0;
         if (degree(b) < degree(a)) std::swap(a, b);
@@ -146,7 +162,7 @@ public:
         return count;
     }
 
-    /// Area of all faces. O(faces)
+    /// Total area of the faces. O(face slots)
     double area() const {
         double sum = 0;
         for (Index f = 0; f < face_slots(); ++f) {
@@ -155,8 +171,11 @@ public:
         return sum;
     }
 
-    /// Moves `survivor` to `p` and gives it the faces of `gone`; faces with both vanish.
-    /// \return number of faces that vanished
+    /// Collapses a pair: moves `survivor` to `p` and attaches the faces of `removed` to it. Faces with both
+    /// vertices are removed. Legality is not checked. O(valence)
+    /// \param survivor, removed  different vertices
+    /// \param p                  new position, engine units
+    /// \return number of removed faces
     std::size_t collapse(Index survivor, Index removed, const Vector3& p) {
         assert(survivor != removed);
         const std::size_t before = face_count_;
@@ -184,7 +203,8 @@ public:
         return before - face_count_;
     }
 
-    /// Removes a living face.
+    /// Removes face f. O(1)
+    /// \pre is_alive(f)
     void remove_face(Index f) {
         add_normal(f, -1);
         for (const Index v : faces_[f].corners) --vertices_[v].degree;
@@ -193,13 +213,13 @@ public:
     }
 
 private:
-    // What is known of the normals at a hub.
+    // Cached normal cone of a high-valence vertex.
     struct NormalCone {
-        bool is_narrow = false;  ///< all of them are within 60 degrees of `about`
+        bool is_narrow = false;  ///< all normals are within 60 degrees of `axis`
         Vector3 axis = Vector3::Zero();
-        Index outside_face = no_index;  ///< a face whose one was not
+        Index outside_face = no_index;  ///< a face whose normal was outside the cone
     };
-    // Normals that are all within 60 degrees of one direction are no more than 120 degrees apart.
+    // Normals within 60 degrees of one direction are at most 120 degrees apart.
     bool has_normals_within_one_cone(Index v) const {
         const Vector3& axis = vertices_[v].normals;
         return all_of_faces(v, [&](Index f, unsigned) { return is_within_60_degrees(axis, normal(f)); });
@@ -210,8 +230,8 @@ private:
         return along > 0 && along * along > 0.25 * direction.squaredNorm();
     }
 
-    // New normals are compared with the direction found here, so that as long as they keep to it the others
-    // need not be looked at again. A face that was to blame once is asked first.
+    // set_normal() compares new normals with the axis cached here, so that the others need not be visited
+    // while all of them are inside the cone. A face that was outside is tested first.
     bool has_narrow_cached_cone(Index v) const {
         const Vertex& vertex = vertices_[v];
         if (vertex.cone == no_index) {
@@ -232,13 +252,13 @@ private:
         return cone.is_narrow;
     }
 
-    // What is needed together lies together: a vertex is a cache line.
+    // Data that is used together, in one cache line.
     struct alignas(64) Vertex {
         Vector3 position;
-        Vector3 normals;    ///< sum of those of its faces
-        IndexList corners;  ///< 4 * face + (0, 1 or 2); some faces have died since
+        Vector3 normals;    ///< sum of the unit normals of the faces
+        IndexList corners;  ///< 4 * face + (0, 1 or 2); includes removed faces
         std::uint32_t degree;
-        mutable Index cone = no_index;  ///< its place in normal_cones_, where it has one
+        mutable Index cone = no_index;  ///< index into normal_cones_, or no_index
     };
     struct Face {
         Triangle corners;
@@ -266,7 +286,7 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Face> faces_;
-    mutable std::vector<NormalCone> normal_cones_;  // found out where it is asked for
+    mutable std::vector<NormalCone> normal_cones_;  // computed on demand
     std::size_t face_count_ = 0;
     IndexLists corners_;
     std::vector<Index> kept_;  // scratch: corners of the survivor

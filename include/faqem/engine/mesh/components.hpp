@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Connected components of a complex.
+/// Connected components of a mesh.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,14 +16,16 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A set of faces joined by shared vertices.
+/// A connected component: faces that are connected by shared vertices.
 struct Component {
-    std::vector<Index> faces;  ///< ascending
-    Eigen::AlignedBox3d box;
+    std::vector<Index> faces;  ///< face slots, ascending
+    Eigen::AlignedBox3d box;   ///< bounding box, engine units
 };
 
-/// Components of the living faces, ordered by their smallest face. O(faces)
-/// \throws what the poll throws
+/// Finds the connected components. O(faces + vertices), plus the sorting of their faces
+/// \param check_cancelled  called for each face and each comparison
+/// \return the components in the order of their smallest face
+/// \throws whatever `check_cancelled` throws
 inline std::vector<Component> components(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
     std::vector<Component> found;
     std::vector<std::uint8_t> seen(mesh.face_slots(), 0), is_done(mesh.vertex_slots(), 0);
@@ -52,11 +54,14 @@ inline std::vector<Component> components(const CollapseMesh& mesh, CancellationC
     return found;
 }
 
-/// Components that may be deleted, smallest box first: all but the largest, without those that hold a locked
-/// vertex or are larger than asked for. What has no area will not be missed: it has no size. O(faces)
-/// \param locked            one per vertex slot: nonzero must stay
-/// \param largest_diagonal  of the boxes; engine units
-/// \throws what the poll throws
+/// Finds the components that the ladder may delete: those without locked vertices and up to a given size,
+/// except for the largest component of the mesh. A component whose faces are all degenerate counts as
+/// having size 0. O(faces + vertices), plus sorting
+/// \param locked            one per vertex slot; components with a nonzero entry stay
+/// \param largest_diagonal  upper bound of the bounding box diagonal, engine units
+/// \param check_cancelled   called for each face and each comparison
+/// \return the components, smallest bounding box diagonal first
+/// \throws whatever `check_cancelled` throws
 inline std::vector<Component> removable_components(const CollapseMesh& mesh,
                                                    std::span<const std::uint8_t> locked,
                                                    double largest_diagonal,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces that are as good as a line: what is left of a surface must not be these alone.
+/// Degenerate faces. A collapse must not leave a mesh in which all faces are degenerate.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,38 +12,47 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Height over longest edge below which a face counts as degenerate.
+/// A face is degenerate if its height divided by its longest edge is at most this.
 inline constexpr double degenerate_aspect = 1e-9;
 
-/// \param doubled_area  of a triangle
-/// \param to_a, to_b    two of its sides, from one corner
+/// Whether a triangle is degenerate. O(1)
+/// \param doubled_area  twice its area
+/// \param to_a, to_b    vectors from one corner to the two others
 inline bool is_degenerate(double doubled_area, const Vector3& to_a, const Vector3& to_b) {
     const double a = to_a.squaredNorm(), b = to_b.squaredNorm();
-    // The third side squared is at most twice their sum: few triangles are worth a closer look.
+    // The squared third side is at most twice the sum of the other two, so that most triangles are decided
+    // here.
     if (doubled_area > 2 * degenerate_aspect * (a + b)) return false;
     const double longest = std::max({a, b, (to_b - to_a).squaredNorm()});
     return !(doubled_area > degenerate_aspect * longest);
 }
 
-/// \pre f is alive
+/// Whether face f is degenerate. O(1)
+/// \pre mesh.is_alive(f)
 inline bool is_degenerate(const CollapseMesh& mesh, Index f) {
     const auto [a, b, c] = mesh.triangle(f);
     const Vector3& p = mesh.position(a);
     return is_degenerate(2 * mesh.area(f), mesh.position(b) - p, mesh.position(c) - p);
 }
 
-/// Knows how many degenerate faces there are at most. No legal collapse makes one (see Legality), so that
-/// they only become fewer, and are counted anew only when the others seem to run out.
+/// An upper bound of the number of degenerate faces. Legal collapses do not create any (see Legality), so
+/// the number only decreases. Faces are counted again only if the bound is too large to decide.
 class DegenerateFaces {
 public:
     DegenerateFaces() = default;
-    /// O(faces)
-    /// \throws what the poll throws
+    /// Counts the degenerate faces. O(face slots)
+    /// \param mesh             the initial mesh
+    /// \param check_cancelled  called for each face
+    /// \throws whatever `check_cancelled` throws
     explicit DegenerateFaces(const CollapseMesh& mesh, CancellationCheck check_cancelled = {})
         : max_count_(count(mesh, check_cancelled)) {}
 
-    /// Do the faces of this pair hold all the area there is? Where nothing has an area: are they all there
-    /// are? O(the smaller valence of the pair); O(faces) where nearly all are degenerate
+    /// Whether the faces of a pair are the only faces that are not degenerate. If all faces of the pair are
+    /// degenerate: whether they are the only faces. O(smaller valence of the pair); O(face slots) if nearly
+    /// all faces are degenerate
+    /// \param pair             index of a pair that is alive
+    /// \param check_cancelled  called for each face if they are counted again
+    /// \throws whatever `check_cancelled` throws
     bool are_last_faces(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                         CancellationCheck check_cancelled = {}) {
         if (pairs.face_count(pair) + max_count_ < mesh.face_count()) return false;
@@ -54,7 +63,7 @@ public:
         return with_area + max_count_ >= mesh.face_count();
     }
 
-    /// To be told before the pair is collapsed. O(the smaller valence of the pair); O(1) if none is degenerate
+    /// Must be called before a pair is collapsed. O(smaller valence of the pair); O(1) if the bound is 0
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
         if (max_count_ > 0) max_count_ -= std::min(max_count_, count_at_pair(mesh, pairs, pair));
     }

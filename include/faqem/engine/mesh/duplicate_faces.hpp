@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces that lie on others.
+/// Detection of duplicate faces.
 
 #include <algorithm>
 #include <utility>
@@ -12,9 +12,12 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// The living faces with the corners and the winding of one before them, ascending. Without them the surface
-/// is the same. O(n log n)
-/// \throws what the poll throws
+/// Finds faces with the same vertices and winding as a face of lower index. Removing them does not change
+/// the surface. O(n log n)
+/// \param mesh             removed faces are ignored
+/// \param check_cancelled  called for each face and each comparison
+/// \return indices of the duplicate faces, ascending
+/// \throws whatever `check_cancelled` throws
 inline std::vector<Index> duplicate_faces(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
     std::vector<std::pair<Triangle, Index>> faces;
     for (Index f = 0; f < mesh.face_slots(); ++f) {

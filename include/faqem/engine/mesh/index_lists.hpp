@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Many short lists of numbers, each in one piece of memory: what is in it is known before it is looked at,
-/// so that the cache can fetch it all at once. A linked list is waited for item by item.
+/// Many short lists of indices, each stored contiguously. Unlike the nodes of a linked list, the entries of
+/// a list can be prefetched together.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,43 +14,47 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Where a list is. Belongs to one Lists.
+/// Handle of a list. Valid for one IndexLists object only.
 struct IndexList {
-    Index offset = 0;  ///< in quads of numbers; 0: it has no room yet
-    std::uint32_t size = 0;
+    Index offset = 0;        ///< in granules; 0: no memory allocated
+    std::uint32_t size = 0;  ///< number of entries
 };
 
-/// The memory of all lists. What a list leaves when it moves to more room is not used again; it gets half as
-/// much again as it needs, so that this adds up to a few times its length.
+/// Memory of all lists. A list that outgrows its capacity moves to new memory of 1.5 times its size. The
+/// old memory is not reused, so that the total is a small multiple of the lists' length.
 class IndexLists {
 public:
     IndexLists() : numbers_(granule_size, 0) {}
 
-    /// \pre of these Lists. Valid until the next assign() or allocate()
+    /// Entries of a list of this object. Valid until the next assign() or allocate().
     std::span<const Index> operator[](const IndexList& list) const {
         return {numbers_.data() + first(list.offset), list.size};
     }
 
-    /// Room for `size` numbers in all lists to come, of so many lists.
+    /// Reserves memory for lists to be allocated.
+    /// \param size   total number of entries
+    /// \param lists  number of lists
     void reserve(std::size_t size, std::size_t lists) {
         numbers_.reserve(granule_size + size + granule_size * lists);
     }
 
-    /// A new list, empty, that needs not move for this many numbers. Amortised O(room)
+    /// Allocates an empty list. Amortised O(capacity)
+    /// \param capacity  number of entries that the list can hold without moving
     IndexList allocate(std::uint32_t capacity) {
-        const std::size_t granules =
-            (std::size_t{capacity} + granule_size) / granule_size;  // one number tells the room
+        // One entry stores the capacity.
+        const std::size_t granules = (std::size_t{capacity} + granule_size) / granule_size;
         const std::size_t at = numbers_.size();
         numbers_.resize(at + granule_size * granules);
         numbers_[at] = static_cast<Index>(granule_size * granules - 1);
         return {static_cast<Index>(at / granule_size), 0};
     }
 
-    /// \pre there is room for it
+    /// Appends a number. O(1)
+    /// \pre the size of the list is below its capacity
     void push_back(IndexList& list, Index number) { numbers_[first(list.offset) + list.size++] = number; }
 
-    /// \param numbers  not of these Lists
-    /// Amortised O(numbers)
+    /// Replaces the entries of a list. Amortised O(size of `numbers`)
+    /// \param numbers  must not be stored in this object
     void assign(IndexList& list, std::span<const Index> numbers) {
         const auto size = static_cast<std::uint32_t>(numbers.size());
         if (size > numbers_[granule_size * std::size_t{list.offset}]) list = allocate(size + size / 2);
@@ -62,8 +66,8 @@ private:
     static constexpr std::size_t granule_size = 4;
     static std::size_t first(Index offset) { return granule_size * std::size_t{offset} + 1; }
 
-    std::vector<Index>
-        numbers_;  // before each list, at a multiple of quad: its room. The first quad is nobody's
+    // Each list begins at a multiple of granule_size with its capacity. The first granule is unused.
+    std::vector<Index> numbers_;
 };
 
 }  // namespace engine

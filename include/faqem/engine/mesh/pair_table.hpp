@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The vertex pairs that may be collapsed: all edges of the complex, and virtual edges between its parts.
+/// Vertex pairs that may be collapsed: the edges of the mesh, and virtual edges between its components.
 
 #include <array>
 #include <cassert>
@@ -15,24 +15,26 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A pair of a vertex as for_each_pair() shows it.
+/// A pair as seen from one of its vertices.
 struct Neighbour {
-    Index vertex = no_index;  ///< the other end
-    Index pair = no_index;
+    Index vertex = no_index;  ///< the other vertex
+    Index pair = no_index;    ///< index in the PairTable
 };
 
-/// Pairs with stable indices, and how many faces each has. A pair lives while it has a face, or while it is
-/// virtual and both its ends have faces.
+/// The vertex pairs of a mesh, with stable indices and the number of faces of each. A pair is alive as long
+/// as it has a face, or is virtual and both vertices have faces.
 class PairTable {
 public:
-    /// Numbers the edges of `complex` by their smaller vertex, then by the order of that vertex's corners;
-    /// the virtual pairs follow. O(faces)
-    /// \param virtual_pairs  distinct pairs that are no edges
-    /// \throws what the poll throws
+    /// Finds the edges of a mesh. They are numbered by their smaller vertex, then in the order of that
+    /// vertex's corners; the virtual pairs follow. O(faces)
+    /// \param virtual_pairs    distinct pairs that are not edges
+    /// \param check_cancelled  called for each vertex and pair
+    /// \throws whatever `check_cancelled` throws
     PairTable(const CollapseMesh& mesh, std::span<const std::pair<Index, Index>> virtual_pairs,
               CancellationCheck check_cancelled = {})
         : vertices_(mesh.vertex_slots()) {
-        // Three for two faces, and half a pair more for each open edge: to grow would take twice the memory.
+        // A closed surface has three edges per two faces; each boundary edge adds half an edge. Growing the
+        // array later would take twice the memory.
         const std::size_t extra_boundary_pairs = mesh.face_count() / 64;
         pairs_.reserve(mesh.face_count() / 2 * 3 + extra_boundary_pairs + virtual_pairs.size());
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
@@ -43,20 +45,24 @@ public:
         build_pair_lists(check_cancelled);
     }
 
+    /// Number of pairs, including those that are not alive.
     std::size_t size() const { return pairs_.size(); }
+    /// Whether the pair still exists.
     bool is_alive(Index pair) const { return first(pair) != no_index; }
+    /// The two vertices of a pair; no_index if it is not alive.
     Index first(Index pair) const { return pairs_[pair].ends[0]; }
     Index second(Index pair) const { return pairs_[pair].ends[1]; }
-    /// Number of faces with this edge; 0 for a virtual pair.
+    /// Number of faces of the edge; 0 for a virtual pair.
     std::uint32_t face_count(Index pair) const { return pairs_[pair].face_count; }
-    /// The faces with this edge. \pre it has one or two; where it has one, that comes first
+    /// The faces of the edge; with one face, the first entry. O(1)
+    /// \pre face_count(pair) is 1 or 2
     const std::array<Index, 2>& faces(Index pair) const { return pairs_[pair].faces; }
-    /// Number of edges at v with exactly one face.
+    /// Number of boundary edges at v (edges with exactly one face).
     std::uint32_t boundary_degree(Index v) const { return vertices_[v].boundary_degree; }
-    /// Number of edges at v with more than two faces.
+    /// Number of non-manifold edges at v (edges with more than two faces).
     std::uint32_t nonmanifold_degree(Index v) const { return vertices_[v].nonmanifold_degree; }
 
-    /// Calls visit(Neighbour) for each living pair of v.
+    /// Calls visit(Neighbour) for each pair of v that is alive. O(valence)
     template <class Visit>
     void for_each_pair(Index v, Visit&& visit) const {
         for (const Index s : slots_[vertices_[v].slots]) {
@@ -64,15 +70,18 @@ public:
         }
     }
 
-    /// What merge() found around the survivor.
+    /// A neighbour of the survivor after merge().
     struct Change {
-        Neighbour neighbour;            ///< pair is no_index where it died with its open edge
-        bool boundary_changed = false;  ///< the edge is or was open
+        Neighbour neighbour;            ///< pair is no_index if the pair died and was a boundary edge
+        bool boundary_changed = false;  ///< the edge is or was a boundary edge
     };
 
-    /// Follows complex.collapse(survivor, gone, ...), which must have been done.
-    /// \param killed   pairs that ceased to live are appended here
-    /// \param changes  becomes the survivor's living pairs, and the vertices that lost their open edge to it
+    /// Updates the pairs after mesh.collapse(survivor, removed, ...). O(valence)
+    /// \param mesh               the mesh after the collapse
+    /// \param survivor, removed  the vertices of the collapsed pair
+    /// \param killed             pairs that are no longer alive are appended
+    /// \param changes            replaced by the pairs of the survivor that are alive, and the neighbours
+    ///     that have lost their boundary edge to the survivor
     void merge(const CollapseMesh& mesh, Index survivor, Index removed, std::vector<Index>& killed,
                std::vector<Change>& changes) {
         changes.clear();
@@ -101,7 +110,9 @@ public:
         slots_.assign(vertices_[survivor].slots, kept_);
     }
 
-    /// A face of the complex is gone; each of its edges has others.
+    /// Updates the face counts after mesh.remove_face(). O(valence)
+    /// \param mesh     the mesh after the removal
+    /// \param corners  vertices of the removed face; each of its edges must have other faces
     void after_face_removal(const CollapseMesh& mesh, const Triangle& corners) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = corners[k], n = corners[(k + 1) % 3];
@@ -111,7 +122,8 @@ public:
         }
     }
 
-    /// Kills all pairs of a vertex that has no face any more.
+    /// Kills all pairs of a vertex that has no faces. O(valence)
+    /// \param killed  the killed pairs are appended
     void kill_all(Index v, std::vector<Index>& killed) {
         for_each_pair(v, [&](Neighbour n) { kill(n.pair, killed); });
         vertices_[v].slots.size = 0;
@@ -119,13 +131,13 @@ public:
 
 private:
     struct Vertex {
-        IndexList slots;  ///< 2 * pair + end; some have died or moved since
+        IndexList slots;  ///< 2 * pair + end; may contain pairs that are dead or belong to another vertex now
         std::uint32_t boundary_degree = 0, nonmanifold_degree = 0;
-        Index mark = no_index;  ///< scratch: pair to the vertex, while gathering
+        Index mark = no_index;  ///< scratch: pair to the vertex
     };
     struct Pair {
-        std::array<Index, 2> ends;                          ///< no_index: dead
-        std::array<Index, 2> faces = {no_index, no_index};  ///< the first two
+        std::array<Index, 2> ends;                          ///< the two vertices; no_index: not alive
+        std::array<Index, 2> faces = {no_index, no_index};  ///< the first two faces
         std::uint32_t face_count = 0;
         bool is_virtual = false;
 
@@ -146,7 +158,7 @@ private:
         return pair;
     }
 
-    // \pre the sizes of the lists are what they will be
+    // \pre each list size is the number of pairs of the vertex; the lists have no memory yet
     void build_pair_lists(CancellationCheck check_cancelled) {
         slots_.reserve(2 * pairs_.size(), vertices_.size());
         for (Vertex& vertex : vertices_) {
@@ -160,6 +172,7 @@ private:
         }
     }
 
+    // Adds the edges from v to vertices of higher index.
     void add_edges_to_larger(const CollapseMesh& mesh, Index v) {
         const auto begin = static_cast<Index>(size());
         mesh.for_each_face(v, [&](Index f, unsigned corner) {
@@ -178,7 +191,7 @@ private:
         }
     }
 
-    // Takes the pairs of `v` to `survivor`: the collapsed pair (v, partner) and doubles die.
+    // Moves the pairs of `v` to `survivor`. Kills the collapsed pair (v, partner) and duplicate pairs.
     void take_over(Index v, Index survivor, Index partner, std::vector<Index>& killed,
                    std::vector<Change>& changes) {
         for (const Index s : slots_[vertices_[v].slots]) {
@@ -190,7 +203,7 @@ private:
                 kill(pair, killed);
             } else if (kept != no_index) {
                 if (face_count(pair) == 1)
-                    set_face_count(kept, 1);  // tells recount_faces_around() that it was open
+                    set_face_count(kept, 1);  // so that recount_faces_around() sees a boundary edge
                 pairs_[kept].is_virtual = pairs_[kept].is_virtual && pairs_[pair].is_virtual;
                 kill(pair, killed);
             } else {
@@ -218,7 +231,7 @@ private:
         for (const Index v : pairs_[pair].ends) up ? ++(vertices_[v].*degree) : --(vertices_[v].*degree);
     }
 
-    // \pre each neighbour is marked with its pair
+    // \pre the mark of each neighbour is its pair
     void recount_faces_around(const CollapseMesh& mesh, Index survivor, std::vector<Change>& changes) {
         counts_.clear();
         for (Change& change : changes) {
@@ -245,7 +258,7 @@ private:
         apply_face_count(pair, before);
     }
 
-    // \param before  number of its faces that the degrees of its ends know of
+    // \param before  face count that the degrees of its vertices include
     void apply_face_count(Index pair, std::uint32_t before) {
         set_face_count(pair, std::exchange(pairs_[pair].face_count, before));
     }
@@ -260,8 +273,8 @@ private:
     std::vector<Vertex> vertices_;
     std::vector<Pair> pairs_;
     IndexLists slots_;
-    std::vector<Index> kept_;            // scratch: slots of the survivor
-    std::vector<std::uint32_t> counts_;  // scratch: faces that each change had
+    std::vector<Index> kept_;            // scratch: entries of the survivor
+    std::vector<std::uint32_t> counts_;  // scratch: previous face count of each change
 };
 
 }  // namespace engine

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which elements belong together, as pairs of them are joined.
+/// Disjoint-set forest (union-find).
 
 #include <algorithm>
 #include <cstddef>
@@ -13,27 +13,27 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Disjoint sets of 0 .. size - 1, each known by its smallest member.
+/// Disjoint sets of the numbers 0 .. size - 1. Each set is represented by its smallest member.
 class UnionFind {
 public:
-    /// Every member is a set of its own.
+    /// Creates `size` sets of one member each. O(size)
     explicit UnionFind(std::size_t size = 0) : parent_(size) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
-    /// One more, alone; returns it.
+    /// Adds a set with one new member and returns that member. Amortised O(1)
     Index add() {
         parent_.push_back(static_cast<Index>(parent_.size()));
         return parent_.back();
     }
 
-    /// The smallest member of v's set. O(log size) amortised
+    /// Smallest member of the set that contains v; shortens the path to it. O(log size) amortised
     Index find(Index v) {
         while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
         return v;
     }
 
-    /// The sets of a and b become one.
+    /// Merges the sets that contain a and b. O(log size) amortised
     void unite(Index a, Index b) {
         a = find(a), b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);

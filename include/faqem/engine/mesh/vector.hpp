@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small vectors: Eigen inside the engine, plain arrays outside.
+/// Vector types: Eigen inside the engine, arrays in the interface.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,10 +14,11 @@ namespace engine {
 
 using Vector3 = Eigen::Vector3d;
 
+/// Conversions between the two types; exact.
 inline Vector3 to_eigen(const Vec3& p) { return {p[0], p[1], p[2]}; }
 inline Vec3 to_array(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Twice the area, in the direction of the normal of triangle abc.
+/// Area vector of triangle abc: its unit normal times twice its area.
 inline Vector3 area_vector(const Vector3& a, const Vector3& b, const Vector3& c) {
     return (b - a).cross(c - a);
 }

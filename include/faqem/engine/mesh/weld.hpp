@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Vertices at one place become one vertex (paper, supplementary: pre-emptive merging).
+/// Welding of vertices at the same position (paper, supplementary: pre-emptive merging).
 
 #include <array>
 #include <bit>
@@ -27,13 +27,14 @@ inline std::uint64_t hash(const Vec3& key) {
     return h;
 }
 
-/// Open-addressing table of vertices by key. Lookups only, never iterated: the hash decides no result.
+/// Open-addressing hash table of vertices. It is only used for lookups and never iterated, so that the hash
+/// function does not affect results.
 class VertexTable {
 public:
     explicit VertexTable(std::size_t capacity) : slots_(std::bit_ceil(2 * capacity + 1), no_index) {}
 
-    /// Calls match(vertex) for vertices that may have this key, until it returns true; else returns the free
-    /// slot.
+    /// Calls match(vertex) for the vertices with the same or a colliding hash until it returns true.
+    /// Returns that vertex's slot, or else a free slot.
     template <class Match>
     Index* find(const Vec3& key, Match&& match) {
         std::size_t i = hash(key) & (slots_.size() - 1);
@@ -45,13 +46,16 @@ private:
     std::vector<Index> slots_;
 };
 
-// -0 and 0 are one place.
+// Replaces -0 by 0, so that both have the same hash.
 inline Vec3 without_negative_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }
 
 }  // namespace weld_detail
 
-/// For each vertex the smallest index at the same position, -0 being 0. O(n) expected.
-/// \throws what the poll throws
+/// Welds vertices at exactly equal positions; -0 equals 0. O(n) expected
+/// \param positions        model units or any other unit, finite
+/// \param check_cancelled  called for each vertex
+/// \return per vertex, the smallest index of a vertex at the same position
+/// \throws whatever `check_cancelled` throws
 inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions,
                                      CancellationCheck check_cancelled = {}) {
     std::vector<Index> representative(positions.size());
@@ -66,10 +70,14 @@ inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions,
     return representative;
 }
 
-/// As weld_exact, and vertices within `distance` of an earlier representative join the first such one.
-/// O(n) expected while few vertices share a cell of size `distance`.
-/// \param distance  model units, >= 0; 0 is weld_exact
-/// \throws what the poll throws
+/// Welds vertices within a distance: first as weld_exact(), then each remaining vertex, in the order of
+/// their indices, with the first representative at most `distance` away. O(n) expected if few vertices
+/// share a cell of size `distance`
+/// \param positions        finite
+/// \param distance         in the unit of `positions`, >= 0; 0: as weld_exact()
+/// \param check_cancelled  called for each vertex
+/// \return per vertex, the index of its representative
+/// \throws whatever `check_cancelled` throws
 inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance,
                                       CancellationCheck check_cancelled = {}) {
     std::vector<Index> representative = weld_exact(positions, check_cancelled);
@@ -82,7 +90,7 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
         const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
         return x * x + y * y + z * z <= distance * distance;
     };
-    // A cell holds a list of representatives, linked through `following`.
+    // The representatives in a cell are a list linked by `next_in_cell`.
     weld_detail::VertexTable table(positions.size());
     std::vector<Index> next_in_cell(positions.size(), no_index);
     const auto head_of = [&](const Vec3& cell) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a collapse costs. A metric gives a point and a cost for a pair, or nothing: "do not collapse".
+/// Concepts of collapse metrics, and the metric with accumulated quadrics.
 
 #include <algorithm>
 #include <cmath>
@@ -20,38 +20,42 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// What a collapse does to the cost of other pairs of the survivor's neighbours.
+/// How a collapse affects the costs of other pairs of the survivor's neighbours.
 enum class Reevaluation {
-    none,       ///< nothing
-    deferred,   ///< it is looked at again when the pair's turn comes; vetoed pairs are tried again
-    immediate,  ///< it is evaluated at once
+    none,       ///< not at all
+    deferred,   ///< costs are updated when the pair is popped; rejected pairs are evaluated at once
+    immediate,  ///< all these pairs are evaluated at once
 };
 
-/// A metric owns its state per vertex and is told of every collapse.
+/// A collapse metric: determines the cost of a collapse and the position of the new vertex. It owns its
+/// per-vertex state, which it updates with each collapse. Positions and lengths are in engine units.
 template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const CollapseMesh& mesh,
                                   const PairTable& pairs, Index pair, Index u, Index v,
                                   AllowedPosition allowed_position, const Vector3& p,
                                   const PairTable::Change& change,
                                   std::span<const PairTable::Change> around) {
+    // Computes the state for the given mesh. Called once, before the other functions.
     {metric.initialise(mesh, pairs)};
-    // Candidate for the pair; nothing if it must not be collapsed. Finite, cost >= 0.
+    // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
     { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
-    // u and v are about to become u at p; the complex is still as before.
+    // Called before u and v are merged into u at p; the mesh is still unchanged.
     {metric.before_collapse(mesh, pairs, u, v, p)};
-    // The collapse is done; `around` are the survivor's neighbours.
+    // Called after u and v were merged into u. `around` are the neighbours of u.
     {metric.after_collapse(mesh, pairs, u, around)};
-    // What it did to other pairs of this neighbour of the survivor.
+    // How the last collapse affected the other pairs of this neighbour of the survivor.
     { const_metric.reevaluation(change) } -> std::same_as<Reevaluation>;
 };
 
-/// A metric that polls in its long loops, from the beginning on.
+/// A metric whose initialise() can be cancelled. It may keep `check_cancelled` for later calls.
 template <class M>
 concept CancellableMetric = CollapseMetric<M> &&
     requires(M metric, const CollapseMesh& mesh, const PairTable& pairs, CancellationCheck check_cancelled) {
     {metric.initialise(mesh, pairs, check_cancelled)};
 };
 
+/// Calls metric.initialise(), with the cancellation check if the metric supports it.
+/// \throws whatever metric.initialise() throws
 template <CollapseMetric M>
 void initialise(M& metric, const CollapseMesh& mesh, const PairTable& pairs,
                 CancellationCheck check_cancelled) {
@@ -62,61 +66,65 @@ void initialise(M& metric, const CollapseMesh& mesh, const PairTable& pairs,
     }
 }
 
-/// A metric whose costs come in two steps: evaluate() tells at least, exact_cost() what it really is.
+/// A metric whose evaluate() returns a lower bound of the cost. The engine calls exact_cost() only for
+/// pairs that are about to be collapsed.
 template <class M>
 concept LowerBoundMetric = CollapseMetric<M> &&
     requires(M metric, const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
              const Candidate& candidate) {
-    // Cost of a candidate of evaluate(): not below candidate.cost.
+    // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
     { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
 };
 
-/// A metric that counts the same error more in one place than in another.
+/// A metric that multiplies its costs by a weight that depends on the vertices.
 template <class M>
 concept VertexWeightedMetric = CollapseMetric<M> && requires(const M& metric, Index u, Index v) {
-    // What the costs of the pair (u, v) were multiplied by.
+    // Weight of the pair (u, v), > 0.
     { metric.weight(u, v) } -> std::same_as<double>;
 };
 
-/// A metric whose costs depend on the target.
+/// A metric whose costs depend on the target face count.
 template <class M>
 concept TargetDependentMetric = CollapseMetric<M> &&
     requires(M metric, std::size_t target_faces, double weight) {
-    // From now on the target is a lower one. `weight`: what the square of a distance costs, no less than
-    // before.
+    // Changes the target to a lower face count. `weight` is the cost of a squared distance; it must not be
+    // smaller than before.
     {metric.set_target(target_faces, weight)};
 };
 
-/// When the area term takes part.
+/// How the area term is used.
 enum class AreaTerm {
-    after_placement,   ///< added to the cost once the point is found (paper eq. 4)
-    before_placement,  ///< the point minimises the sum (Liu et al. 2024)
+    after_placement,   ///< added to the cost at the position found without it (paper eq. 4)
+    before_placement,  ///< included in the quadric that determines the position (Liu et al. 2024)
 };
 
-/// A weighted sum of the paper's terms; weight 0 turns one off.
+/// Weights of the paper's terms; weight 0 disables a term.
 struct CompositeWeights {
-    BaseWeight base = BaseWeight::unit;
-    double plane_area = 1;  ///< paper eq. 5, with BaseWeight::inverse_area
-    double boundary = 0;    ///< paper eq. 9
-    double normal = 0;      ///< paper eq. 10
-    double area = 0;        ///< paper eq. 4
-    AreaTerm area_term = AreaTerm::after_placement;
-    double seam = 1;      ///< factor on the quadric of seam vertices
-    double min_area = 0;  ///< clamp of face areas, engine units squared
+    BaseWeight base = BaseWeight::unit;  ///< weight of the face planes
+    double plane_area = 1;               ///< w of paper eq. 5, > 0; used with BaseWeight::inverse_area
+    double boundary = 0;                 ///< boundary and curvature term (paper eq. 9)
+    double normal = 0;                   ///< normal term (paper eq. 10)
+    double area = 0;                     ///< area term (paper eq. 4)
+    AreaTerm area_term = AreaTerm::after_placement;  ///< how the area term is used
+    double seam = 1;                                 ///< factor on the initial quadric of seam vertices
+    double min_area = 0;  ///< smaller face areas are clamped to this, engine units squared
 };
 
-/// The composite metric with memory: each vertex carries the sum of all quadrics that were merged into it
-/// (paper, Algorithm 1; Garland and Heckbert 1997).
+/// The composite metric with accumulated quadrics: each vertex has the sum of the quadrics of all vertices
+/// that were merged into it (paper, Algorithm 1; Garland and Heckbert 1997). Not thread-safe.
 class AccumulatedMetric {
 public:
-    /// \param weights       of the terms
-    /// \param seam_vertex   empty, or one per vertex: nonzero where the UVs are split
-    /// \param curves        between groups, to be held in place; null: none
+    /// \param weights      weights of the terms
+    /// \param seam_vertex  empty, or one entry per vertex slot, nonzero for vertices on a UV seam; borrowed
+    /// \param curves       boundaries between face groups, which are preserved by additional planes;
+    ///     borrowed; null: none
     explicit AccumulatedMetric(const CompositeWeights& weights,
                                std::span<const std::uint8_t> seam_vertex = {},
                                const FeatureCurves* curves = nullptr)
         : weights_(weights), seam_vertex_(seam_vertex), curves_(curves) {}
 
+    /// Computes the quadrics of the current mesh. O(faces)
+    /// \throws whatever `check_cancelled` throws
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
                     CancellationCheck check_cancelled = {}) {
         quadrics_.assign(mesh.vertex_slots(), {});
@@ -137,6 +145,7 @@ public:
         placement_bounds_ = placement_bounds(placement_bounds_);
     }
 
+    /// See CollapseMetric. O(1), or O(valence) at boundary vertices if the area term is used.
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
         if (allowed_position == AllowedPosition::nowhere) return std::nullopt;
@@ -165,11 +174,13 @@ public:
 
     void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
 
+    /// The costs of the neighbours' other pairs change only through the area term, which depends on the
+    /// boundary edges at both vertices.
     Reevaluation reevaluation(const PairTable::Change& change) const {
         return weights_.area > 0 && change.boundary_changed ? Reevaluation::immediate : Reevaluation::none;
     }
 
-    /// The quadric that vertex v carries.
+    /// The accumulated quadric of vertex v.
     const Quadric& quadric(Index v) const { return quadrics_[v]; }
 
 private:
@@ -192,8 +203,8 @@ private:
         if (!seam_vertex_.empty() && seam_vertex_[v]) q *= weights_.seam;
     }
 
-    // A square face stands on each edge between two groups, on either side across its face (after Garland and
-    // Heckbert 1997).
+    // On each edge between two groups, adds for each face a square perpendicular to it, with the edge as
+    // its side (after Garland and Heckbert 1997).
     void add_curve_planes(const CollapseMesh& mesh, Index v) {
         curves_->for_each_curve_edge(mesh, v, [&](Index f, Index neighbour) {
             const Vector3 edge = mesh.position(neighbour) - mesh.position(v);
@@ -209,7 +220,7 @@ private:
     std::span<const std::uint8_t> seam_vertex_;
     const FeatureCurves* curves_;
     std::vector<Quadric> quadrics_;
-    Eigen::AlignedBox3d placement_bounds_;  // for new vertices: the box of the original, with a margin
+    Eigen::AlignedBox3d placement_bounds_;  // bounds for new vertices: see placement_bounds()
 };
 
 static_assert(CollapseMetric<AccumulatedMetric>);

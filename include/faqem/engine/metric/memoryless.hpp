@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A metric without memory: what a collapse costs is measured on the surface as it is now, so that the errors
-/// of earlier collapses are not counted again and again (Lindstrom and Turk 1998).
+/// Memoryless metric: costs are measured on the current surface, so that the errors of earlier collapses
+/// are not counted repeatedly (Lindstrom and Turk 1998).
 
 #include <algorithm>
 #include <cmath>
@@ -17,29 +17,35 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Weights of the memoryless metric. Both terms are areas times squared distances.
+/// Weights of the edge planes of the memoryless metric. Their costs, like those of the face planes, are
+/// areas times squared distances; 0 disables a term.
 struct MemorylessWeights {
-    double edge = 1;  ///< planes along open edges, times their squared length
-    /// The same along edges with three faces or more, less where these go on straight through the edge: the
-    /// sheets of a doubled surface need no holding.
+    double edge = 1;  ///< planes along boundary edges, times the squared edge length
+    /// Likewise for edges with three or more faces, less if the faces continue each other straight through
+    /// the edge: the surface patches of a doubled surface need no constraint.
     double nonmanifold_edge = 5;
-    /// The same along edges where the surface folds back (normals more than 120 degrees apart): the rim of a
-    /// thin blade has hardly any area, and without this the blade shrinks from its tip.
+    /// Likewise for edges at which the surface folds back (normals more than 120 degrees apart). The rim of
+    /// a thin blade has hardly any area; without this term the blade would shrink from its tip.
     double fold_edge = 0.2;
-    /// The same along kept edges between groups, for each of the two faces.
+    /// Likewise for preserved edges between face groups, for each of the two faces.
     double group_edge = 0.5;
 };
 
-/// Area-weighted planes of the faces around both vertices, and planes that hold open edges in place: each
-/// goes through its edge, across its face. Without them open meshes lose their border first.
+/// Area-weighted planes of the faces at both vertices, and planes through certain edges, perpendicular to
+/// their faces (see MemorylessWeights). Without the latter, open meshes would first lose their boundary.
+/// Not thread-safe.
 ///
-/// All planes of a vertex go through it, so six numbers hold their quadric: the sum of w n n^T.
+/// All planes of a vertex pass through it, so that six numbers store their quadric: the sum of w n n^T.
 class MemorylessMetric {
 public:
-    /// \param curves  between groups, to be held in place; borrowed; null: none
+    /// \param weights  weights of the edge planes
+    /// \param curves   boundaries between face groups, which are preserved by planes of weight
+    ///     `group_edge`; borrowed; null: none
     explicit MemorylessMetric(const MemorylessWeights& weights = {}, const FeatureCurves* curves = nullptr)
         : weights_(weights), curves_(curves) {}
 
+    /// Computes the planes of the current mesh. O(faces) for bounded valence
+    /// \throws whatever `check_cancelled` throws
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
                     CancellationCheck check_cancelled = {}) {
         vertex_planes_.assign(mesh.vertex_slots(), {});
@@ -57,13 +63,14 @@ public:
         placement_bounds_ = placement_bounds(box);
     }
 
-    /// The sum of both rings less half of what they share: a shared face counts one and a half times.
+    /// The quadric of the pair is the sum of those of both vertices minus half of that of the shared faces,
+    /// so that a shared face counts one and a half times. O(1) for manifold pairs, else O(smaller valence)
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
         if (allowed_position == AllowedPosition::nowhere) return std::nullopt;
         const Index u = pairs.first(pair), v = pairs.second(pair);
         const std::uint32_t faces = pairs.face_count(pair);
-        // In coordinates around u, where v is at d.
+        // In coordinates relative to u, in which v is at d.
         const Vector3& origin = mesh.position(u);
         const Vector3 d = mesh.position(v) - origin;
         Planes shared;
@@ -104,8 +111,9 @@ public:
     Reevaluation reevaluation(const PairTable::Change&) const { return Reevaluation::deferred; }
 
 private:
-    /// A part that goes is missed at its own size at least, and may be all there is for a long way around: it
-    /// goes where collapses elsewhere cost this many times its longest edge squared, squared.
+    /// Factor of the cost of collapsing the last faces of a connected component, in units of the fourth
+    /// power of its longest edge. The component causes an error of at least its own size, and may be the
+    /// only surface in a large neighbourhood.
     static constexpr double component_weight = 100;
 
     /// Sum of w n n^T.
@@ -125,13 +133,13 @@ private:
         }
     };
 
-    /// Of a vertex, around itself, now. A cache line.
+    /// The face planes of a vertex relative to its current position. One cache line.
     struct alignas(64) VertexPlanes {
         Planes faces;
-        bool has_edge_planes = false;  ///< with planes of their own
+        bool has_edge_planes = false;  ///< whether edge_planes_ has an entry for the vertex
     };
 
-    // Adds the face to its corners' rings, or takes it away (sign -1), except at u and v.
+    // Adds a face to the planes of its corners, or subtracts it (sign -1). u and v are skipped.
     void add_face(const CollapseMesh& mesh, Index f, Index u, Index v, double sign) {
         Planes planes;
         planes.add(mesh.normal(f), sign * mesh.area(f));
@@ -147,7 +155,7 @@ private:
         return q;
     }
 
-    // Sums up the planes along the open, crowded and folding edges of v, and those between groups.
+    // Recomputes the planes along boundary edges, non-manifold edges, folds and group boundaries at v.
     void update_edge_planes(const CollapseMesh& mesh, const PairTable& pairs, Index v) {
         vertex_planes_[v].has_edge_planes = false;
         if (!high_valence_edges_.empty()) high_valence_edges_.erase(v);
@@ -174,7 +182,7 @@ private:
         return !(weights_.fold_edge > 0) || mesh.has_narrow_normal_cone(v);
     }
 
-    // update_edge_planes(), where nothing has changed but the faces that v shares with u.
+    // As update_edge_planes(), if only the faces shared by v and u have changed.
     void update_edge_planes_beside(const CollapseMesh& mesh, const PairTable& pairs, Index v, Index u) {
         const auto known =
             high_valence_edges_.empty() ? high_valence_edges_.end() : high_valence_edges_.find(v);
@@ -191,7 +199,8 @@ private:
         sum_high_valence_edges(mesh, v, ends);
     }
 
-    // \param ends  of edges that may count; those stay that do, in ascending order
+    // \param ends  other ends of the edges that may have planes, in any order; becomes those that have,
+    //     ascending
     void sum_high_valence_edges(const CollapseMesh& mesh, Index v, std::vector<Index>& ends) {
         std::sort(ends.begin(), ends.end());
         ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
@@ -217,7 +226,7 @@ private:
         edge_planes_[v] = q;
     }
 
-    // The planes of the faces of an edge, and those along it.
+    // Adds the planes of the faces of a pair, and those along its edge.
     void sum_shared(const CollapseMesh& mesh, const PairTable& pairs, Index pair, Planes& q) const {
         const auto [u, v] = mesh.lower_degree_first(pairs.first(pair), pairs.second(pair));
         for_each_face(mesh, pairs, pair, [&](Index f) { q.add(mesh.normal(f), mesh.area(f)); });
@@ -226,7 +235,7 @@ private:
         for_each_face(mesh, pairs, pair, [&, a = u, b = v](Index f) { add_edge_plane(mesh, f, a, b, w, q); });
     }
 
-    // Calls visit(face) for those of an edge. O(1) where it has at most two, else O(the smaller valence)
+    // Calls visit(face) for each face of an edge. O(1) for at most two faces, else O(smaller valence)
     template <class Visit>
     static void for_each_face(const CollapseMesh& mesh, const PairTable& pairs, Index pair, Visit&& visit) {
         const std::uint32_t count = pairs.face_count(pair);
@@ -240,7 +249,7 @@ private:
         });
     }
 
-    // \pre u's faces are all that is left of their part
+    // \pre the faces of u are all faces of their component
     static double component_cost(const CollapseMesh& mesh, Index u) {
         double longest = 0;
         mesh.for_each_face(u, [&](Index f, unsigned) {
@@ -258,7 +267,7 @@ private:
         return edge_weight(mesh, u, v, pairs.face_count(pair), first, last);
     }
 
-    // \param first, last  the faces, where there are two
+    // \param first, last  the two faces if `faces` is 2
     double edge_weight(const CollapseMesh& mesh, Index u, Index v, std::uint32_t faces, Index first,
                        Index last) const {
         if (faces == 1) return weights_.edge;
@@ -267,13 +276,13 @@ private:
         if (curves_ && curves_->are_different_groups(first, last)) return weights_.group_edge;
         const double cosine = mesh.normal(first).dot(mesh.normal(last));
         if (!(std::abs(cosine) > 0.5)) return 0;
-        // Windings may disagree: then opposite normals mean that the surface goes straight on.
+        // If the windings are inconsistent, opposite normals mean that the surface is flat.
         const bool agree = mesh.has_directed_edge(first, u, v) != mesh.has_directed_edge(last, u, v);
         return agree == (cosine < 0) ? weights_.fold_edge : 0;
     }
 
-    // Squared length of the sum of unit vectors from the edge (u, v) into its faces: 0 where each face has
-    // one that continues it.
+    // Squared length of the sum of the unit vectors from the edge (u, v) into its faces: 0 if the faces
+    // form pairs that continue each other.
     double imbalance(const CollapseMesh& mesh, Index u, Index v) const {
         const Vector3& a = mesh.position(u);
         const Vector3 e = mesh.position(v) - a;
@@ -300,11 +309,11 @@ private:
 
     MemorylessWeights weights_;
     const FeatureCurves* curves_;
-    Eigen::AlignedBox3d placement_bounds_;  // for new vertices
+    Eigen::AlignedBox3d placement_bounds_;  // see placement_bounds()
     std::vector<VertexPlanes> vertex_planes_;
-    std::vector<Planes> edge_planes_;  // of each vertex: planes along its edges
-    std::map<Index, std::vector<Index>>
-        high_valence_edges_;  // of hubs with such edges: their other ends, ascending
+    std::vector<Planes> edge_planes_;  // per vertex: sum of the planes along its edges
+    // Per high-valence vertex with such edges: their other ends, ascending.
+    std::map<Index, std::vector<Index>> high_valence_edges_;
 };
 
 static_assert(CollapseMetric<MemorylessMetric>);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A metric with weights of the user's: the same error counts more in one place than in another.
+/// A metric with vertex weights: the same error costs more in some regions than in others.
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Multiplies the costs of another metric by the larger weight of the pair's ends. The new vertex gets the
-/// weight that the edge, interpolated between its ends, has nearest to it.
-/// \tparam Inner  what an error costs where the weight is 1
+/// Multiplies the costs of another metric by the larger weight of the pair's vertices. The weight of the
+/// new vertex is interpolated linearly between both, at the point of the edge closest to it.
+/// \tparam Inner  the metric for weight 1
 template <CollapseMetric Inner>
 class WeightedMetric {
 public:
+    /// \param inner    the metric for weight 1; moved into this object
     /// \param weights  one per vertex slot, finite and > 0
     WeightedMetric(Inner inner, std::vector<double> weights)
         : inner_(std::move(inner)), weights_(std::move(weights)) {}
@@ -67,7 +68,7 @@ public:
         inner_.set_target(target_faces, weight);
     }
 
-    /// What the costs of the pair (u, v) are multiplied by.
+    /// Weight of the pair (u, v): the larger one of both vertices.
     double weight(Index u, Index v) const { return std::max(weights_[u], weights_[v]); }
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the new vertex of a collapse goes.
+/// Position of the vertex that a collapse creates.
 
 #include <limits>
 
@@ -10,37 +10,43 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Where the new vertex may go.
+/// Positions that the new vertex of a pair may have.
 enum class AllowedPosition {
     anywhere,
-    at_first,   ///< only where the pair's first vertex is
-    at_second,  ///< only where its second vertex is
-    nowhere,    ///< the pair may not be collapsed
+    at_first,   ///< only the position of the pair's first vertex
+    at_second,  ///< only the position of the pair's second vertex
+    nowhere,    ///< the pair must not be collapsed
 };
 
-/// The two of them together. \return nowhere if they contradict each other
+/// The positions that both arguments allow. O(1)
+/// \return `nowhere` if there are none
 inline AllowedPosition intersection(AllowedPosition a, AllowedPosition b) {
     if (a == AllowedPosition::anywhere || a == b) return b;
     return b == AllowedPosition::anywhere ? a : AllowedPosition::nowhere;
 }
 
-/// A collapse that may be done.
+/// A possible collapse of a pair.
 struct Candidate {
-    Vector3 point;
-    double cost = std::numeric_limits<double>::quiet_NaN();
+    Vector3 point;                                           ///< position of the new vertex, engine units
+    double cost = std::numeric_limits<double>::quiet_NaN();  ///< finite and >= 0 if a metric returned it
 };
 
-/// The room for new vertices around a surface: its box, and a tenth of the diagonal on all sides. Planes that
-/// are parallel but for noise meet anywhere.
+/// Bounds for the positions of new vertices: a box extended by a tenth of its diagonal on all sides. Planes
+/// that are parallel except for noise may intersect anywhere; minima outside the bounds are rejected.
+/// \param box  axis-aligned bounding box of the surface
 inline Eigen::AlignedBox3d placement_bounds(const Eigen::AlignedBox3d& box) {
     const Vector3 margin = Vector3::Constant(0.1 * box.diagonal().norm());
     return {box.min() - margin, box.max() + margin};
 }
 
-/// The minimum of `q`; where it is ill conditioned, the best of a, b and their midpoint, first come first
-/// taken (paper, Sec. 3.1).
-/// \pre freedom is not `nowhere`
-/// \param bounds  a minimum outside of it counts as ill conditioned; null: there is room everywhere
+/// The position of the new vertex: the minimum of a quadric, or, if that is ill-conditioned or outside the
+/// bounds, the best of a, b and their midpoint (paper, Sec. 3.1). Of equally good positions, the first in
+/// this order is taken. O(1)
+/// \pre `allowed_position` is not `nowhere`
+/// \param q                 the quadric to minimise
+/// \param a, b              positions of the pair's vertices
+/// \param allowed_position  `at_first` returns a, `at_second` returns b
+/// \param bounds            see placement_bounds(); null: unbounded
 inline Vector3 optimal_position(const Quadric& q, const Vector3& a, const Vector3& b,
                                 AllowedPosition allowed_position,
                                 const Eigen::AlignedBox3d* bounds = nullptr) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Quadric Q(p) = p^T A p + 2 b^T p + c: a weighted sum of squared distances to planes
-/// (Garland and Heckbert 1997; paper eq. 1).
+/// Quadric Q(p) = p^T A p + 2 b^T p + c: a weighted sum of squared distances to planes (Garland and
+/// Heckbert 1997; paper eq. 1).
 
 #include <optional>
 
@@ -11,13 +11,17 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Ten numbers: the upper triangle of A (xx xy xz yy yz zz), b and c.
+/// Coefficients of a quadric: the upper triangle of A (xx xy xz yy yz zz), b and c. A default-constructed
+/// quadric is zero.
 struct Quadric {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
     Vector3 b = Vector3::Zero();
     double c = 0;
 
-    /// w (n.p + d)^2. `n` need not have unit length: the paper's boundary planes have not.
+    /// The quadric w (n.p + d)^2.
+    /// \param n  normal of the plane; need not have unit length, and the paper's boundary planes do not
+    /// \param d  offset of the plane
+    /// \param w  weight
     static Quadric plane(const Vector3& n, double d, double w) {
         Quadric q;
         q.xx = w * n.x() * n.x();
@@ -31,13 +35,15 @@ struct Quadric {
         return q;
     }
 
-    /// The plane with normal n through `point`.
+    /// The quadric of the plane with normal `n` through `point`, with weight `w`.
     static Quadric plane_through(const Vector3& n, const Vector3& point, double w) {
         return plane(n, -n.dot(point), w);
     }
 
-    /// w/2 |e x p + t|^2: half the squared doubled area of the triangle that p spans with the edge from a to
-    /// b, e = b - a, t = a x b (Lindstrom and Turk 1998; paper eq. 11).
+    /// The quadric w/2 |e x p + t|^2 with e = b - a, t = a x b: w/2 times the squared doubled area of the
+    /// triangle with corners a, b and p (Lindstrom and Turk 1998; paper eq. 11).
+    /// \param a, b  ends of the edge
+    /// \param w     weight
     static Quadric edge_area(const Vector3& a, const Vector3& b, double w) {
         const Vector3 e = b - a;
         const Vector3 t = a.cross(b);
@@ -71,17 +77,17 @@ struct Quadric {
         return *this;
     }
 
-    /// A p
+    /// The product A p.
     Vector3 apply(const Vector3& p) const {
         return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
                 xz * p.x() + yz * p.y() + zz * p.z()};
     }
 
-    /// Q(p). May be slightly negative by rounding.
+    /// Evaluates Q(p). The result may be slightly negative due to rounding.
     double operator()(const Vector3& p) const { return p.dot(apply(p)) + 2 * b.dot(p) + c; }
 
-    /// The point where Q is smallest, or nothing when A is too close to singular to tell:
-    /// det A <= 1e-9 (trace A)^3, a test that does not depend on the model's scale.
+    /// The point that minimises Q, or nothing if A is nearly singular: det A <= 1e-9 (trace A)^3. This test
+    /// is independent of the scale of the model.
     std::optional<Vector3> minimum() const {
         const double trace = xx + yy + zz;
         const double cxx = yy * zz - yz * yz;

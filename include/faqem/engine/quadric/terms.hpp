@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The terms of the composite metric, one function each (paper, Sec. 3.2). All in the engine's units.
+/// The terms of the composite metric (paper, Sec. 3.2). All lengths are in engine units.
 
 #include <algorithm>
 #include <array>
@@ -14,17 +14,21 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// How much a face's plane counts in the base term.
+/// Weight of a face's plane in the base term. K is the squared distance to the plane, A the area of the
+/// face.
 enum class BaseWeight {
     unit,          ///< K (Garland and Heckbert 1997; paper eq. 1)
     area,          ///< A K
     inverse_area,  ///< K / (w A) (paper eq. 5)
 };
 
-/// Base term of one face with doubled-area vector `n2`, seen from any of its corners.
-/// \param plane_area  w of paper eq. 5; used by inverse_area only, > 0
-/// \param min_area  areas below are clamped to it, so that 1/A stays finite
-/// \return zero for a face without area: it has no plane
+/// Base term of one face; the same for all of its corners. O(1)
+/// \param n2          area vector of the face: its unit normal times twice its area
+/// \param corner      position of any corner
+/// \param mode        weight of the plane
+/// \param plane_area  w of paper eq. 5, > 0; used by `inverse_area` only
+/// \param min_area    smaller areas are clamped to this value, so that 1/A is finite
+/// \return zero for a face of zero area, which has no plane
 inline Quadric base_term(const Vector3& n2, const Vector3& corner, BaseWeight mode, double plane_area,
                          double min_area) {
     const double length = n2.norm();
@@ -36,7 +40,9 @@ inline Quadric base_term(const Vector3& n2, const Vector3& corner, BaseWeight mo
     return Quadric::plane_through(n2 / length, corner, weight);
 }
 
-/// The two ends of the border at v, smaller index first, if exactly two open edges meet there.
+/// Boundary neighbours of a vertex. O(valence)
+/// \return the other ends of the boundary edges at v, smaller index first; nothing unless there are exactly
+///     two
 inline std::optional<std::array<Index, 2>> boundary_neighbours(const PairTable& pairs, Index v) {
     if (pairs.boundary_degree(v) != 2) return std::nullopt;
     std::array<Index, 2> found = {no_index, no_index};
@@ -48,10 +54,10 @@ inline std::optional<std::array<Index, 2>> boundary_neighbours(const PairTable& 
     return found;
 }
 
-/// Curvature of the border v2, v1, v3 by finite differences (paper eq. 6):
-/// |d' x d''| / |d'|^3 with d' = v3 - v2 and d'' = v3 - 2 v1 + v2. d' spans two steps: a circular rim of
-/// radius R gives about 1/(4R).
-/// \return 0 where v2 and v3 coincide
+/// Curvature of the boundary v2, v1, v3 at v1 by finite differences (paper eq. 6): |d' x d''| / |d'|^3 with
+/// d' = v3 - v2 and d'' = v3 - 2 v1 + v2. Since d' spans two edges, a circular boundary of radius R has a
+/// curvature of about 1/(4R).
+/// \return 0 if v2 and v3 coincide
 inline double boundary_curvature(const Vector3& v1, const Vector3& v2, const Vector3& v3) {
     const Vector3 first = v3 - v2;
     const Vector3 second = v3 - 2 * v1 + v2;
@@ -60,9 +66,11 @@ inline double boundary_curvature(const Vector3& v1, const Vector3& v2, const Vec
     return std::isfinite(kappa) ? kappa : 0;
 }
 
-/// Boundary and curvature term at v1 between its border neighbours (paper eq. 7-9): kappa (p1 p1^T + p2
-/// p2^T), p1 the plane of v1, v2, v3 and p2 the one through v1 across v1 - v2. The normals keep their length,
-/// as printed.
+/// Boundary and curvature term at a boundary vertex (paper eq. 7-9): kappa (p1 p1^T + p2 p2^T), where p1 is
+/// the plane through v1, v2 and v3, and p2 is the plane through v1 perpendicular to v1 - v2. The normals
+/// are not normalised, as printed in the paper.
+/// \param v1      position of the vertex
+/// \param v2, v3  positions of its boundary neighbours
 inline Quadric boundary_term(const Vector3& v1, const Vector3& v2, const Vector3& v3) {
     const double kappa = boundary_curvature(v1, v2, v3);
     Quadric q = Quadric::plane_through((v1 - v2).cross(v3 - v1), v1, kappa);
@@ -70,8 +78,9 @@ inline Quadric boundary_term(const Vector3& v1, const Vector3& v2, const Vector3
     return q;
 }
 
-/// Normal term (paper eq. 10): the tangent plane at v, its normal the area-weighted mean of the faces'.
-/// \return zero where the normals cancel
+/// Normal term (paper eq. 10): the tangent plane at v, whose normal is the area-weighted mean of the face
+/// normals. O(valence)
+/// \return zero if the normals cancel
 inline Quadric normal_term(const CollapseMesh& mesh, Index v) {
     Vector3 sum = Vector3::Zero();
     mesh.for_each_face(v, [&](Index f, unsigned) { sum += mesh.area_vector(f); });
@@ -80,9 +89,9 @@ inline Quadric normal_term(const CollapseMesh& mesh, Index v) {
     return Quadric::plane_through(sum / length, mesh.position(v), 1);
 }
 
-/// Area term of the pair (u, v) (paper eq. 11): half of the squared doubled area that a new point spans with
-/// each open edge at u or v; an open edge between the two counts once. Never accumulated: it belongs to the
-/// current border.
+/// Area term of the pair (u, v) (paper eq. 11): half of the squared doubled area of the triangles between
+/// the new vertex and each boundary edge at u or v. A boundary edge between u and v counts once. The term
+/// is not accumulated, since it refers to the current boundary. O(valence)
 inline Quadric area_term(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
     Quadric q;
     for (const Index end : {u, v}) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A queue of buckets: costs that are nearly equal count as equal.
+/// A bucket queue, which treats nearly equal costs as equal.
 
 #include <algorithm>
 #include <bit>
@@ -16,9 +16,9 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Buckets of nearly equal costs, for metrics whose costs are estimates: several times as fast as the heap.
-/// Costs within a sixty-fourth of a power of two of each other come out in the order in which they came in. All calls
-/// take O(1), amortised.
+/// A queue of buckets for metrics whose costs are estimates; several times as fast as the heap. Costs in
+/// the same bucket differ by at most 1/64 of a power of two and are popped in the order of insertion. All
+/// functions take amortised O(1).
 class BucketQueue {
 public:
     BucketQueue() : buckets_(bucket_count) {}
@@ -58,12 +58,13 @@ public:
     }
 
 private:
-    /// Pairs in order of arrival. One that has left since is still there: place_ tells.
+    /// Pairs in the order of insertion. A pair that has left the bucket stays in the list; bucket_of_ gives
+    /// its current bucket.
     struct Bucket {
         std::vector<Index> pairs;
-        std::size_t first = 0;
+        std::size_t first = 0;  ///< pairs before this have been popped
     };
-    /// The bits of a float but the sign, down to six of its fraction.
+    /// A bucket is given by the exponent and the upper six bits of the fraction of a float.
     static constexpr std::uint16_t bucket_count = 1 << 14, no_bucket = 1 << 15;
     static constexpr double max_cost = std::numeric_limits<float>::max();
 
@@ -72,7 +73,7 @@ private:
             std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, max_cost))) >> 17);
     }
 
-    /// To the first pair that is still where it was put.
+    /// Moves lowest_ and the bucket's `first` to the first pair that is still in its bucket.
     void find_lowest() {
         if (size_ == 0) lowest_ = bucket_count;
         for (; lowest_ < bucket_count; ++lowest_) {
@@ -86,8 +87,8 @@ private:
     }
 
     std::vector<Bucket> buckets_;
-    std::uint16_t lowest_ = bucket_count;   // all buckets below are empty
-    std::vector<std::uint16_t> bucket_of_;  // the bucket of each pair
+    std::uint16_t lowest_ = bucket_count;   // all buckets below this are empty
+    std::vector<std::uint16_t> bucket_of_;  // bucket of each pair, or no_bucket
     std::size_t size_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The queue of candidate collapses: what the engine asks of one, and an addressable heap.
+/// Concepts of collapse queues, and an addressable heap.
 
 #include <concepts>
 #include <cstddef>
@@ -13,39 +13,41 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A set of pairs with costs, finite and >= 0. The cheapest comes first; which of equal ones does depends on
-/// nothing but the calls.
+/// A priority queue of pairs with costs, finite and >= 0; cheapest first. The order of equal costs must be
+/// deterministic: it may depend only on the sequence of calls.
 template <class Q>
 concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, double cost, std::size_t pairs) {
-    {queue.reserve(pairs)};                  // room for pairs [0, pairs)
-    {queue.set(pair, cost)};                 // inserts, or changes the cost
-    {queue.erase(pair)};                     // does nothing when the pair is not in it
-    { queue.pop() } -> std::same_as<Index>;  // removes and returns the cheapest; not empty
+    {queue.reserve(pairs)};                  // clears the queue; pairs in [0, pairs) may be inserted
+    {queue.set(pair, cost)};                 // inserts the pair or changes its cost
+    {queue.erase(pair)};                     // removes the pair; does nothing if it is not in the queue
+    { queue.pop() } -> std::same_as<Index>;  // removes and returns the cheapest pair; not empty
     { const_queue.empty() } -> std::same_as<bool>;
     { const_queue.contains(pair) } -> std::same_as<bool>;
-    // Is there a pair that would come before the one just popped, were that put back with this cost?
+    // Whether a pair in the queue would be popped before the pair just popped, if that were inserted again
+    // with this cost.
     { const_queue.has_cheaper(cost) } -> std::same_as<bool>;
 };
 
-/// A queue that can do with old costs: what a collapse has made dearer, most often, is measured again when its
-/// turn comes.
+/// A queue that tolerates outdated costs. A collapse usually increases the costs of the pairs around it;
+/// these are computed again when the pair is popped.
 template <class Q>
 concept LazyQueue = CollapseQueue<Q> && requires(Q queue, const Q& const_queue, Index pair) {
-    // The cost of the pair has changed. False: it must be set.
+    // Marks the cost of a pair as outdated. Returns false if set() must be called instead.
     { queue.mark_stale(pair) } -> std::same_as<bool>;
-    // What comes out may cost so many times as much as what is still in.
+    // The cost of a popped pair is at most this factor times the lowest cost in the queue.
     { const_queue.approximation_factor() } -> std::same_as<double>;
 };
 
-/// A queue that goes about it otherwise far from the end than near it.
+/// A queue whose strategy depends on the distance from the target.
 template <class Q>
 concept TargetDependentQueue = CollapseQueue<Q> &&
     requires(Q queue, std::size_t pairs, CancellationCheck check_cancelled) {
-    {queue.set_target(pairs, check_cancelled)};  // so many will be left; what takes long asks the poll
+    // Sets the expected number of pairs at the target. Long loops call check_cancelled.
+    {queue.set_target(pairs, check_cancelled)};
 };
 
-/// A four-ary heap that knows where each pair is. Equal costs come out by index. set, erase and pop take
-/// O(log n).
+/// A four-ary heap that stores the position of each pair. Equal costs are popped by index. set(), erase()
+/// and pop() take O(log n), the other functions O(1). 20 bytes per pair.
 class HeapQueue {
 public:
     void reserve(std::size_t pairs) {
@@ -129,7 +131,7 @@ private:
     }
 
     std::vector<Entry> heap_;
-    std::vector<Index> heap_index_;  // of a pair in heap_, or no_index
+    std::vector<Index> heap_index_;  // position of each pair in heap_, or no_index
 };
 
 }  // namespace engine

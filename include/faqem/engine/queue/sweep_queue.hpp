@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A queue that goes over the surface in rounds.
+/// A queue that pops pairs in rounds, each of them a sweep over all pairs.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,21 +15,22 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Far from the end, what goes matters more than in which order: a round gives out all pairs up to a limit,
-/// by index, and the limit of the next round is higher. So the engine walks over the surface, and finds in the
-/// cache what it needs. Pairs around a collapse wait for the next round, with the cost that they had: it is
-/// measured again where that is within the limit, once for all the collapses beside the pair. Near the end the
-/// rest goes into buckets.
+/// A queue that pops, in each round, all pairs up to a cost limit in the order of their index, and then
+/// raises the limit. Far from the target the exact order of collapses matters little, and index order uses
+/// the cache well. Pairs around a collapse wait for the next round with their outdated cost; if it is
+/// within the limit, the cost is computed again, once for all collapses next to the pair. Near the target
+/// the remaining pairs go into a bucket queue.
 ///
-///     limit = what the cheapest of the pairs cost at most, up to three of ten where nearly all will go
-///     until there are hardly more pairs than at the end:
-///         give out pairs up to the limit, unless an end has moved in this round
-///         limit *= how many times more pairs there are than at the end, from 1.4 to 4
+///     limit = quantile of the initial costs: 0.3 times the squared fraction of pairs to be removed
+///     while the number of pairs is well above that at the target:
+///         pop the pairs up to the limit, except for those marked as stale in this round
+///         limit *= number of pairs / number of pairs at the target, clamped to [1.41, 4]
 ///
-/// set, erase and mark_stale take O(1); all pops of a round O(pairs).
+/// set(), erase() and mark_stale() take O(1); all pops of a round together take O(pairs).
 class SweepQueue {
 public:
-    /// \param few  so many pairs go into buckets at once: among few, each counts
+    /// \param few  up to this number of pairs, only the bucket queue is used: with few pairs the order
+    ///     matters
     explicit SweepQueue(std::size_t few = 0) : few_(few) {}
 
     void reserve(std::size_t pairs) {
@@ -42,8 +43,10 @@ public:
         is_over_ = false;
     }
 
-    /// \param pairs  that will be left at the end; 0, as without: there is no end in sight
-    /// \param check_cancelled   for pop(), which may walk along all pairs
+    /// Sets the target.
+    /// \param pairs            expected number of pairs at the target; 0 (as without this call): unknown
+    /// \param check_cancelled  called in pop(), which may iterate over all pairs; exceptions pass
+    ///     through pop()
     void set_target(std::size_t pairs, CancellationCheck check_cancelled = {}) {
         end_ = static_cast<double>(pairs);
         check_cancelled_ = check_cancelled;
@@ -73,13 +76,13 @@ public:
         return costs_[pair] != absent;
     }
 
-    double approximation_factor() const { return is_over_ ? 1 : most_growth; }
+    double approximation_factor() const { return is_over_ ? 1 : max_growth; }
 
     Index pop() {
         for (;;) {
             if (is_over_) return buckets_.pop();
             for (; at_ < costs_.size(); ++at_) {
-                if (at_ % polled == 0) check_cancelled_(operations);
+                if (at_ % check_interval == 0) check_cancelled_(operations);
                 const float cost = costs_[at_];
                 if (cost <= limit_ && rounds_[at_] != round_) {
                     const auto pair = static_cast<Index>(at_++);
@@ -95,10 +98,11 @@ public:
 private:
     static constexpr float absent = std::numeric_limits<float>::infinity();
     static constexpr float max_cost = std::numeric_limits<float>::max();
-    /// The share of all pairs that may go in any order, where nearly all will go; of more, the error would grow.
+    /// The first limit is this quantile of the initial costs, times the squared fraction of pairs to be
+    /// removed. Larger values increase the error.
     static constexpr double first_share = 0.3;
-    static constexpr double most_growth = 4, least_growth = 1.41421356;
-    /// Times as many pairs as at the end are near it.
+    static constexpr double max_growth = 4, min_growth = 1.41421356;
+    /// Below this ratio of the number of pairs to that at the target, the bucket queue is used.
     static constexpr double near = 1.25;
 
     static float as_float(double cost) { return static_cast<float>(std::min<double>(cost, max_cost)); }
@@ -119,7 +123,7 @@ private:
         }
     }
 
-    /// \param going  the share of all pairs that will go
+    /// \param going  fraction of all pairs that will be removed, in (0, 1]
     float first_limit(double going) const {
         std::vector<float> some;
         for (std::size_t i = 0; i < costs_.size(); i += 1 + costs_.size() / samples)
@@ -131,7 +135,7 @@ private:
     }
 
     float next_limit(double times) const {
-        const double growth = std::clamp(times, least_growth, most_growth);
+        const double growth = std::clamp(times, min_growth, max_growth);
         return as_float(std::max(growth * static_cast<double>(limit_), static_cast<double>(lowest_)));
     }
 
@@ -147,15 +151,16 @@ private:
     }
 
     static constexpr std::size_t samples = 4096;
-    static constexpr std::size_t polled = 64, operations = 4;  // a look at 16 is one
+    // Cancellation is checked every 64 pairs. 16 visited pairs count as one operation.
+    static constexpr std::size_t check_interval = 64, operations = 4;
 
-    std::vector<float> costs_;          // of pairs that are in; else `absent`
-    std::vector<std::uint8_t> rounds_;  // in which an end moved last
+    std::vector<float> costs_;          // per pair; `absent` if it is not in the queue
+    std::vector<std::uint8_t> rounds_;  // per pair: the last round in which it was marked as stale
     std::size_t few_, size_ = 0;
-    std::size_t at_ = 0;  // how far the round has come
-    double end_ = 0;
-    float limit_ = -1;   // below 0: before the first round
-    float lowest_ = -1;  // of what this round has passed over
+    std::size_t at_ = 0;  // current position in the round
+    double end_ = 0;      // expected number of pairs at the target; 0: unknown
+    float limit_ = -1;    // negative before the first round
+    float lowest_ = -1;   // lowest cost of the pairs skipped in this round
     std::uint8_t round_ = 0;
     bool is_over_ = false;
     CancellationCheck check_cancelled_;

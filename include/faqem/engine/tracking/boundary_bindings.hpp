@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Which part of the original's border each open edge of today stands for.
+/// Bindings of the original boundary vertices to the boundary edges of the current mesh that represent
+/// them.
 
 #include <algorithm>
 #include <limits>
@@ -18,14 +19,19 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// The vertices of the original's border, each bound to an open edge of today near it; those of a border that
-/// has come to its end are bound to none. Nothing is kept for a surface without border.
+/// The tracked vertices on the original boundary, each bound to one boundary edge near it. Vertices of a
+/// boundary loop that has vanished are not bound. Needs no memory for a surface without boundary. Not
+/// thread-safe.
 class BoundaryBindings {
 public:
-    /// Binds every point to an open edge near it.
-    /// \param tracked  of the vertices to look after; original vertices in ascending order
-    /// \throws what the poll throws
-    /// O(open edges + lineage), typically
+    /// Binds each tracked boundary vertex to a boundary edge near it. Typically O(boundary edges + tracked
+    /// vertices)
+    /// \param original         used during construction only
+    /// \param tracked          the vertices to bind, original vertices ascending; the targets are vertices
+    ///     of `mesh`
+    /// \param mesh, pairs      the current mesh and its pairs
+    /// \param check_cancelled  called for each vertex
+    /// \throws whatever `check_cancelled` throws
     BoundaryBindings(const OriginalSurface& original, const TrackedVertices& tracked,
                      const CollapseMesh& mesh, const PairTable& pairs,
                      CancellationCheck check_cancelled = {}) {
@@ -40,11 +46,15 @@ public:
         }
     }
 
-    /// How far the collapse of (u, v) to p would take the border from the original's: the largest squared
-    /// distance of what is bound around the pair from the open edges there would be, and of p and the middles
-    /// of these edges from the original border there: an edge from one border to another is far from both.
-    /// Where nothing is bound to the edges at hand, what is to the next ones says where the border was. 0
-    /// where there is no border, or it comes to its end. O(bound points times valence)
+    /// Largest squared distance between the original boundary and the boundary after the collapse of (u, v)
+    /// to p. Measured are the distances of the vertices bound around the pair from the new boundary edges,
+    /// and the distances of p and of the midpoints of these edges from the original boundary near it; the
+    /// midpoints, because an edge that connects two boundary loops is far from both. If no vertex is bound
+    /// to the boundary edges at the pair, those bound to the adjacent boundary edges are used. O(bound
+    /// vertices times valence)
+    /// \param u, v  vertices of the pair, before the collapse
+    /// \param p     position of the new vertex
+    /// \return engine units squared; 0 if there is no boundary or the boundary loop vanishes
     double squared_distance(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                             const Vector3& p) {
         if (!touches_boundary(pairs, u, v)) return 0;
@@ -69,7 +79,7 @@ public:
         return worst;
     }
 
-    /// u and v are about to become one.
+    /// Must be called before u and v are merged. O(valence + bound vertices)
     void before_collapse(const PairTable& pairs, Index u, Index v) {
         bound_.clear();
         if (!touches_boundary(pairs, u, v)) return;
@@ -81,7 +91,9 @@ public:
         }
     }
 
-    /// They have.
+    /// Must be called after the collapse. O(valence times bound vertices)
+    /// \param survivor  the remaining vertex
+    /// \param around    its neighbours, from PairTable::merge()
     void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
                         std::span<const PairTable::Change> around) {
         if (bound_.empty()) return;
@@ -101,10 +113,11 @@ private:
     struct Point {
         Vector3 position;
         Index vertex;
-        std::size_t first_segment;  ///< of the far ends of its original open edges
+        std::size_t first_segment;  ///< index in segments_ of its first boundary neighbour
     };
 
-    // Makes the points and their segments. \return the vertex of the complex that each point has gone into
+    // Sets points_ and segments_.
+    // \return for each point, its vertex in the current mesh
     std::vector<Index> collect_points(const OriginalSurface& original, const TrackedVertices& tracked,
                                       CancellationCheck check_cancelled) {
         std::vector<Index> current;
@@ -120,7 +133,7 @@ private:
         return current;
     }
 
-    // Where the original has no border, one that begins has nothing to be compared with.
+    // If the original has no boundary, there is nothing to compare a new boundary with.
     bool touches_boundary(const PairTable& pairs, Index u, Index v) const {
         return !points_.empty() && pairs.boundary_degree(u) + pairs.boundary_degree(v) > 0;
     }
@@ -130,14 +143,14 @@ private:
         first_bound_[pair] = point;
     }
 
-    // What is bound to the open edges of u and v.
+    // Sets bound_ to the points bound to the boundary edges of u and v.
     void gather(const PairTable& pairs, Index u, Index v) {
         bound_.clear();
         gather_at(pairs, u, no_index);
         gather_at(pairs, v, u);
     }
 
-    // Adds what is bound to the open edges of v but the one to `excluded`.
+    // Adds the points bound to the boundary edges of v, except for the edge to `excluded`.
     void gather_at(const PairTable& pairs, Index v, Index excluded) {
         pairs.for_each_pair(v, [&](Neighbour n) {
             if (pairs.face_count(n.pair) != 1 || n.vertex == excluded) return;
@@ -145,7 +158,8 @@ private:
         });
     }
 
-    // From p to the original border around the nearest point that was gathered. \pre there is one
+    // Squared distance from p to the original boundary edges at the nearest point in bound_.
+    // \pre bound_ is not empty
     double squared_distance_to_original(const Vector3& p) const {
         Index nearest = no_index;
         double least = std::numeric_limits<double>::infinity();
@@ -167,12 +181,13 @@ private:
         return nearest;
     }
 
-    // Goes from the open edges at `today` to nearer and nearer ones; no_index where it has none.
+    // Finds a boundary edge near x by descent, starting with the boundary edges of `current`; no_index if
+    // it has none.
     static Index find_near_edge(const CollapseMesh& mesh, const PairTable& pairs, const Vector3& x,
                                 Index current) {
         Index best = no_index;
         double nearest = std::numeric_limits<double>::infinity();
-        const auto look_around = [&](Index v) {
+        const auto search_edges_of = [&](Index v) {
             const Index before = best;
             pairs.for_each_pair(v, [&](Neighbour n) {
                 if (pairs.face_count(n.pair) != 1) return;
@@ -181,20 +196,20 @@ private:
             });
             return best != before;
         };
-        for (bool nearer = look_around(current); nearer && nearest > 0;) {
+        for (bool nearer = search_edges_of(current); nearer && nearest > 0;) {
             const Index first = pairs.first(best), second = pairs.second(best);
-            nearer = look_around(first);
-            nearer |= look_around(second);
+            nearer = search_edges_of(first);
+            nearer |= search_edges_of(second);
         }
         return best;
     }
 
     std::vector<Point> points_;
-    std::vector<Vector3> segments_;
-    std::vector<Index> first_bound_, next_bound_;  // lists of points bound to each pair
-    std::vector<Index> bound_;                     // points around the pair in hand
-    std::vector<SegmentDistance> edges_;           // open edges there would be, or are
-    std::vector<Index> edge_pairs_, ends_;         // their pairs, their far ends
+    std::vector<Vector3> segments_;                // original boundary neighbours of each point, by position
+    std::vector<Index> first_bound_, next_bound_;  // linked list of the points bound to each pair
+    std::vector<Index> bound_;                     // points bound around the current pair
+    std::vector<SegmentDistance> edges_;           // boundary edges at the new vertex
+    std::vector<Index> edge_pairs_, ends_;         // their pairs and their other ends
 };
 
 }  // namespace engine

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Squared distances from many points to one triangle or segment, or to several.
+/// Squared distances from many points to a triangle or segment, or to the nearest of several.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,8 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A triangle prepared for distance queries. Slivers, segments and points are triangles too.
+/// Squared distance to a triangle, with precomputed terms. The triangle may be a sliver, a segment or a
+/// point.
 class TriangleDistance {
 public:
     TriangleDistance(const Vector3& a, const Vector3& b, const Vector3& c)
@@ -24,14 +25,15 @@ public:
         inv_ab2_ = inverse(ab2_), inv_ac2_ = inverse(ac2_), inv_bc2_ = inverse(bc_.squaredNorm());
     }
 
-    /// Squared distance of p. O(1)
+    /// Squared distance from p to the triangle. O(1)
     double operator()(const Vector3& p) const {
         const Vector3 from_a = p - a_, from_b = from_a - ab_;
         const double along_ab = ab_.dot(from_a), along_ac = ac_.dot(from_a);
         const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * inv_det_;
         const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * inv_det_;
         if (inv_det_ > 0 && v >= 0 && w >= 0 && v + w <= 1) return (from_a - v * ab_ - w * ac_).squaredNorm();
-        // The closest point is on a side that p is beyond; where rounding may have decided, on others too.
+        // The closest point is on a side beyond which p lies. Sides for which this is uncertain due to
+        // rounding are tested as well.
         const bool is_sliver = !(inv_det_ > 0);
         double nearest = std::numeric_limits<double>::infinity();
         if (is_sliver || !(w >= barycentric_tolerance))
@@ -45,9 +47,9 @@ public:
     }
 
 private:
-    /// Below it the inside of a triangle says no more than its sides do.
+    /// If the squared sine of the angle at a is at most this, only the sides are used.
     static constexpr double min_sine_squared = 1e-14;
-    /// More than what v and w may be off there.
+    /// Larger than the rounding errors of v and w for triangles above that limit.
     static constexpr double barycentric_tolerance = 0.05;
 
     static double inverse(double x) { return x > 0 ? 1 / x : 0; }
@@ -55,10 +57,10 @@ private:
 
     Vector3 a_, ab_, ac_, bc_;
     double ab2_ = 0, ac2_ = 0, ab_ac_ = 0;
-    double inv_det_ = 0, inv_ab2_ = 0, inv_ac2_ = 0, inv_bc2_ = 0;  // reciprocals; 0 where there is none
+    double inv_det_ = 0, inv_ab2_ = 0, inv_ac2_ = 0, inv_bc2_ = 0;  // reciprocals; 0 if undefined
 };
 
-/// A segment prepared for distance queries; one without length is a point.
+/// Squared distance to a segment, with precomputed terms. A segment of length 0 is a point.
 class SegmentDistance {
 public:
     SegmentDistance(const Vector3& a, const Vector3& b) : a_(a), ab_(b - a) {
@@ -66,7 +68,7 @@ public:
         if (square > 0) inv_square_ = 1 / square;
     }
 
-    /// Squared distance of p. O(1)
+    /// Squared distance from p to the segment. O(1)
     double operator()(const Vector3& p) const {
         const Vector3 from_a = p - a_;
         return (from_a - std::clamp(ab_.dot(from_a) * inv_square_, 0.0, 1.0) * ab_).squaredNorm();
@@ -77,7 +79,9 @@ private:
     double inv_square_ = 0;
 };
 
-/// The index of the shape nearest to p, the first of several; 0 where there is none. O(n)
+/// Index of the shape nearest to a point. O(shapes)
+/// \tparam Shape  TriangleDistance or SegmentDistance
+/// \return the first one of several at the same distance; 0 if there are no shapes
 template <class Shape>
 std::size_t nearest_index(const std::vector<Shape>& shapes, const Vector3& p) {
     std::size_t at = 0;
@@ -89,16 +93,17 @@ std::size_t nearest_index(const std::vector<Shape>& shapes, const Vector3& p) {
     return at;
 }
 
-/// The largest squared distance that a point has from shapes, each from the nearest of them. Neighbours have
-/// their nearest shape in common: the last one's is tried first, and a point that is nearer to any than the
-/// farthest is from its own says nothing.
+/// Largest squared distance of a set of points from their respective nearest shape (one-sided Hausdorff
+/// distance). Points in succession often have the same nearest shape, so the last one is tested first; a
+/// point is done as soon as a shape is at most the current maximum away.
+/// \tparam Shape  TriangleDistance or SegmentDistance
 template <class Shape>
 class FarthestPoint {
 public:
-    /// \param shapes  borrowed, at least one
+    /// \param shapes  at least one; borrowed, must outlive this object
     explicit FarthestPoint(const std::vector<Shape>& shapes) : shapes_(shapes) {}
 
-    /// O(shapes) at worst, one distance typically
+    /// Adds a point. O(shapes) at worst, typically one distance
     void add(const Vector3& p) {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t j = 0; j < shapes_.size() && nearest > worst_; ++j) {
@@ -110,6 +115,7 @@ public:
         if (nearest > worst_) worst_ = nearest;
     }
 
+    /// The largest squared distance of the points added so far; 0 without points.
     double squared_distance() const { return worst_; }
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface before the first collapse, and what has become of its vertices.
+/// The surface before simplification, and the mapping of its vertices to the current mesh.
 
 #include <algorithm>
 #include <array>
@@ -19,12 +19,14 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Vertices of the original, and the vertex of a complex that each has gone into.
+/// Original vertices that are tracked, and the vertex of the current mesh that each was merged into. Both
+/// arrays have the same length.
 struct TrackedVertices {
     std::vector<Index> original, current;
 
-    /// Of all of them.
-    /// \param vertex_map  for each original vertex, or no_index
+    /// Tracks all vertices that have a target. O(vertices)
+    /// \param vertex_map  for each original vertex, the vertex of the current mesh it was merged into, or
+    ///     no_index
     explicit TrackedVertices(std::span<const Index> vertex_map) {
         for (Index v = 0; v < vertex_map.size(); ++v) {
             if (vertex_map[v] != no_index) add(v, vertex_map[v]);
@@ -32,18 +34,25 @@ struct TrackedVertices {
     }
     TrackedVertices() = default;
 
+    /// Adds a vertex.
+    /// \param v       original vertex; larger than those added before
+    /// \param target  vertex of the current mesh
     void add(Index v, Index target) {
         original.push_back(v);
         current.push_back(target);
     }
 };
 
-/// The surface that is simplified, as it was. Does not change; several engines may look at it.
+/// The original surface, with adjacency. Immutable after construction; const functions may be called from
+/// several threads.
 class OriginalSurface {
 public:
-    /// \param positions, triangles  borrowed; triangles of different corners
-    /// \throws what the poll throws
-    /// O(triangles); 20 bytes per triangle, and 4 per vertex where there is a border
+    /// Finds the faces of each vertex and the boundary edges. O(triangles); 20 bytes per triangle, and 4
+    /// per vertex if there is a boundary
+    /// \param positions        one per vertex, engine units; borrowed
+    /// \param triangles        indices into `positions`, pairwise different within a triangle; borrowed
+    /// \param check_cancelled  called for each element
+    /// \throws whatever `check_cancelled` throws
     OriginalSurface(std::span<const Vector3> positions, std::span<const Triangle> triangles,
                     CancellationCheck check_cancelled = {})
         : positions_(positions),
@@ -59,23 +68,25 @@ public:
             check_cancelled();
             for (const Index v : triangles_[f]) vertex_faces_[face_offsets_[v]++] = f;
         }
-        // Each is where the next begins now.
+        // Each offset has moved to the start of the next vertex.
         std::copy_backward(face_offsets_.begin(), face_offsets_.end() - 1, face_offsets_.end());
         face_offsets_.front() = 0;
         find_boundary_neighbours(check_cancelled);
     }
 
+    /// Position of vertex v.
     const Vector3& position(Index v) const { return positions_[v]; }
-    /// Edges with one face, as find_boundary_edges() gives them.
+    /// The boundary edges, as returned by find_boundary_edges().
     std::span<const std::array<Index, 2>> boundary_edges() const { return boundary_edges_; }
-    /// The other ends of these edges at vertex v, ascending.
+    /// The boundary neighbours of vertex v, ascending.
     std::span<const Index> boundary_neighbours(Index v) const {
         if (boundary_edges_.empty()) return {};
         return std::span(boundary_neighbours_)
             .subspan(boundary_offsets_[v], boundary_offsets_[v + 1] - boundary_offsets_[v]);
     }
 
-    /// Squared distance of p to the faces around vertex v, or `at_most` where that is smaller. O(valence)
+    /// Squared distance from p to the faces of vertex v. O(valence)
+    /// \param at_most  returned if it is smaller
     double squared_distance_to_ring(Index v, const Vector3& p, double at_most) const {
         for (std::uint32_t i = face_offsets_[v]; i < face_offsets_[v + 1]; ++i) {
             const Triangle& t = triangles_[vertex_faces_[i]];
@@ -86,7 +97,7 @@ public:
     }
 
 private:
-    // The edges are in order, so that each vertex gets the smaller ends first.
+    // The edges are sorted, so that the neighbours of each vertex are, too.
     void find_boundary_neighbours(CancellationCheck check_cancelled) {
         if (boundary_edges_.empty()) return;
         boundary_offsets_.assign(positions_.size() + 1, 0);
@@ -105,10 +116,10 @@ private:
     std::span<const Vector3> positions_;
     std::span<const Triangle> triangles_;
     std::vector<std::array<Index, 2>> boundary_edges_;
-    std::vector<std::uint32_t> face_offsets_;  // where the faces of each vertex begin
+    std::vector<std::uint32_t> face_offsets_;  // start of the faces of each vertex in vertex_faces_
     std::vector<Index> vertex_faces_;
-    std::vector<std::uint32_t>
-        boundary_offsets_;  // where the open ends of each vertex begin; empty: no border
+    // Start of the boundary neighbours of each vertex; empty if there is no boundary.
+    std::vector<std::uint32_t> boundary_offsets_;
     std::vector<Index> boundary_neighbours_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The memoryless metric, and how far a collapse takes the surface from the original.
+/// The memoryless metric with an additional cost for the distance from the original surface.
 
 #include <algorithm>
 #include <limits>
@@ -18,30 +18,33 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// What keeps the largest distance small. The memoryless metric forgets: many small errors in one direction
-/// add up. Here every original vertex is bound to the face that stands for it, and a collapse costs, besides,
-/// w d^2, where d is the largest distance of what is bound to the faces around the pair from the faces that
-/// would be there after it, and of the new vertex from the original faces around the bound vertex nearest to
-/// it; w is the area that a face of the result has on average.
+/// Memoryless metric with tracked distances, which limits the largest distance from the original. The
+/// memoryless metric does not detect that many small errors in one direction add up. Here each original
+/// vertex is bound to the face that represents it, and a collapse has the additional cost w d^2. d is the
+/// largest of these distances: from the vertices bound to the faces around the pair to the faces after the
+/// collapse, and from the new vertex to the original faces of the bound vertex nearest to it. w is the mean
+/// face area of the result.
 ///
-/// Far above the target all distances are small, and only borders are watched: they are few, and a small hole
-/// hardly holds itself against the surface around it. exact_cost() is dear: the engine asks for it when a pair is
-/// about to be collapsed.
+/// Far above the target all distances are small and only boundaries are tracked: they have few vertices,
+/// and the planes of a small hole hardly contribute compared with those of the surface around it.
+/// exact_cost() is expensive; the engine calls it only when a pair is about to be collapsed. Not
+/// thread-safe.
 class TrackedMetric {
 public:
-    /// The surface is tracked from this many times the target on. At all sizes it costs four times as much,
-    /// and gains next to nothing (docs/quality.md).
+    /// The surface is tracked once the face count is at most this many times the target. Tracking at all
+    /// sizes takes four times as long with almost no improvement (docs/quality.md).
     static constexpr std::size_t tracking_start_ratio = 4;
-    /// Squared distances of borders count so many times: outlines are seen first, and what is measured at the
-    /// original's border vertices is less than what is between them.
+    /// Factor on the squared distances of boundaries: outlines are visible first, and the distances at the
+    /// original boundary vertices are smaller than those between them.
     static constexpr double boundary_factor = 2;
 
-    /// \param weights       of the memoryless metric
-    /// \param original      borrowed
-    /// \param tracked       of the vertices to look after, into those of the complex; original ones ascending
-    /// \param target_faces  the result's; 0: only borders are watched
-    /// \param weight        what the square of a distance costs, > 0
-    /// \param curves        as MemorylessMetric's
+    /// \param weights       weights of the memoryless metric
+    /// \param original      borrowed, must outlive this object
+    /// \param tracked       the vertices to track, original vertices ascending; the targets are vertices of
+    ///     the mesh
+    /// \param target_faces  target face count; 0: only boundaries are tracked
+    /// \param weight        w, the cost of a squared distance, > 0; engine units squared
+    /// \param curves        as for MemorylessMetric
     TrackedMetric(const MemorylessWeights& weights, const OriginalSurface& original, TrackedVertices tracked,
                   std::size_t target_faces, double weight, const FeatureCurves* curves = nullptr)
         : memoryless_(weights, curves),
@@ -50,6 +53,9 @@ public:
           target_faces_(target_faces),
           weight_(weight) {}
 
+    /// Binds the tracked vertices. To be called once. O(faces + tracked vertices), typically
+    /// \param check_cancelled  is stored and also called by later member functions
+    /// \throws whatever `check_cancelled` throws
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
                     CancellationCheck check_cancelled = {}) {
         check_cancelled_ = check_cancelled;
@@ -59,13 +65,14 @@ public:
         start_tracking_if_near_target(mesh);
     }
 
-    /// What the memoryless metric says: less than the cost will be.
+    /// Position and cost of the memoryless metric; the cost is a lower bound of exact_cost().
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
         return memoryless_.evaluate(mesh, pairs, pair, allowed_position);
     }
 
-    /// The whole cost. O(bound vertices times valence) at worst, one distance per bound vertex typically.
+    /// Cost including the distances. O(bound vertices times valence) at worst, typically one distance per
+    /// bound vertex
     double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                       const Candidate& candidate) {
         double farthest =
@@ -113,7 +120,10 @@ public:
         return memoryless_.reevaluation(change);
     }
 
-    /// Costs of waiting pairs may only rise: \pre weight is not below the one before.
+    /// Changes the target.
+    /// \param target_faces  new target face count
+    /// \param weight        new w; not smaller than before, so that the costs in the queue remain lower
+    ///     bounds
     void set_target(std::size_t target_faces, double weight) {
         target_faces_ = target_faces;
         weight_ = weight;
@@ -126,7 +136,8 @@ private:
         bindings_->bind_all(mesh, check_cancelled_);
     }
 
-    // Collects the faces there would be, and what is bound to those there are.
+    // Sets faces_after_ to the faces at the new vertex after the collapse, and bound_ to the vertices bound
+    // around the pair.
     void gather_faces_after(const CollapseMesh& mesh, Index u, Index v, const Vector3& p) {
         faces_after_.clear();
         bound_.clear();
@@ -139,25 +150,25 @@ private:
         });
     }
 
-    // Visits what is bound around the pair, and polls now and then.
+    // Calls visit(i) for each vertex in bound_, with cancellation checks.
     template <class Visit>
     void for_each_bound(Visit&& visit) const {
         constexpr std::size_t batch_size = 128;
         for (std::size_t begin = 0; begin < bound_.size(); begin += batch_size) {
             const std::size_t end = std::min(bound_.size(), begin + batch_size);
-            check_cancelled_(2 * (end - begin));  // each with several faces
+            check_cancelled_(2 * (end - begin));  // each visit computes several distances
             for (std::size_t i = begin; i < end; ++i) visit(bound_[i]);
         }
     }
 
-    // Largest squared distance from a bound vertex to the faces there would be.
+    // Largest squared distance from the vertices in bound_ to the faces after the collapse.
     double squared_distance_to_result() const {
         FarthestPoint farthest(faces_after_);
         for_each_bound([&](Index i) { farthest.add(bindings_->position(i)); });
         return farthest.squared_distance();
     }
 
-    // Squared distance from p to the original around the nearest bound vertex; 0 where none is bound.
+    // Squared distance from p to the original faces of the nearest vertex in bound_; 0 if bound_ is empty.
     double squared_distance_to_original(const Vector3& p) const {
         Index at = no_index;
         double nearest = std::numeric_limits<double>::infinity();
@@ -177,9 +188,9 @@ private:
     std::size_t target_faces_;
     bool is_tracking_ = false;
     double weight_;
-    std::vector<TriangleDistance> faces_after_;  // the faces there would be
+    std::vector<TriangleDistance> faces_after_;  // faces at the new vertex
     std::vector<Index> faces_;                   // their indices
-    std::vector<Index> bound_;                   // original vertices bound around the pair
+    std::vector<Index> bound_;                   // tracked vertices bound around the pair
 };
 
 static_assert(LowerBoundMetric<TrackedMetric> && TargetDependentMetric<TrackedMetric>);

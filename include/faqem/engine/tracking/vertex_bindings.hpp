@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which part of the original each face of today stands for.
+/// Bindings of the original vertices to the faces of the current mesh that represent them.
 
 #include <algorithm>
 #include <limits>
@@ -16,28 +16,30 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Vertices of the original, each bound to one living face near it. They are called by their place in the
-/// lineage.
+/// The tracked original vertices, each bound to one face near it. They are identified by their index in
+/// TrackedVertices. Not thread-safe.
 ///
-/// Until begin() only the lineage is kept: which vertex of today each of them has gone into. That is cheap,
-/// and enough to find the nearest face later.
+/// Until bind_all() is called, only the collapse targets are recorded: the current vertex that each vertex
+/// was merged into. This is cheap, and sufficient to find the nearest face later.
 class VertexBindings {
 public:
-    /// \param original  borrowed
-    /// \param tracked   into vertices of the complex
-    /// O(vertices)
+    /// Binds no vertex yet. O(vertices)
+    /// \param original  borrowed, must outlive this object
+    /// \param tracked   the vertices to bind; the targets are vertices of `mesh`
+    /// \param mesh      the current mesh
     VertexBindings(const OriginalSurface& original, TrackedVertices tracked, const CollapseMesh& mesh)
         : original_(&original), tracked_(std::move(tracked)), collapse_target_(mesh.vertex_slots()) {
         std::iota(collapse_target_.begin(), collapse_target_.end(), Index{0});
     }
 
+    /// Original position of tracked vertex i.
     const Vector3& position(Index i) const { return original_->position(tracked_.original[i]); }
 
-    /// The vertex `gone` of today becomes `survivor`. Before begin() only.
+    /// Records that vertex `removed` was merged into `survivor`. Must not be called after bind_all(). O(1)
     void merge(Index survivor, Index removed) { collapse_target_[removed] = survivor; }
 
-    /// The vertex that a vertex of the complex has gone into since; shortens the way for the next one. Before
-    /// begin() only.
+    /// The vertex that vertex v was merged into; shortens the path to it. Must not be called after
+    /// bind_all(). Amortised O(log n)
     Index current_vertex(Index v) {
         Index current = v;
         while (collapse_target_[current] != current) current = collapse_target_[current];
@@ -45,42 +47,48 @@ public:
         return current;
     }
 
-    /// Binds every vertex to a face near it, as far as its lineage has faces. O(vertices), typically
-    /// \throws what the poll throws
+    /// Binds each tracked vertex to a face near it, unless its current vertex has no faces. Typically
+    /// O(tracked vertices)
+    /// \param mesh             the current mesh
+    /// \param check_cancelled  called for each vertex
+    /// \throws whatever `check_cancelled` throws
     void bind_all(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
         first_bound_.assign(mesh.face_slots(), no_index);
         next_bound_.assign(tracked_.original.size(), no_index);
         for (Index i = 0; i < next_bound_.size(); ++i) {
-            check_cancelled(4);  // looks at two dozen faces
+            check_cancelled(4);  // searches about 24 faces
             const Index current = current_vertex(tracked_.current[i]);
             if (mesh.degree(current) > 0) bind(i, find_near_face(mesh, position(i), current));
         }
         collapse_target_ = tracked_.current = {};
     }
 
-    /// Binds vertex i to face f. \pre it is bound to no other face
+    /// Binds tracked vertex i to face f. O(1)
+    /// \pre it is not bound to another face
     void bind(Index i, Index f) {
         next_bound_[i] = first_bound_[f];
         first_bound_[f] = i;
     }
 
-    /// Forgets what is bound to face f.
+    /// Releases all vertices bound to face f. O(1)
     void unbind_all(Index f) { first_bound_[f] = no_index; }
 
-    /// Calls visit(i) for all that are bound to face f. visit may bind the vertex anew.
+    /// Calls visit(i) for each tracked vertex bound to face f. `visit` may bind the vertex to another face.
     template <class Visit>
     void for_each_bound(Index f, Visit&& visit) const {
         for (Index i = first_bound_[f]; i != no_index;) visit(std::exchange(i, next_bound_[i]));
     }
 
-    /// Squared distance of p to the original faces around vertex i, or `at_most` where that is smaller.
-    /// O(valence)
+    /// Squared distance from p to the original faces of tracked vertex i. O(valence)
+    /// \param at_most  returned if it is smaller
     double squared_distance_to_ring(Index i, const Vector3& p, double at_most) const {
         return original_->squared_distance_to_ring(tracked_.original[i], p, at_most);
     }
 
 private:
-    // Goes from the faces around `today` to nearer and nearer ones, but not around hubs.
+    // Finds a face near p by descent: starts with the faces of `current` and continues with the neighbours
+    // of the nearest face while that reduces the distance. High-valence vertices are not visited on the
+    // way.
     Index find_near_face(const CollapseMesh& mesh, const Vector3& p, Index current) {
         Index best = no_index;
         double nearest = std::numeric_limits<double>::infinity();
@@ -88,7 +96,7 @@ private:
         const auto is_visited = [&](Index v) {
             return std::find(visited_.begin(), visited_.end(), v) != visited_.end();
         };
-        const auto look_around = [&](Index v) {
+        const auto search_faces_of = [&](Index v) {
             if (is_visited(v)) return false;
             const Index before = best;
             mesh.for_each_face(v, [&](Index f, unsigned corner) {
@@ -102,18 +110,18 @@ private:
             visited_.push_back(v);
             return best != before;
         };
-        for (bool nearer = look_around(current); nearer && nearest > 0;) {
+        for (bool nearer = search_faces_of(current); nearer && nearest > 0;) {
             nearer = false;
             const Triangle corners = mesh.triangle(best);
-            for (const Index v : corners) nearer |= !mesh.is_high_valence(v) && look_around(v);
+            for (const Index v : corners) nearer |= !mesh.is_high_valence(v) && search_faces_of(v);
         }
         return best;
     }
 
     const OriginalSurface* original_;
     TrackedVertices tracked_;
-    std::vector<Index> collapse_target_;  // of each vertex of the complex: the next one on the way to today's
-    std::vector<Index> first_bound_, next_bound_;  // lists of vertices bound to each face
+    std::vector<Index> collapse_target_;  // per vertex of the mesh: the vertex it was merged into, or itself
+    std::vector<Index> first_bound_, next_bound_;  // linked list of the vertices bound to each face
     std::vector<Index> visited_;                   // scratch
 };
 

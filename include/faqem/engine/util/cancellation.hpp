@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Long loops ask now and then whether they are to go on.
+/// Cancellation checks in long loops.
 
 #include <cstdint>
 #include <functional>
@@ -12,26 +12,28 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Thrown where the answer is to cancel; caught by the doors, which make a value of it.
+/// Thrown to cancel a computation. Public functions catch it and report the cancellation in their result.
 struct Cancelled {};
 
-/// Counts operations, and asks after every few thousand of them.
+/// Counts operations and calls a callback after every few thousand of them. Not thread-safe.
 class ProgressMonitor {
 public:
-    /// Operations between two questions; each takes a microsecond or a few.
+    /// Number of operations between two calls; an operation takes one to a few microseconds.
     static constexpr std::uint64_t interval = 4096;
 
-    /// \param callback  may throw; not empty
+    /// \param callback  returns whether to continue; must not be empty; may throw
     explicit ProgressMonitor(std::function<Continue()> callback) : callback_(std::move(callback)) {}
     ProgressMonitor(const ProgressMonitor&) = delete;
     ProgressMonitor& operator=(const ProgressMonitor&) = delete;
 
-    /// \throws Cancelled, and what the question throws
+    /// Adds to the number of operations and calls the callback if `interval` is reached.
+    /// \throws Cancelled if the callback returns Continue::cancel
+    /// \throws whatever the callback throws
     void count(std::uint64_t operations) {
         operations_ += operations;
         if (operations_ >= interval) check_now();
     }
-    /// Asks at once. \throws as count()
+    /// Calls the callback now. \throws as count()
     void check_now() {
         operations_ = 0;
         if (callback_() == Continue::cancel) throw Cancelled{};
@@ -42,19 +44,22 @@ private:
     std::uint64_t operations_ = 0;
 };
 
-/// What is handed down to loops; copies ask the same one. For the thread alone that it was made on.
+/// Cancellation check that is passed by value to long loops. All copies share one monitor, and may be used
+/// only on the thread that created it.
 class CancellationCheck {
 public:
-    /// Never asks.
+    /// Never cancels.
     CancellationCheck() = default;
-    /// \param monitor  borrowed
+    /// \param monitor  borrowed; must outlive all copies
     explicit CancellationCheck(ProgressMonitor& monitor) : monitor_(&monitor) {}
 
-    /// So many operations are about to be done. \throws as ProgressMonitor::count()
+    /// Counts operations.
+    /// \param operations  number of operations that follow
+    /// \throws as ProgressMonitor::count()
     void operator()(std::uint64_t operations = 1) const {
         if (monitor_) monitor_->count(operations);
     }
-    /// \throws as ProgressMonitor::check_now()
+    /// Checks now. \throws as ProgressMonitor::check_now()
     void now() const {
         if (monitor_) monitor_->check_now();
     }
@@ -63,7 +68,9 @@ private:
     ProgressMonitor* monitor_ = nullptr;
 };
 
-/// An order for sorting that polls. \param less  the order
+/// Wraps a comparison function for sorting, so that each comparison counts as one operation.
+/// \param check_cancelled  called before each comparison; exceptions pass through the sort
+/// \param less             the comparison function
 template <class Less = std::less<>>
 auto cancellable_less(CancellationCheck check_cancelled, Less less = {}) {
     return [=](const auto& a, const auto& b) {
