@@ -1,5 +1,5 @@
-// Flat arrays, the standard library alone: a tile of terrain becomes light, while its border stays where it
-// is, so that neighbouring tiles still fit, and more is kept around a place that matters.
+// Simplification of flat arrays: a terrain tile whose boundary vertices are locked, so that neighbouring
+// tiles still match, and whose vertex weights preserve more detail around a point of interest.
 
 #include <cmath>
 #include <cstdlib>
@@ -9,8 +9,8 @@
 #include "faqem/simplify.hpp"
 
 int main(int argc, char** argv) try {
-    const std::uint32_t side = 200;  // samples per side, a metre apart
-    std::vector<float> heights_as_positions;
+    const std::uint32_t side = 200;  // samples per side, one metre apart
+    std::vector<float> positions;
     std::vector<std::uint8_t> locks;
     std::vector<float> weights;
     for (std::uint32_t y = 0; y < side; ++y) {
@@ -18,9 +18,9 @@ int main(int argc, char** argv) try {
             const float u = float(x), v = float(y);
             const float height =
                 9 * std::sin(u / 23) * std::cos(v / 17) + 0.7f * std::sin(u / 3) * std::sin(v / 4);
-            heights_as_positions.insert(heights_as_positions.end(), {u, v, height});
+            positions.insert(positions.end(), {u, v, height});
             locks.push_back(x == 0 || y == 0 || x == side - 1 || y == side - 1);
-            weights.push_back(std::hypot(u - 60, v - 80) < 25 ? 30.0f : 1.0f);  // a path leads here
+            weights.push_back(std::hypot(u - 60, v - 80) < 25 ? 30.0f : 1.0f);  // point of interest
         }
     }
     std::vector<std::uint32_t> triangles;
@@ -31,17 +31,17 @@ int main(int argc, char** argv) try {
         }
     }
 
-    faqem::MeshView tile{heights_as_positions, triangles};
+    faqem::MeshView tile{positions, triangles};
     tile.vertex_locks = locks;
     tile.vertex_weights = weights;
     const double share = argc > 1 ? std::atof(argv[1]) : 0.1;
     const auto out = faqem::simplify(tile, {.target = faqem::ratio(share)});
 
-    std::size_t on_border = 0;
-    for (const faqem::Index v : out.vertex_origin) on_border += locks[v];
-    std::cout << out.report.faces_in << " faces, now " << out.report.faces_out << "; " << on_border
-              << " vertices on the border; " << name(out.report.stop) << "\n";
-    return on_border == std::size_t{4} * (side - 1) ? 0 : 1;
+    std::size_t on_boundary = 0;
+    for (const faqem::Index v : out.vertex_origin) on_boundary += locks[v];
+    std::cout << out.report.faces_in << " faces, now " << out.report.faces_out << "; " << on_boundary
+              << " vertices on the boundary; " << name(out.report.stop) << "\n";
+    return on_boundary == std::size_t{4} * (side - 1) ? 0 : 1;
 } catch (const std::exception& error) {
     std::cerr << "arrays: " << error.what() << "\n";
     return 1;

@@ -1,6 +1,6 @@
-// Every model of a folder: a light one of each goes into another folder. One that cannot be read does not
-// stop the others. (`faqem batch` does this with several models at a time, a memory budget and a way to
-// resume.)
+// Simplifies all models of a directory into another directory. A model that cannot be read does not stop the
+// others. (The command `faqem batch` does the same with several models at a time, a memory limit and
+// resuming.)
 
 #include <algorithm>
 #include <exception>
@@ -13,28 +13,28 @@
 
 namespace fs = std::filesystem;
 
-// \return false where the model was left out
+// \return false if the model could not be simplified; the reason is printed
 bool simplify_file(const fs::path& in, const fs::path& out, const faqem::Options& options) try {
-    const faqem::SimplifiedAsset light = faqem::simplify(faqem::load(in), options);
-    faqem::save(light.asset, out, faqem::Overwrite::yes);
-    std::cout << in.filename().string() << ": " << light.report.faces_in << " faces, now "
-              << light.report.faces_out << " (" << name(light.report.stop) << ")\n";
+    const faqem::SimplifiedAsset simplified = faqem::simplify(faqem::load(in), options);
+    faqem::save(simplified.asset, out, faqem::Overwrite::yes);
+    std::cout << in.filename().string() << ": " << simplified.report.faces_in << " faces, now "
+              << simplified.report.faces_out << " (" << name(simplified.report.stop) << ")\n";
     return true;
 } catch (const faqem::Error& error) {
-    std::cout << in.filename().string() << ": left out: " << error.what() << "\n";
+    std::cout << in.filename().string() << ": skipped: " << error.what() << "\n";
     return false;
 }
 
 int main(int argc, char** argv) try {
     if (argc != 3) {
-        std::cerr << "usage: batch_folder IN-FOLDER OUT-FOLDER\n";
+        std::cerr << "usage: batch_folder IN-DIRECTORY OUT-DIRECTORY\n";
         return 2;
     }
-    const std::vector<std::string> endings = {".glb", ".gltf", ".obj", ".off", ".ply", ".stl"};
+    const std::vector<std::string> extensions = {".glb", ".gltf", ".obj", ".off", ".ply", ".stl"};
     std::vector<fs::path> models;
     for (const fs::directory_entry& entry : fs::directory_iterator(argv[1])) {
         const bool is_model =
-            std::count(endings.begin(), endings.end(), entry.path().extension().string()) > 0;
+            std::count(extensions.begin(), extensions.end(), entry.path().extension().string()) > 0;
         if (entry.is_regular_file() && is_model) models.push_back(entry.path());
     }
     std::sort(models.begin(), models.end());

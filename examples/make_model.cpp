@@ -1,5 +1,5 @@
-// Makes the model of the quick start: a carved and painted urn with an open rim, twisted handles and thin
-// leaves, in many UV charts. The same numbers come out on every run; nothing is downloaded.
+// Generates the model of the quick start: a carved and painted urn with a boundary at its rim, twisted
+// handles and thin leaves, in many UV charts. The result is the same on every run.
 
 #include <charconv>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace {
 
 constexpr std::uint32_t texture_size = 2048;
-constexpr std::uint64_t default_faces = 220'000, most_faces = 20'000'000;
+constexpr std::uint64_t default_faces = 220'000, max_faces = 20'000'000;
 
 std::vector<model::Grid> grids(double detail) {
     std::vector<model::Grid> all = model::ornaments(detail);
@@ -21,7 +21,7 @@ std::vector<model::Grid> grids(double detail) {
     return all;
 }
 
-/// Two per cell, less those at the poles.
+/// Number of faces of all grids: two per cell, except at the poles.
 std::uint64_t face_count(const std::vector<model::Grid>& all) {
     std::uint64_t faces = 0;
     for (const model::Grid& grid : all) {
@@ -43,7 +43,7 @@ int main(int argc, char** argv) try {
     if (argc == 4 && std::strcmp(argv[2], "--faces") == 0) {
         const char* end = argv[3] + std::strlen(argv[3]);
         const auto [stop, error] = std::from_chars(argv[3], end, wanted);
-        if (error != std::errc{} || stop != end || wanted < 1000 || wanted > most_faces) return usage();
+        if (error != std::errc{} || stop != end || wanted < 1000 || wanted > max_faces) return usage();
     } else if (argc != 2) {
         return usage();
     }

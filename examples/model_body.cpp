@@ -10,16 +10,17 @@ struct Knot {
     double radius, height;
 };
 
-// The outline, from the axis under the foot to the rim; bands begin at the knots listed below.
+// The profile curve, from the axis below the foot to the rim.
 constexpr std::array<Knot, 24> outline = {{
     {0.00, 0.00}, {0.30, 0.00}, {0.60, 0.00}, {0.67, 0.05}, {0.62, 0.13}, {0.42, 0.22},
     {0.27, 0.33}, {0.21, 0.45}, {0.28, 0.52}, {0.21, 0.59}, {0.30, 0.70}, {0.58, 0.90},
     {0.83, 1.15}, {0.99, 1.45}, {1.03, 1.68}, {0.99, 1.92}, {0.86, 2.15}, {0.66, 2.32},
     {0.50, 2.45}, {0.43, 2.60}, {0.41, 2.76}, {0.46, 2.92}, {0.60, 3.06}, {0.80, 3.13},
 }};
+// Index of the knot at which each band begins.
 constexpr std::array<std::size_t, band::count + 1> band_knots = {0, 2, 7, 9, 13, 15, 18, 21, 23};
 
-/// Catmull-Rom spline through the outline; x in knots.
+/// Catmull-Rom spline through the outline; integer values of x are the knots.
 Knot spline(double x) {
     const auto last = outline.size() - 1;
     const auto i = std::min(static_cast<std::size_t>(std::max(x, 0.0)), last - 1);
@@ -33,7 +34,7 @@ Knot spline(double x) {
             at(a.height, b.height, c.height, d.height)};
 }
 
-/// Arc length of the outline as a table over the spline's parameter.
+/// Table of the outline's arc length over the spline parameter.
 struct ArcLength {
     static constexpr int steps = 4600;
     std::array<double, steps + 1> length = {};
@@ -50,7 +51,7 @@ struct ArcLength {
             before = here;
         }
     }
-    /// Spline parameter at a share of the whole length.
+    /// Spline parameter at a share of the total length.
     double at(double share) const {
         const double wanted = share * length.back();
         const auto above = std::upper_bound(length.begin(), length.end(), wanted);
@@ -66,20 +67,20 @@ const ArcLength& arcs() {
     return table;
 }
 
-/// A ring of half-round moulding at an arc length.
+/// Height of a ring of half-round moulding around arc length `centre`.
 double moulding(double arc, double centre, double half_width, double height) {
     const double x = (arc - centre) / half_width;
     return std::abs(x) < 1 ? height * std::sqrt(1 - x * x) : 0;
 }
 
-/// Half an ellipsoid in the middle of each of `count` cells around, and between two arc lengths.
+/// Height of `count` half-ellipsoids around the axis; t in [0, 1] across the band.
 double beads(double turns, double t, double count, double height) {
     const double x = 2.2 * (fraction(turns * count) - 0.5), y = 2.2 * (t - 0.5);
     const double d = 1 - x * x - y * y;
     return d > 0 ? height * std::sqrt(d) : 0;
 }
 
-/// Two strands that cross over and under, with a flower in each eye. t in [0, 1] across the band.
+/// Height of two interlaced strands with a flower in each gap (a guilloche); t in [0, 1] across the band.
 double guilloche(double turns, double t) {
     constexpr double crossings = 14;
     const double phase = pi * crossings * turns, y = t - 0.5;
@@ -134,7 +135,7 @@ double relief(double angle, double arc) {
             height += 0.030 * window(0.12, 0.9, 0.2, t) * std::abs(std::cos(10 * pi * turns));
         if (b == band::knot) height += beads(turns, t, 14, 0.035);
         if (b == band::petals) {
-            const double x = 2 * from_middle(20 * turns);  // 0 in the middle of a petal, 1 between two
+            const double x = 2 * from_middle(20 * turns);  // 0 at the centre of a petal, 1 between two petals
             height += 0.045 * inside * std::sqrt(std::max(0.0, 1 - x * x));
         }
         if (b == band::frieze) height += inside * guilloche(turns, t);
@@ -178,7 +179,7 @@ Grid body(double detail) {
                      share = band_begin(b + 1) - band_begin(b);
         const int sectors = b == band::base || b == band::knot ? 4 : 8;
         for (int i = 0; i < sectors; ++i) {
-            // Hardly anyone looks at the foot from below.
+            // The bottom is rarely seen, so it gets fewer texels.
             const double density = b == band::base ? 0.3 : 1;
             grid.charts.push_back({columns * i / sectors, columns * (i + 1) / sectors, first, last,
                                    density * 2 * pi * profile(middle).radius / sectors,

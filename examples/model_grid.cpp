@@ -14,17 +14,18 @@ using faqem::Index;
 
 constexpr int gutter = 4;
 
-struct Placed {
+/// A chart with its rectangle in the texture.
+struct PlacedChart {
     const Grid* grid;
     const Chart* chart;
     int x = 0, y = 0, width = 0, height = 0;  ///< texels, without the gutter
 };
 
-/// Puts rectangles on shelves, tallest first. False: they do not fit.
-bool pack(std::vector<Placed>& charts, double scale, int size) {
+/// Packs charts on shelves, in the order of their height. \return false if they do not fit
+bool pack(std::vector<PlacedChart>& charts, double scale, int size) {
     std::vector<std::size_t> order(charts.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    for (Placed& c : charts) {
+    for (PlacedChart& c : charts) {
         c.width = std::max(4, static_cast<int>(c.chart->width * scale));
         c.height = std::max(4, static_cast<int>(c.chart->height * scale));
     }
@@ -32,7 +33,7 @@ bool pack(std::vector<Placed>& charts, double scale, int size) {
                      [&](std::size_t a, std::size_t b) { return charts[a].height > charts[b].height; });
     int x = 0, y = 0, shelf = 0;
     for (const std::size_t i : order) {
-        Placed& c = charts[i];
+        PlacedChart& c = charts[i];
         const int width = c.width + 2 * gutter, height = c.height + 2 * gutter;
         if (x + width > size) {
             y += shelf;
@@ -47,9 +48,9 @@ bool pack(std::vector<Placed>& charts, double scale, int size) {
     return true;
 }
 
-/// The largest scale that fits, to half a percent.
-std::vector<Placed> place_charts(const std::vector<Grid>& grids, int size) {
-    std::vector<Placed> charts;
+/// Packs all charts at the largest scale that fits, to within half a percent.
+std::vector<PlacedChart> place_charts(const std::vector<Grid>& grids, int size) {
+    std::vector<PlacedChart> charts;
     for (const Grid& grid : grids) {
         for (const Chart& chart : grid.charts) charts.push_back({&grid, &chart});
     }
@@ -58,7 +59,7 @@ std::vector<Placed> place_charts(const std::vector<Grid>& grids, int size) {
     return charts;
 }
 
-void paint(const Placed& c, faqem::Pixels& texture) {
+void paint(const PlacedChart& c, faqem::Pixels& texture) {
     constexpr int samples = 2;
     const Chart& chart = *c.chart;
     for (int y = -gutter; y < c.height + gutter; ++y) {
@@ -82,9 +83,10 @@ void paint(const Placed& c, faqem::Pixels& texture) {
     }
 }
 
-/// Which way a cell is cut into two triangles.
+/// Diagonal that divides a cell into two triangles.
 enum class Diagonal { shorter, rising, falling };
 
+/// Adds the two triangles of a cell, except degenerate ones.
 /// \param quad  lower left, lower right, upper right, upper left
 void add_faces(faqem::Part& part, const std::array<Index, 4>& quad, Diagonal diagonal) {
     const auto p = [&](std::size_t k) -> const Vec3& { return part.positions[quad[k]]; };
@@ -98,13 +100,13 @@ void add_faces(faqem::Part& part, const std::array<Index, 4>& quad, Diagonal dia
         rising ? std::array<std::array<std::size_t, 3>, 2>{{{0, 1, 2}, {0, 2, 3}}}
                : std::array<std::array<std::size_t, 3>, 2>{{{0, 1, 3}, {1, 2, 3}}};
     for (const auto& t : triangles) {
-        if (p(t[0]) == p(t[1]) || p(t[1]) == p(t[2]) || p(t[2]) == p(t[0])) continue;  // at a pole
+        if (p(t[0]) == p(t[1]) || p(t[1]) == p(t[2]) || p(t[2]) == p(t[0])) continue;  // degenerate at a pole
         part.triangles.push_back({quad[t[0]], quad[t[1]], quad[t[2]]});
     }
 }
 
-/// A diagonal across a corner of the grid would join two places of its border; where two grids share their
-/// border it would have four faces.
+/// Returns the diagonal of a cell. In the corner cells of a grid, a diagonal that cuts off the corner would
+/// join two boundary vertices; where two grids share their boundary, such an edge would have four faces.
 Diagonal diagonal_of(const Grid& grid, int column, int row) {
     const bool left = column == 0, right = column + 1 == grid.columns;
     const bool bottom = row == 0, top = row + 1 == grid.rows;
@@ -113,13 +115,13 @@ Diagonal diagonal_of(const Grid& grid, int column, int row) {
     return Diagonal::shorter;
 }
 
-void add_chart(faqem::Part& part, const Placed& c, std::uint32_t texture_size) {
+void add_chart(faqem::Part& part, const PlacedChart& c, std::uint32_t texture_size) {
     const Chart& chart = *c.chart;
     const auto first = static_cast<Index>(part.positions.size());
     const auto stride = static_cast<Index>(chart.last_column - chart.first_column + 1);
     for (int row = chart.first_row; row <= chart.last_row; ++row) {
         for (int column = chart.first_column; column <= chart.last_column; ++column) {
-            // Files hold floats: rounded here, so that the two sides of a seam stay equal.
+            // Files store floats: positions are rounded here, so that both sides of a seam remain equal.
             Vec3 p = c.grid->position(column, row);
             for (double& x : p) x = static_cast<float>(x);
             part.positions.push_back(p);
@@ -138,7 +140,7 @@ void add_chart(faqem::Part& part, const Placed& c, std::uint32_t texture_size) {
     }
 }
 
-/// Area-weighted normals over all faces at a position, whatever chart they are in.
+/// Adds area-weighted vertex normals, averaged over the faces of all charts at a position.
 void add_normals(faqem::Part& part) {
     std::map<Vec3, Vec3> sums;
     for (const faqem::Triangle& t : part.triangles) {
@@ -155,7 +157,7 @@ void add_normals(faqem::Part& part) {
 
 }  // namespace
 
-std::vector<Chart> cut(const Grid& grid, int across, int along, double width, double height) {
+std::vector<Chart> split_into_charts(const Grid& grid, int across, int along, double width, double height) {
     std::vector<Chart> charts;
     for (int j = 0; j < along; ++j) {
         for (int i = 0; i < across; ++i) {
@@ -174,7 +176,7 @@ faqem::Asset build(const std::vector<Grid>& grids, const std::string& name, std:
     faqem::Part part;
     part.name = name;
     part.uvs.resize(1);
-    for (const Placed& chart : place_charts(grids, static_cast<int>(texture_size))) {
+    for (const PlacedChart& chart : place_charts(grids, static_cast<int>(texture_size))) {
         paint(chart, texture);
         add_chart(part, chart, texture_size);
     }
@@ -187,7 +189,7 @@ faqem::Asset build(const std::vector<Grid>& grids, const std::string& name, std:
     material.base_color_texture.image = 0;
     material.metallic = 0;
     material.roughness = 0.55f;
-    material.double_sided = true;  // one can look into the open neck
+    material.double_sided = true;  // the inside is visible through the open neck
     asset.materials.push_back(material);
     asset.images.push_back(faqem::encode_png(texture, name));
     asset.parts.push_back(std::move(part));

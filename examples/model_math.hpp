@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Vectors, smooth steps and integer-hash noise for the example model. Standard functions only, so that the
-/// model is the same everywhere.
+/// Vectors, smooth steps and noise for the example model. The noise is computed from an integer hash, so that
+/// the model is reproducible.
 
 #include <algorithm>
 #include <cmath>
@@ -26,31 +26,31 @@ inline Vec3 unit(const Vec3& a) {
     const double length = std::sqrt(dot(a, a));
     return length > 0 ? scaled(a, 1 / length) : a;
 }
-/// a where t <= 0, b where t >= 1.
+/// Linear interpolation, clamped: a for t <= 0, b for t >= 1.
 inline Vec3 mix(const Vec3& a, const Vec3& b, double t) {
     const double u = std::clamp(t, 0.0, 1.0);
     return add(scaled(a, 1 - u), scaled(b, u));
 }
 
-/// 0 below `from`, 1 above `to`, smooth between.
+/// 0 below `from`, 1 above `to`, a cubic in between.
 inline double smooth_step(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3 - 2 * t);
 }
 
-/// 1 inside a line of half-width w around distance 0, with soft edges.
+/// 1 within a line of half-width w around distance 0, with smooth edges.
 inline double line(double distance, double w) {
     return 1 - smooth_step(w - 0.002, w + 0.002, std::abs(distance));
 }
 
-/// 1 inside (from, to), soft over `edge` inside the ends.
+/// 1 inside (from, to), with smooth transitions of width `edge` inside both ends.
 inline double window(double from, double to, double edge, double x) {
     return smooth_step(from, from + edge, x) * (1 - smooth_step(to - edge, to, x));
 }
 
 inline double fraction(double x) { return x - std::floor(x); }
 
-/// Distance of a place in a repeating unit cell to its middle, in [0, 0.5].
+/// Distance from x to the centre of its unit interval, in [0, 0.5].
 inline double from_middle(double x) { return std::abs(fraction(x) - 0.5); }
 
 inline std::uint32_t hash(std::int64_t x, std::int64_t y, std::uint32_t salt) {
@@ -77,8 +77,9 @@ inline double noise(double x, double y, std::int64_t period, std::uint32_t salt)
     return (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) + t * ((1 - s) * at(0, 1) + s * at(1, 1));
 }
 
-/// How far a place is from the border between its two nearest of randomly scattered points, about one per
-/// cell of size 1: thin where it is near 0, as cracks in a glaze are. Repeats in x every `period` cells.
+/// Cellular noise: the difference between the distances to the second-nearest and the nearest of randomly
+/// scattered points, one per cell of size 1. Small values form thin lines like cracks in a glaze. Repeats in
+/// x every `period` cells.
 inline double crack_distance(double x, double y, std::int64_t period, std::uint32_t salt) {
     const auto ix = static_cast<std::int64_t>(std::floor(x)), iy = static_cast<std::int64_t>(std::floor(y));
     double first = 1e9, second = 1e9;
@@ -99,7 +100,7 @@ inline double crack_distance(double x, double y, std::int64_t period, std::uint3
     return second - first;
 }
 
-/// Distance of (x, y) to the segment between two points of the plane.
+/// Distance from (x, y) to the segment between (ax, ay) and (bx, by).
 inline double segment_distance(double x, double y, double ax, double ay, double bx, double by) {
     const double dx = bx - ax, dy = by - ay, length_squared = dx * dx + dy * dy;
     const double t =

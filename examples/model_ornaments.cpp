@@ -6,8 +6,8 @@ namespace model {
 
 namespace {
 
-/// Point and tangent of a handle's centre line in the plane of the axis, t in [0, 1]: out of the shoulder,
-/// up, and back to the neck under the lip.
+/// Centre line of a handle in a plane through the axis, for t in [0, 1]: from the shoulder outwards, upwards,
+/// and back to the neck below the lip.
 struct CentreLine {
     std::array<Vec3, 8> knots;  ///< distance from the axis, height, 0
 
@@ -15,7 +15,7 @@ struct CentreLine {
         const double x = std::clamp(t, 0.0, 1.0) * (knots.size() - 3.0);
         const auto i = std::min(static_cast<std::size_t>(x), knots.size() - 4);
         const double u = x - static_cast<double>(i);
-        // Uniform cubic B-spline: smooth curvature, no need to pass through the knots.
+        // A uniform cubic B-spline, which has continuous curvature and does not interpolate the knots.
         const double b0 = (1 - u) * (1 - u) * (1 - u) / 6, b1 = (3 * u * u * u - 6 * u * u + 4) / 6;
         const double b2 = (-3 * u * u * u + 3 * u * u + 3 * u + 1) / 6, b3 = u * u * u / 6;
         return add(add(scaled(knots[i], b0), scaled(knots[i + 1], b1)),
@@ -33,19 +33,20 @@ constexpr CentreLine handle_line = {{{{0.30, 1.92, 0},
                                       {0.45, 2.82, 0},
                                       {0.02, 2.62, 0}}}};
 
-/// Turns the plane of the axis to an angle around it.
+/// Rotates a point of the plane of the centre line around the axis.
 Vec3 around(const Vec3& p, double angle) {
     return {p[0] * std::sin(angle) - p[2] * std::cos(angle), p[1],
             p[0] * std::cos(angle) + p[2] * std::sin(angle)};
 }
 
+/// A tube with an elliptic cross-section along a handle.
 struct Tube {
-    double angle;
-    double radius;
-    double flatness;  ///< long over short axis of the section
-    double twists;    ///< turns of the section on the way
-    double winding;   ///< turns of the tube around the centre line, at `distance` from it
-    double distance;
+    double angle;     ///< of the handle around the axis, radians
+    double radius;    ///< long half-axis of the cross-section
+    double flatness;  ///< ratio of the long to the short axis of the cross-section
+    double twists;    ///< number of revolutions of the cross-section over the length
+    double winding;   ///< number of revolutions of the tube around the centre line
+    double distance;  ///< from the centre line
 };
 
 Vec3 tube_point(const Tube& tube, double s, double t) {
@@ -85,8 +86,8 @@ Vec3 paint_vine(double s, double t) {
     return mix(colour, jade, line(from_middle(70 * t + s) - 0.5, 0.14));
 }
 
-/// A thin closed lens over a surface: `middle` in s in [-1, 1] across and t in [0, 1] along, `normal`
-/// outward.
+/// A thin closed solid around a mid-surface: `middle` maps s in [-1, 1] across and t in [0, 1] along to a
+/// point.
 struct Blade {
     std::function<Vec3(double, double)> middle;
     double thickness;
@@ -94,7 +95,7 @@ struct Blade {
 
 Vec3 blade_point(const Blade& blade, double s, double t, double side) {
     const Vec3 p = blade.middle(s, t);
-    // Zero at the border, to the last bit: there the two sheets are one.
+    // Exactly zero at the outline, where both sides have the same positions.
     const double half = 0.5 * blade.thickness * (1 - s * s) * std::min(1.0, 12 * std::min(t, 1 - t));
     if (half == 0) return p;
     const double e = 1e-3;
@@ -103,7 +104,7 @@ Vec3 blade_point(const Blade& blade, double s, double t, double side) {
     return add(p, scaled(unit(cross(across, along)), side * half));
 }
 
-/// The two sheets of a blade as two grids, each painted in its own way.
+/// Adds the two sides of a blade as two grids with different colours.
 void add_blade(std::vector<Grid>& grids, const Blade& blade, int columns, int rows, double width,
                double length, const std::function<Vec3(double, double)>& front,
                const std::function<Vec3(double, double)>& back) {
@@ -112,17 +113,18 @@ void add_blade(std::vector<Grid>& grids, const Blade& blade, int columns, int ro
         grid.columns = columns;
         grid.rows = rows;
         grid.position = [=](int column, int row) {
-            // The back is seen from behind, so its columns run the other way.
-            const int seen = side > 0 ? column : columns - column;
-            return blade_point(blade, double(2 * seen - columns) / columns, double(row) / rows, side);
+            // The columns of the back run in the opposite direction, so that its faces are oriented outwards.
+            const int mirrored_column = side > 0 ? column : columns - column;
+            return blade_point(blade, double(2 * mirrored_column - columns) / columns, double(row) / rows,
+                               side);
         };
         grid.paint = side > 0 ? front : back;
-        grid.charts = cut(grid, 1, 1, width, length);
+        grid.charts = split_into_charts(grid, 1, 1, width, length);
         grids.push_back(std::move(grid));
     }
 }
 
-/// An acanthus leaf that leans against the belly and curls away at its tip.
+/// An acanthus leaf close to the belly, with a tip that curls outwards.
 Blade leaf(double angle) {
     const double begin = band_begin(band::petals) + 0.012, end = band_begin(band::petals) + 0.195;
     return {
@@ -132,7 +134,7 @@ Blade leaf(double angle) {
             const double width =
                 0.15 * (0.12 + std::pow(std::sin(pi * std::pow(std::min(t, 1.0) * 0.96 + 0.02, 0.8)), 0.8)) *
                 lobes;
-            // Away from the wall level with the ground: the wall's normal points down here.
+            // The offset is horizontal, because the normal of the body points downwards here.
             const double curl = 0.05 + 0.03 * t + 0.09 * std::pow(t, 6.0) + 0.03 * s * s;
             const double radius = p.radius + curl, height = p.height - 0.3 * curl - 0.07 * std::pow(t, 8.0);
             const Vec3 centre = {radius * std::sin(angle), height, radius * std::cos(angle)};
@@ -142,7 +144,7 @@ Blade leaf(double angle) {
         0.016};
 }
 
-/// A feather that stands out from the shoulder, in a plane through the axis, with a barbed edge.
+/// A feather on the shoulder, in a plane through the axis, with a barbed edge.
 Blade feather(double angle) {
     return {[=](double s, double t) -> Vec3 {
                 const double rise = 0.72 * t, sweep = 0.16 * std::sin(0.9 * pi * t) + 0.20 * t * t;
@@ -198,10 +200,10 @@ std::vector<Grid> ornaments(double detail) {
     std::vector<Grid> grids;
     for (const double angle : {0.5 * pi, 1.5 * pi}) {
         Grid handle = tube_grid({angle, 0.075, 1.9, 3, 0, 0}, 2 * lines(13), 3 * lines(88), paint_handle);
-        handle.charts = cut(handle, 2, 3, 0.40, 2.3);
+        handle.charts = split_into_charts(handle, 2, 3, 0.40, 2.3);
         grids.push_back(std::move(handle));
         Grid vine = tube_grid({angle, 0.020, 1, 0, 7, 0.105}, 2 * lines(4), 6 * lines(70), paint_vine);
-        vine.charts = cut(vine, 1, 6, 0.11, 3.6);
+        vine.charts = split_into_charts(vine, 1, 6, 0.11, 3.6);
         grids.push_back(std::move(vine));
     }
     for (int i = 0; i < 10; ++i) {
@@ -210,7 +212,7 @@ std::vector<Grid> ornaments(double detail) {
     }
     for (int i = 0; i < 8; ++i) {
         const double off_front = (i % 4 - 1.5) * 0.19 * pi;
-        // Seen from the front or the back, all show their eyes.
+        // The side with the eye faces the front or the back of the urn.
         const bool mirrored = off_front < 0;
         add_blade(grids, feather((i < 4 ? 0 : 1) * pi + off_front), 2 * lines(7), lines(60), 0.20, 0.68,
                   mirrored ? paint_feather_back : paint_feather_front,

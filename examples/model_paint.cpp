@@ -1,4 +1,4 @@
-// What is painted on the body. Lengths are in model units unless they are shares of a cell.
+// Painting of the body. Lengths are in model units, unless they are relative to a cell.
 
 #include <array>
 #include <string_view>
@@ -9,7 +9,7 @@ namespace model {
 
 namespace {
 
-/// A cell of the running key: '#' is ink.
+/// One cell of the meander pattern; '#' is painted.
 constexpr std::array<std::string_view, 7> key = {"#######.", "#.....#.", "#.###.#.", "#.#...#.",
                                                  "#.#####.", "#.......", "########"};
 
@@ -19,7 +19,7 @@ double key_ink(double x, double y) {
     return key[row][column] == '#' ? 1 : 0;
 }
 
-/// A made-up letter: a walk of six steps over a 3 x 4 raster, and a dot at times. (x, y) in its unit cell.
+/// Ink of an invented letter, a random walk of six steps on a 3 x 4 grid, at (x, y) in its unit cell.
 double glyph_ink(std::int64_t letter, double x, double y) {
     int ax = static_cast<int>(hash(letter, -1, 41) % 3), ay = static_cast<int>(hash(letter, -2, 41) % 4);
     double nearest = 1;
@@ -100,7 +100,7 @@ Vec3 paint_frieze(double turns, double t, double y) {
     return mix(colour, ivory, 1 - smooth_step(0.16, 0.22, dots));
 }
 
-/// Letters between two fine lines, the running key below, spiral stripes above.
+/// A line of letters between two fine lines, the meander pattern below, spiral stripes above.
 Vec3 paint_shoulder(double turns, double t, double y) {
     Vec3 colour = glaze(turns, y);
     if (t < 0.24) {

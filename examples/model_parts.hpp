@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// The parts of the example urn. `detail` scales the number of grid lines; 1 gives about 220,000 faces in
-/// all.
+/// The parts of the example urn. `detail` scales the number of grid lines; 1 gives about 276,000 faces.
 
 #include <vector>
 
@@ -9,30 +8,30 @@
 
 namespace model {
 
-/// Where the turned body is at an arc length in [0, 1] of its profile: distance from the axis and height.
+/// A point of the body's profile curve, by arc length in [0, 1]: distance from the axis, and height.
 struct ProfilePoint {
     double radius, height;
-    double normal_out, normal_up;  ///< unit
+    double normal_out, normal_up;  ///< unit normal: away from the axis, and upwards
 };
 ProfilePoint profile(double arc);
 
-/// The turned and carved body: from the middle of the foot up to an open, scalloped rim.
+/// The body, a carved surface of revolution from the centre of the foot to an open, scalloped rim.
 Grid body(double detail);
 
-/// Handles, the vines around them, leaves below the belly and feathers on the shoulder.
+/// Two handles with vines around them, leaves below the belly and feathers on the shoulder.
 std::vector<Grid> ornaments(double detail);
 
-/// The body's painting at an angle in radians and an arc length of the profile in [0, 1].
+/// Colour of the body (sRGB) at an angle in radians and an arc length of the profile in [0, 1].
 Vec3 paint_body(double angle, double arc);
 
-/// How far the carving rises above the profile at such a place, in model units.
+/// Height of the carving above the profile at an angle and an arc length, model units.
 double relief(double angle, double arc);
 
-/// Ends of the body's bands as arc lengths: foot, knot, petals, frieze, shoulder, neck and lip lie between
-/// them.
+/// The ornamental bands of the body, from bottom to top.
 namespace band {
 enum { base, foot, knot, petals, frieze, shoulder, neck, lip, count };
 }
+/// Arc length in [0, 1] at which a band begins; band::count gives the end of the last one.
 double band_begin(int which);
 
 // Enamel colours, sRGB.

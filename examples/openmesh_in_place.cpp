@@ -1,5 +1,5 @@
-// An OpenMesh mesh, simplified in place: properties of its own stay with the vertices and faces that are
-// left, and say what may change.
+// Simplifies an OpenMesh mesh in place. Custom properties stay attached to the remaining vertices and faces,
+// and a weight property controls where detail is preserved.
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -15,17 +15,17 @@ using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
 int main(int argc, char** argv) try {
     Mesh mesh;
     if (argc != 3 || !OpenMesh::IO::read_mesh(mesh, argv[1])) {
-        std::cerr << "usage: openmesh_in_place IN OUT, files that OpenMesh reads and writes\n";
+        std::cerr << "usage: openmesh_in_place IN OUT   (in formats that OpenMesh reads and writes)\n";
         return 2;
     }
 
-    // The caller's own: where each vertex was, and which face of the file each face is.
-    OpenMesh::VProp<Mesh::Point> first_place(mesh);
-    OpenMesh::FProp<int> number(mesh);
-    for (const auto v : mesh.vertices()) first_place[v] = mesh.point(v);
-    for (const auto f : mesh.faces()) number[f] = f.idx();
+    // Custom properties: the original position of each vertex, and the original index of each face.
+    OpenMesh::VProp<Mesh::Point> original_position(mesh);
+    OpenMesh::FProp<int> original_index(mesh);
+    for (const auto v : mesh.vertices()) original_position[v] = mesh.point(v);
+    for (const auto f : mesh.faces()) original_index[f] = f.idx();
 
-    // The upper half counts ten times.
+    // Collapses in the upper half cost ten times as much.
     Mesh::Point low = mesh.point(mesh.vertex_handle(0)), high = low;
     for (const auto v : mesh.vertices()) low.minimize(mesh.point(v)), high.maximize(mesh.point(v));
     faqem::Properties properties;
@@ -38,13 +38,13 @@ int main(int argc, char** argv) try {
     mesh.remove_property(properties.weight);
     mesh.garbage_collection();
 
-    float farthest = 0;
-    int last = -1;
+    float max_displacement = 0;
+    int largest_index = -1;
     for (const auto v : mesh.vertices())
-        farthest = std::max(farthest, (mesh.point(v) - first_place[v]).norm());
-    for (const auto f : mesh.faces()) last = std::max(last, number[f]);
-    std::cout << report.faces_in << " faces, now " << mesh.n_faces() << ", the last one was number " << last
-              << "; vertices moved by up to " << farthest << "\n";
+        max_displacement = std::max(max_displacement, (mesh.point(v) - original_position[v]).norm());
+    for (const auto f : mesh.faces()) largest_index = std::max(largest_index, original_index[f]);
+    std::cout << report.faces_in << " faces, now " << mesh.n_faces() << ", largest original index "
+              << largest_index << "; maximum vertex displacement " << max_displacement << "\n";
     if (!OpenMesh::IO::write_mesh(mesh, argv[2]))
         throw std::runtime_error(std::string("cannot write ") + argv[2]);
     return mesh.n_faces() == report.faces_out ? 0 : 1;

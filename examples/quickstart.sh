@@ -1,19 +1,19 @@
 #!/bin/sh
-# Builds faqem and makes a textured model of more than 200,000 faces light: 10% and 1% of the faces, with new textures.
-# Needs Debian 12 and nothing else; what is made lies in out/.
+# Builds faqem, generates a textured model of more than 200,000 faces, and simplifies it to 10% and 1% of its
+# faces, with new textures. Needs Debian 12. The results are written to out/.
 set -eu
 cd "$(dirname "$0")/.."
 build=build/release
 faqem=$build/bin/faqem
 
-echo "== packages (installed with apt-get; sudo only when not root)"
+echo "== install packages (with apt-get; sudo only if not root)"
 cmake/install-packages.sh
 echo "== build faqem (Release) in $build"
 cmake --preset release -DFAQEM_BUILD_TESTS=OFF >/dev/null
 cmake --build --preset release --target faqem_tool make_model
 
 mkdir -p out
-echo "== make a model: out/model.glb"
+echo "== generate a model: out/model.glb"
 $build/examples/make_model out/model.glb
 $faqem info out/model.glb
 
@@ -24,9 +24,9 @@ for percent in 10 1; do
     cat out/report-$percent.json
 done
 
-echo "== picture: out/before-after.png (original, 10%, 1%)"
+echo "== render: out/before-after.png (original, 10%, 1%)"
 $faqem render out/model.glb out/model-10.glb out/model-1.glb out/before-after.png --views 3 --force
 
 echo
-echo "Done. Open out/before-after.png, or the .glb files in any glTF viewer. On a file of your own:"
-echo "    $faqem simplify YOUR.glb light.glb --ratio 0.1"
+echo "Done. Open out/before-after.png, or the .glb files in a glTF viewer. To simplify your own model:"
+echo "    $faqem simplify YOUR.glb simplified.glb --ratio 0.1"

@@ -1,4 +1,4 @@
-// A textured model: fewer faces, and a new texture that looks like the old one.
+// Simplifies a textured model and bakes a new texture.
 
 #include <exception>
 #include <fstream>
@@ -23,16 +23,16 @@ int main(int argc, char** argv) try {
         const int percent = static_cast<int>(100 * share);
         if (percent / 25 != last / 25) std::cerr << percent << "%\n";
         last = percent;
-        return faqem::Continue::yes;  // `no` stops, and the report says so
+        return faqem::Continue::yes;  // Continue::cancel ends the run with StopReason::cancelled
     };
 
-    const faqem::SimplifiedAsset light = faqem::simplify(source, options);
-    std::ofstream(argv[3]) << faqem::to_json(light.report) << "\n";
-    if (light.report.stop == faqem::StopReason::cancelled) return 1;
-    for (const std::string& lost : faqem::save(light.asset, argv[2], faqem::Overwrite::yes))
-        std::cerr << argv[2] << ": " << lost << "\n";
-    std::cout << light.report.faces_in << " faces, now " << light.report.faces_out << ", with "
-              << light.asset.images.size() << " images\n";
+    const faqem::SimplifiedAsset simplified = faqem::simplify(source, options);
+    std::ofstream(argv[3]) << faqem::to_json(simplified.report) << "\n";
+    if (simplified.report.stop == faqem::StopReason::cancelled) return 1;
+    for (const std::string& loss : faqem::save(simplified.asset, argv[2], faqem::Overwrite::yes))
+        std::cerr << argv[2] << ": " << loss << "\n";
+    std::cout << simplified.report.faces_in << " faces, now " << simplified.report.faces_out << ", with "
+              << simplified.asset.images.size() << " images\n";
     return 0;
 } catch (const std::exception& error) {
     std::cerr << "textured: " << error.what() << "\n";

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Door (c): a textured asset in, a simplified one with a new texture out. Needs the standard library only.
+/// Entry point for textured assets: simplification, and baking of the appearance into new textures.
+/// Needs only the standard library.
 
 #include <iosfwd>
 #include <vector>
@@ -12,62 +13,75 @@
 
 namespace faqem {
 
-/// The geometry stage's result: one SimplifyResult per part of the source, in its order, history on.
+/// Result of the geometry stage, simplify_parts().
 struct SimplifiedParts {
-    std::vector<SimplifyResult> parts;
-    Report report;  ///< sums over the parts
+    std::vector<SimplifyResult> parts;  ///< one per part of the source, in its order, each with a history
+    Report report;                      ///< sums over the parts
 };
 
-/// Where a texel lies on the original: the sample of it next to its middle.
+/// Point of the original surface that a texel corresponds to: that of the sample nearest to the texel centre.
 struct TexelOrigin {
-    Index part = no_index;  ///< into Asset::parts of the source; no_index: the texel shows no triangle
+    Index part = no_index;  ///< index into Asset::parts of the source; no_index: the texel shows no triangle
     SurfacePoint point;     ///< on a face of that part
 };
 
-/// The map of one page, by texel, row 0 at the top.
+/// Correspondence of all texels of one page, top row first.
 struct PageOrigins {
-    Index material = no_index;  ///< of the result, whose images the page holds
+    Index material = no_index;  ///< material of the result whose images the page holds
     std::uint32_t width = 0, height = 0;
     std::vector<TexelOrigin> texels;  ///< width * height
 };
 
-/// Writes the maps of all pages in the format of docs/correspondence-format.md, little-endian on any machine.
-/// The caller checks the stream. O(texels)
+/// Writes the correspondence of all pages in the binary little-endian format of
+/// docs/correspondence-format.md.
+/// \param out  a binary stream; the caller checks its state afterwards
+/// Complexity: O(texels).
 FAQEM_EXPORT void write(const std::vector<PageOrigins>& pages, std::ostream& out);
 
-/// An asset and what was done to make it.
+/// A simplified asset, with the report and the records of the run.
 struct SimplifiedAsset {
     Asset asset;
     Report report;
-    std::vector<CollapseHistory> histories;  ///< one per part; empty unless options.history is on
-    /// One per page of a new atlas; empty unless options.bake.correspondence is on.
+    std::vector<CollapseHistory> histories;  ///< one per part; empty unless Options::history is on
+    /// One per page of a new atlas; empty unless BakeOptions::correspondence is on.
     std::vector<PageOrigins> correspondence;
 };
 
-/// Stage one: simplifies every part by itself, in its own coordinates. The target counts for the whole asset.
-/// With Budget::scene it is shared out by error: the parts are simplified as far as they go, and the
-/// collapses that cost least in the scene, whichever part they are in, say how many faces each keeps. With
-/// Budget::mesh it is shared out in proportion to the parts' faces; where it has room for them, a part gets
-/// no fewer than 4 faces (or all it has) for each of its connected components, at the others' cost. No part
-/// gets fewer than 4, or all it has. For Options::max_error every part is measured against its original, in
-/// the units of the scene: a part that the scene shows several times counts at its largest scale, one that it
-/// does not show as it is.
+/// Geometry stage: simplifies each part in its own coordinates. The target is the total over all parts.
 ///
-/// \throws as simplify(const MeshView&, ...), and InputError naming the part or material where the asset's
-///         arrays and indices do not fit each other or a number is not finite
+/// With Budget::scene the target is distributed by error: every part is simplified as far as possible, and
+/// the collapses of least cost in the scene, over all parts, determine how many faces each part keeps. With
+/// Budget::mesh it is distributed in proportion to the parts' face counts. If the target is large enough,
+/// each part then gets at least 4 faces (or all it has) for each of its connected components. In both cases
+/// no part gets fewer than 4 faces (or all it has), so the total may exceed the target.
+///
+/// For Options::max_error every part is measured against its original, in scene units: a part counts at the
+/// largest scale of its instances, and at scale 1 if it has none.
+///
+/// \param source   the asset; read only during the call
+/// \param options  BakeOptions::kind determines which attributes and material boundaries are preserved
+/// \return one result per part. If the progress callback cancels, report.stop is StopReason::cancelled
+/// \throws OptionError  an option is out of range
+/// \throws InputError  arrays or indices of the asset are inconsistent, or a number is not finite; the
+///                     message names the part or material
+/// Complexity: the sum of simplify(const MeshView&, const Options&) over the parts. Budget::scene adds one
+/// run with Preset::fast per part if several parts have faces.
 FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& options);
 
-/// Stage two: gives the simplified parts normals, UVs, materials and images.
-/// \param source   the asset that `simplified` was made from
-/// \param simplified    result of simplify_parts() with the same options
-/// \return report.stop is `cancelled`, and the asset has no parts, if the progress callback cancelled
-/// \throws InputError        an image is damaged
-/// \throws UnsupportedError  an image that is needed is neither PNG nor JPEG
+/// Appearance stage: gives the simplified parts normals, UVs, materials and images.
+/// \param source      the asset that `simplified` was made from
+/// \param simplified  result of simplify_parts() with the same options
+/// \param options     see Options::bake
+/// \return the asset. If the progress callback cancels, report.stop is StopReason::cancelled and the asset is
+///         empty
+/// \throws OptionError  an option is out of range, or a correspondence is requested without a new atlas
+/// \throws InputError  an image is damaged, or `simplified` does not match `source`
+/// \throws UnsupportedError  an image that is needed has a format that decode() does not support
 FAQEM_EXPORT SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified,
                                   const Options& options);
 
-/// Both stages in one call.
-/// \throws OptionError, InputError, UnsupportedError
+/// Simplifies an asset and bakes its appearance: simplify_parts(), then bake().
+/// \throws OptionError, InputError, UnsupportedError  as both stages
 FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& options = {});
 
 }  // namespace faqem

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Levels of detail of a textured asset. Needs the standard library only.
+/// Levels of detail of a textured asset. Needs only the standard library.
 
 #include <vector>
 
@@ -10,46 +10,54 @@
 
 namespace faqem {
 
-/// The geometry of one level, to be given to bake().
+/// Geometry of one level; input of bake().
 struct SimplifiedPartsLevel {
-    SimplifiedParts result;  ///< times of the report are those of this level alone
-    double distance = 0;     ///< as SimplifiedLevel::distance, in units of the scene
-    double error = 0;        ///< as SimplifiedLevel::error, in units of the scene
+    SimplifiedParts result;  ///< the times of its report are those of this level only
+    double distance = 0;     ///< as SimplifiedLevel::distance, in scene units
+    double error = 0;        ///< as SimplifiedLevel::error, in scene units
 };
 
-/// One level with its look.
+/// One level with its baked appearance.
 struct SimplifiedAssetLevel {
     SimplifiedAsset result;
-    double distance = 0;  ///< as SimplifiedPartsLevel
-    double error = 0;     ///< as SimplifiedPartsLevel
+    double distance = 0;  ///< as SimplifiedPartsLevel::distance
+    double error = 0;     ///< as SimplifiedPartsLevel::error
 };
 
-/// Which images the levels have.
+/// Whether the levels share textures.
 enum class LevelTextures {
-    each,    ///< every level its own
-    shared,  ///< all the same, baked for the finest level, whose UVs the others keep
+    each,    ///< every level has its own textures
+    shared,  ///< one set of textures, baked for the finest level; the other levels keep its UVs
 };
 
-/// As simplify_levels(), for the parts of an asset. Counts are those of the whole asset; each is spread over
-/// the parts as Options::budget says, but no part gets more faces than in the level before. Distances are in
-/// units of the scene.
-/// \return one per level, each with the history that bake() needs; one alone, whose stop says so, where
-///         progress cancelled
-/// \throws as simplify_parts() and simplify_levels()
+/// Simplifies the parts of an asset to several levels of detail, as simplify_levels(const MeshView&, ...).
+/// \param source   the asset; read only during the call
+/// \param levels   from fine to coarse. Face counts are totals over all parts and are distributed according
+///                 to Options::budget, but no part gets more faces than in the previous level. Distances are
+///                 in scene units
+/// \param options  as for simplify_parts(); target and max_error must be unset
+/// \return one result per level, each with the history that bake() needs. If the progress callback cancels,
+///         report.stop of the last result is StopReason::cancelled, and results may be missing
+/// \throws OptionError, InputError  as simplify_parts() and simplify_levels()
 FAQEM_EXPORT std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source,
                                                                      const std::vector<Level>& levels,
                                                                      const Options& options = {});
 
-/// Both stages for all levels. Progress is told of Phase::simplify, then of Phase::bake, for all levels
-/// together.
-/// \param textures  with `shared` the finest level gets an atlas of charts, and the others are made of it, with
-///                  its UVs and seams: their collapses know the finest level, their errors are measured
-///                  against the original. Pages and correspondence are in the first result alone.
-/// \return one per level; where progress cancelled, the last one's stop says so, and those after it are
-///         missing
-/// \throws OptionError  with `shared`: no atlas of charts is baked, a history or kept groups are asked for, or
-///                      nothing is to be welded
-/// \throws as simplify_parts_levels() and bake()
+/// Simplifies an asset to several levels of detail and bakes each: simplify_parts_levels(), then bake(). The
+/// progress callback gets Phase::simplify, then Phase::bake, each once over all levels. With
+/// LevelTextures::shared, Phase::bake includes the simplification of all levels but the finest.
+/// \param source    the asset; read only during the call
+/// \param levels    as for simplify_parts_levels()
+/// \param options   as for simplify_parts_levels()
+/// \param textures  with `shared` the finest level gets an atlas of charts, and the other levels are
+///                  simplified from it and preserve its UV seams. Their costs refer to the finest level,
+///                  their errors are measured against the original. Only the first result has Report::pages
+///                  and a correspondence
+/// \return one result per level. If the progress callback cancels, report.stop of the last result is
+///         StopReason::cancelled, and results may be missing
+/// \throws OptionError  with `shared`: BakeOptions::kind is neither `automatic` nor `atlas`, the history or
+///                      kept group boundaries are requested, or welding is off
+/// \throws OptionError, InputError, UnsupportedError  as simplify_parts_levels() and bake()
 FAQEM_EXPORT std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source,
                                                                const std::vector<Level>& levels,
                                                                const Options& options = {},

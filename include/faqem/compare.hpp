@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Two-sided distances, normals and topology of triangle meshes.
+/// Comparison of two triangle meshes (distances, normals), and statistics of one.
 
 #include <cstdint>
 #include <limits>
@@ -10,96 +10,108 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// Counts that describe a mesh's connectivity after welding equal positions.
+/// Connectivity and size of a mesh, after welding vertices with equal positions.
 struct MeshInfo {
-    std::uint64_t faces = 0;              ///< with three different corners after welding
-    std::uint64_t degenerate_faces = 0;   ///< the others
-    std::uint64_t vertices = 0;           ///< used ones, after welding
-    std::uint64_t components = 0;         ///< joined by a shared vertex
-    std::uint64_t boundary_edges = 0;     ///< with one face
-    std::uint64_t nonmanifold_edges = 0;  ///< with three faces or more
-    std::int64_t euler = 0;               ///< V - E + F
-    Vec3 box_min = {}, box_max = {};
-    double diagonal = 0;  ///< of the box
-    double area = 0;
+    std::uint64_t faces = 0;              ///< faces with three different corners
+    std::uint64_t degenerate_faces = 0;   ///< all other faces; they do not count below
+    std::uint64_t vertices = 0;           ///< vertices that a face refers to
+    std::uint64_t components = 0;         ///< connected components; a shared vertex connects faces
+    std::uint64_t boundary_edges = 0;     ///< edges with one face
+    std::uint64_t nonmanifold_edges = 0;  ///< edges with three or more faces
+    std::int64_t euler = 0;               ///< Euler characteristic V - E + F
+    Vec3 box_min = {}, box_max = {};      ///< axis-aligned bounding box, model units
+    double diagonal = 0;                  ///< of the bounding box, model units
+    double area = 0;                      ///< sum over the faces, squared model units
 };
 
-/// Counts and measures one mesh; positions that are equal (-0 equals 0) are one vertex. O(n log n)
-/// \throws InputError  an index is out of range
+/// Computes the connectivity and size of a mesh. Vertices with equal positions (-0 equals 0) count as one.
+/// \param mesh  any triangle soup; only positions and triangles are read
+/// \throws InputError  a vertex index is out of range
+/// Complexity: O(n log n) in the number of vertices and faces.
 FAQEM_EXPORT MeshInfo info(const MeshView& mesh);
 
-/// How much compare() looks at.
+/// Options of compare() and compare_colors().
 struct CompareOptions {
-    std::uint64_t samples = 200'000;  ///< area-uniform and stratified, on each mesh, for the means
-    std::uint64_t seed = 1;
-    std::uint32_t threads = 0;  ///< 0: all; the result does not depend on it
-    /// Gap wanted between a largest distance and its bound, as a share of the distance, >= 0. Infinity: no
-    /// search; max is what samples and vertices show, and the bound is a coarse one.
+    std::uint64_t samples = 200'000;  ///< samples on each mesh, area-uniform and stratified, for the means
+    std::uint64_t seed = 1;           ///< seed of the samples
+    std::uint32_t threads = 0;        ///< maximum number of threads, 0: all; the result does not depend on it
+    /// Maximum relative difference between a maximum distance and its upper bound, >= 0. Infinity: no branch
+    /// and bound; the maximum is over samples and vertices, and the bound is a coarse one from whole faces.
     double tolerance = 0.01;
 };
 
-/// Distances from one mesh to the other, in model units. The means are over samples.
+/// One-sided distances from one mesh to the other, in model units. The means are over the samples.
 struct OneSided {
-    double max = 0;        ///< of a point that was found: the largest distance is not smaller
-    double max_bound = 0;  ///< no point is farther
+    double max = 0;        ///< lower bound of the maximum distance: the distance of a point that was found
+    double max_bound = 0;  ///< upper bound of the maximum distance
     double mean = 0, mean_squared = 0;
-    /// Angle between the face's normal at the sample and the one at its closest point; where several faces
-    /// are closest (at an edge or a corner, to 1e-9 of the diagonal) the smallest of their angles.
+    /// Angle between the normal of a sample's face and that of the closest face, in degrees. If several faces
+    /// are closest (at an edge or a vertex, within 1e-9 of the diagonal), the smallest of their angles.
     double mean_normal_degrees = 0;
 };
 
-/// Distances between two surfaces. Point to triangle distances are exact up to rounding.
+/// Two-sided distances between two meshes, in model units. Distances from points to triangles are exact up to
+/// rounding.
 struct Comparison {
     OneSided a_to_b, b_to_a;
-    double hausdorff = 0;            ///< the larger max
-    double hausdorff_bound = 0;      ///< the larger max_bound: the true value lies between
-    double chamfer = 0;              ///< sum of both mean squared distances
-    double mean_normal_degrees = 0;  ///< mean of both sides
-    double diagonal = 0;             ///< of a's bounding box, to divide by
+    double hausdorff = 0;            ///< lower bound of the Hausdorff distance: the larger OneSided::max
+    double hausdorff_bound = 0;      ///< its upper bound: the larger OneSided::max_bound
+    double chamfer = 0;              ///< sum of both mean squared distances, squared model units
+    double mean_normal_degrees = 0;  ///< mean of both directions
+    double diagonal = 0;             ///< diagonal of the bounding box of `a`, for relative values
 };
 
-/// Compares two meshes. Faces without area (lower than 1e-12 of their longest edge) are skipped. The search
-/// for the largest distances ends where the gap is within the tolerance or below 1e-9 of the diagonal, or
-/// after as much work as HausdorffOptions allow; the bounds hold in any case.
-/// \throws InputError   a mesh has no face with area, or an index is out of range
-/// \throws OptionError  the tolerance is negative or not a number
+/// Computes two-sided distances between two meshes: Hausdorff distance by branch and bound, Chamfer distance
+/// and normal deviation by sampling. Faces of zero area (height below 1e-12 of the longest edge) are skipped.
+/// Branch and bound ends when lower and upper bound differ by at most the tolerance or 1e-9 of the diagonal,
+/// or when HausdorffOptions::max_pieces is reached; the bounds are valid in each case.
+/// \param a,b      triangle soups; only positions and triangles are read
+/// \param options  see CompareOptions
+/// \throws InputError   a mesh has no face with a non-zero area, or an index is out of range
+/// \throws OptionError  the tolerance is negative or NaN
 /// Complexity: O((samples + vertices + pieces) log faces) typically; about 300 bytes per face.
 FAQEM_EXPORT Comparison compare(const MeshView& a, const MeshView& b, const CompareOptions& options = {});
 
-/// When the search of hausdorff() may end.
+/// Termination criteria of hausdorff().
 struct HausdorffOptions {
     double tolerance = 0.01;    ///< as CompareOptions::tolerance
-    std::uint32_t threads = 0;  ///< 0: all; the result does not depend on it
-    /// Model units. Give up once a distance above it is found: the bound may then be infinite.
+    std::uint32_t threads = 0;  ///< maximum number of threads, 0: all; the result does not depend on it
+    /// Stop when a distance above this is found, model units. The upper bound may then be infinite.
     double stop_above = std::numeric_limits<double>::infinity();
-    /// Model units. A bound this low is good enough, whatever the tolerance.
+    /// Stop when the upper bound is at most this, model units, whatever the tolerance.
     double stop_below = 0;
-    /// Parts of faces to look at in each direction. Where this ends the search, the bound is what it is then.
+    /// Maximum number of face pieces evaluated in each direction. If it is reached, the bound is less tight.
     std::uint64_t max_pieces = 1'000'000;
 };
 
-/// value <= true distance <= bound, up to rounding.
+/// A distance with its bounds, in model units: value <= true distance <= bound, up to rounding.
 struct DistanceBound {
     double value = 0, bound = 0;
-    std::uint64_t pieces = 0;  ///< parts of faces looked at
+    std::uint64_t pieces = 0;  ///< number of face pieces evaluated
 };
 
-/// The Hausdorff distance of two meshes, without samples: by vertices, then by branch and bound. Faces
-/// without area are skipped. With stop_above and stop_below at E it asks whether the meshes are within E, as
-/// within() does.
-/// \throws InputError   a mesh has no face with area, or an index is out of range
-/// \throws OptionError  the tolerance is negative or not a number
+/// Computes the Hausdorff distance of two meshes, without sampling: at the vertices, then by branch and
+/// bound. Faces of zero area are skipped. With stop_above and stop_below both set to E, the search ends as
+/// soon as it is known whether the distance is at most E, as in within().
+/// \param a,b      triangle soups; only positions and triangles are read
+/// \param options  see HausdorffOptions
+/// \throws InputError   a mesh has no face with a non-zero area, or an index is out of range
+/// \throws OptionError  the tolerance is negative or NaN
 /// Complexity: O((vertices + faces + pieces) log faces) typically; about 300 bytes per face, 150 per piece.
 FAQEM_EXPORT DistanceBound hausdorff(const MeshView& a, const MeshView& b,
                                      const HausdorffOptions& options = {});
 
-/// Answer of within().
+/// Result of within().
 enum class Within { yes, no, undecided };
 
-/// Whether no point of either mesh is farther than `distance` (model units) from the other mesh. Undecided
-/// where the work allowed by HausdorffOptions does not tell, or the distance is that up to 1e-9 of the
-/// diagonal. Ends as soon as the answer is known.
-/// \throws InputError   a mesh has no face with area, or an index is out of range
+/// Tests whether the Hausdorff distance of two meshes is at most `distance`. Ends as soon as that is known.
+/// \param a,b       triangle soups; only positions and triangles are read
+/// \param distance  model units
+/// \param threads   maximum number of threads, 0: all
+/// \return `undecided` if HausdorffOptions::max_pieces was reached, or if the Hausdorff distance equals
+///         `distance` up to 1e-9 of the diagonal
+/// \throws InputError   a mesh has no face with a non-zero area, or an index is out of range
+/// Complexity: as hausdorff().
 FAQEM_EXPORT Within within(const MeshView& a, const MeshView& b, double distance, std::uint32_t threads = 0);
 
 FAQEM_NAMESPACE_END

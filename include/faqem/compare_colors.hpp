@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Two-sided colour differences of textured models.
+/// Comparison of the colours of two textured models.
 
 #include <cstdint>
 
@@ -10,35 +10,36 @@
 
 namespace faqem {
 
-/// Colour differences from one model to the other. Shares are in [0, 1].
+/// One-sided colour differences from one model to the other. Colours are sRGB, each channel in [0, 1].
 struct OneSidedColors {
-    double mean_squared = 0;  ///< difference per channel, of samples that count
-    double rmse = 0;          ///< its root: 0 to 1
-    double outliers = 0;      ///< share of those samples whose colours are more than 0.25 apart (Euclidean)
-    double unmatched =
-        0;              ///< share of those samples for which the other model has no face that looks their way
-    double hidden = 0;  ///< share of all samples that are masked out, which do not count
+    double mean_squared = 0;  ///< mean squared difference per channel, over the visible samples
+    double rmse = 0;          ///< square root of mean_squared, in [0, 1]
+    double outliers = 0;      ///< share of the visible samples that differ by more than 0.25 (Euclidean)
+    double unmatched = 0;     ///< share of the visible samples without a face of similar orientation
+    double hidden = 0;        ///< share of all samples that an alpha mask cuts away; the others are visible
 };
 
-/// How far the colours of two models differ.
+/// Two-sided colour differences of two models.
 struct ColorComparison {
     OneSidedColors a_to_b, b_to_a;
-    double rmse = 0;  ///< root of the mean of both mean squares
-    double psnr = 0;  ///< -20 log10(rmse), decibels; infinity where nothing differs
+    double rmse = 0;  ///< square root of the mean of both mean_squared
+    double psnr = 0;  ///< -20 log10(rmse), decibels; infinity if nothing differs
 };
 
-/// Whether a model has anything that says a colour: materials or vertex colours.
+/// Tests whether a model has colours: a material, or vertex colours.
 FAQEM_EXPORT bool has_colors(const Asset& asset);
 
-/// Compares base colours (texture times factor times vertex colour, without light), as sRGB in 0 to 1: area-
-/// uniform samples of each model, the same places as compare() takes, against the closest point of the other
-/// model on a face that looks the same way (normals less than 90 degrees apart; of all faces where there is
-/// none). A face looks to the side of its corners' normals where the model has them, else of its winding. All
-/// instances are placed in the scene. Textures are read at their full size, bilinearly or as their filter
-/// says. Alpha is not compared; where it masks, samples below the cutoff are left out.
-/// \param options  samples, seed and threads; the result does not depend on the threads
-/// \throws InputError        a model has no face with area, or an image is damaged
-/// \throws UnsupportedError  an image is neither PNG nor JPEG
+/// Compares the unlit base colours (texture times factor times vertex colour) of two models in sRGB.
+///
+/// Area-uniform samples of each model, at the same positions as in compare(), are compared with the closest
+/// point of the other model on a face of similar orientation (normals less than 90 degrees apart), or on any
+/// face if there is none. The orientation of a face is that of its vertex normals if the model has them, else
+/// that of its winding. All instances of a scene are in world space. Textures are sampled at full resolution,
+/// with their filter. Alpha is not compared; samples below the cutoff of an alpha mask are left out.
+/// \param a,b      models; only read during the call
+/// \param options  samples, seed and threads; the tolerance is ignored
+/// \throws InputError        a model has no face with a non-zero area, or an image is damaged
+/// \throws UnsupportedError  an image has a format that decode() does not support
 /// Complexity: O(samples log faces) typically; about 400 bytes per face, 7 per texel.
 FAQEM_EXPORT ColorComparison compare_colors(const Asset& a, const Asset& b,
                                             const CompareOptions& options = {});

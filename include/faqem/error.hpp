@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The exceptions faqem throws. Stopping early is not one of them: that is a StopReason in the report.
+/// Exceptions. Cancellation and a missed target are not errors: they are reported as StopReason.
 
 #include <stdexcept>
 #include <string>
@@ -9,43 +9,45 @@
 
 namespace faqem {
 
-/// Base of everything faqem throws.
+/// Base class of all exceptions that faqem defines. Exceptions of the standard library, such as
+/// std::bad_alloc, and those of the progress callback may be thrown as well.
 class FAQEM_EXCEPTION Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// An option is out of range or contradicts another. The tool exits with 2.
+/// An option is out of range or contradicts another one. Exit code 2 of the command.
 class FAQEM_EXCEPTION OptionError : public Error {
 public:
     using Error::Error;
 };
 
-/// The input data is wrong. The message reads `file: element: what`. The tool exits with 3.
+/// The input data is invalid. The message has the form `file: element: what`. Exit code 3 of the command.
 class FAQEM_EXCEPTION InputError : public Error {
 public:
     using Error::Error;
 
-    /// \param file     path as the user gave it; empty for data in memory
-    /// \param element  what in the file is wrong, e.g. `/accessors/3` or `line 17`; may be empty
-    /// \param what     why it is wrong
+    /// \param file     path as passed by the caller; empty for data in memory
+    /// \param element  invalid element, e.g. `/accessors/3` or `line 17`; may be empty
+    /// \param what     description of the error
     InputError(const std::string& file, const std::string& element, const std::string& what)
         : Error((file.empty() ? "" : file + ": ") + (element.empty() ? "" : element + ": ") + what) {}
 };
 
-/// The input is valid, but of a kind this build cannot handle (Draco, KTX2 ...). The tool exits with 4.
+/// The input is valid, but of a kind that this build does not support (e.g. KTX2 images). Exit code 4 of the
+/// command.
 class FAQEM_EXCEPTION UnsupportedError : public InputError {
 public:
     using InputError::InputError;
 };
 
-/// A file could not be read. The tool exits with 3.
+/// A file could not be read. Exit code 3 of the command.
 class FAQEM_EXCEPTION ReadError : public InputError {
 public:
     using InputError::InputError;
 };
 
-/// A file could not be written. The old file, if any, is untouched. The tool exits with 7.
+/// A file could not be written. An existing file with the same name is unchanged. Exit code 7 of the command.
 class FAQEM_EXCEPTION WriteError : public Error {
 public:
     using Error::Error;

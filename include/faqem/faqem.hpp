@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Every public header that needs nothing but the standard library. Separate: faqem/openmesh.hpp, which needs OpenMesh.
-/// In header-only mode, the headers of textured assets and report_json.hpp are left out: they need the libraries.
+/// All public headers that need only the standard library. Not included: faqem/openmesh.hpp, which
+/// needs OpenMesh. In header-only mode the headers for textured assets and report_json.hpp are omitted,
+/// because they need compiled libraries or nlohmann-json.
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The map from the original to the small mesh: where vertices and points of the input went. SurfaceMap is
-/// the way back.
+/// The map from the original to the simplified mesh, for vertices and for surface points. SurfaceMap is the
+/// opposite direction.
 
 #include <memory>
 #include <vector>
@@ -11,40 +11,46 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// A place on the small mesh.
+/// A point on the simplified mesh.
 struct SimplifiedPoint {
-    Index face = no_index;  ///< face of the small mesh; no_index: nothing is left of that part
-    Vec3 barycentric = {};  ///< weights of its three corners, >= 0, sum 1
+    Index face = no_index;  ///< face of the simplified mesh; no_index: there is no corresponding point
+    Vec3 barycentric = {};  ///< weights of the three corners, >= 0, sum 1
 };
 
-/// Per vertex of the original as `history` has them (after welding): the vertex of the small mesh that it was
-/// collapsed into, in the end, or no_index where no face is left there. SimplifyResult::vertex_origin is the
-/// way back, with one answer per vertex. O(size of the history)
+/// Returns the simplified vertex that each original vertex was collapsed into. The opposite direction, with
+/// one original vertex per simplified vertex, is SimplifyResult::vertex_origin.
 /// \pre validate(history) passes
+/// \return one entry per vertex of CollapseHistory::positions, that is, of the original after welding;
+///         no_index if no face is left at that vertex
+/// Complexity: O(size of the history).
 FAQEM_EXPORT std::vector<Index> vertex_map(const CollapseHistory& history);
 
-/// Answers "where on the small mesh is this point of the original?". Immutable once built; map() may be
-/// called from several threads at once.
+/// Maps points of the original to the simplified mesh. Immutable after construction; map() may be called from
+/// several threads concurrently.
 ///
-/// A point is looked for around the vertices that the corners of its face were collapsed into, and from there
-/// on as long as the distance falls from face to neighbouring face: what lies near in space, and far on the
-/// surface (the other side of a thin wall), is not looked at. Near the rim of such a wall, both sides are:
-/// there faces that look the other way, by more than 120 degrees, are taken only where there are no others.
+/// The search starts with the faces around the vertices that the corners of the original face were collapsed
+/// into, and continues to adjacent faces while the distance decreases. It therefore does not reach surface
+/// that is close in space but far along the surface, such as the opposite side of a thin wall. Near the rim
+/// of a wall both sides are reached; there, faces whose normals deviate by more than 120 degrees from that of
+/// the original face are used only if there are no others.
 class FAQEM_EXPORT ForwardMap {
 public:
-    /// \param history  of the run that made the small mesh; must outlive the map
+    /// Prepares the map.
+    /// \param history  history of the run; not copied, must outlive the map
     /// \pre validate(history) passes
-    /// O(size of the history) time and memory
+    /// Complexity: O(size of the history) time and memory.
     explicit ForwardMap(const CollapseHistory& history);
     ~ForwardMap();
     ForwardMap(ForwardMap&&) noexcept;
     ForwardMap& operator=(ForwardMap&&) noexcept;
 
+    /// Maps one point. If several faces are equally close, the one of least index is the result.
     /// \param face         face of the input, < history.triangles.size()
-    /// \param barycentric  the point on it
-    /// \return a place on the small mesh; SimplifiedPoint::face is no_index where the face was dropped before the
-    ///         run (two equal corners, or a double), or where nothing is left of what it was part of.
-    /// O(faces looked at): some twenty where the surface is smooth
+    /// \param barycentric  weights of its three corners, >= 0, sum 1
+    /// \return the point on the simplified mesh; SimplifiedPoint::face is no_index if the face was dropped
+    ///         before the run (two equal corners after welding, or a duplicate), or if its component was
+    ///         deleted
+    /// Complexity: linear in the number of faces visited, about twenty on a smooth surface.
     SimplifiedPoint map(Index face, const Vec3& barycentric) const;
 
 private:

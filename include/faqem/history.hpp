@@ -1,11 +1,10 @@
 #pragma once
 /// \file
-/// The collapse history: plain data that says how the original became the small mesh.
+/// The collapse history: the sequence of collapses from the original to the simplified mesh, as plain data.
 ///
-/// Vertices are immutable *versions*. Version i < positions.size() is a (welded) vertex of the original;
-/// collapse k joins two older versions and makes version positions.size() + k. Time k is the moment before
-/// collapse k, so time 0 is the original and time collapses.size() the small mesh. Faces keep the index they
-/// had in the input for as long as they live.
+/// Vertices are immutable *versions*. Version i < positions.size() is a vertex of the original after welding;
+/// collapse k merges two existing versions into version positions.size() + k. Time k is just before collapse
+/// k: time 0 is the original, time collapses.size() the simplified mesh. Faces keep their input index.
 
 #include <cstdint>
 #include <iosfwd>
@@ -17,46 +16,47 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// One collapse: versions `first` and `second` became a new one at `position` (model units).
+/// One collapse: versions `first` and `second` are merged into a new one at `position` (model units).
 struct Collapse {
     Index first = no_index;
     Index second = no_index;
     Vec3 position = {};
 };
 
-/// A whole component deleted by the starvation ladder, or pruned at time 0: `face` was gone from time `time`
-/// on.
+/// A face that was deleted at `time`: with its connected component or as a duplicate by the starvation
+/// ladder, or at time 0 by pruning.
 struct DeletedFace {
     std::uint64_t time = 0;
     Index face = no_index;
 };
 
-/// Everything recorded in one run. Owns its arrays.
+/// The record of one run. Owns its arrays. Below, V0 and F0 are the numbers of vertices (after welding) and
+/// faces of the original.
 struct CollapseHistory {
-    std::vector<Vec3> positions;      ///< V0 vertices of the original after welding
-    std::vector<Triangle> triangles;  ///< F0 input faces over them; three no_index: dropped before the run
-    std::vector<Index> face_groups;   ///< empty, or F0 groups
+    std::vector<Vec3> positions;      ///< V0, the original vertices after welding, model units
+    std::vector<Triangle> triangles;  ///< F0, the input faces; three no_index if dropped before the run
+    std::vector<Index> face_groups;   ///< empty, or F0
     std::vector<Collapse> collapses;  ///< in order
-    /// Faces that touched a collapse, just before it: collapse k's are
-    /// patch_faces[patch_begin[k] .. patch_begin[k + 1]), those that vanish in it included. The patches
-    /// beyond the collapses are edge flips after all of them: two faces (a, b, c) and (b, a, d) that became
-    /// (a, d, c) and (b, c, d), not necessarily from that corner on (preset best).
-    std::vector<std::uint64_t> patch_begin;  ///< number of patches + 1, starts with 0
-    std::vector<Index> patch_faces;
-    std::vector<DeletedFace> deleted_faces;  ///< by time
-    std::vector<Index> kept_versions;        ///< version of each vertex of the small mesh, in its order
-    std::vector<Index> kept_faces;           ///< input face of each face of the small mesh, in its order
-    /// Empty, or where each vertex of the small mesh went after the last collapse (preset best). The versions
-    /// stay where they were.
+    /// Offsets into patch_faces: number of patches + 1, starting at 0. Patch k < collapses.size() has the
+    /// faces around collapse k just before it, including those that it removes. The remaining patches are
+    /// edge flips after the last collapse (Preset::best), in order: two faces (a, b, c) and (b, a, d), each
+    /// starting at any corner, become (a, d, c) and (b, c, d).
+    std::vector<std::uint64_t> patch_begin;
+    std::vector<Index> patch_faces;          ///< see patch_begin
+    std::vector<DeletedFace> deleted_faces;  ///< by ascending time
+    std::vector<Index> kept_versions;        ///< version of each simplified vertex
+    std::vector<Index> kept_faces;           ///< input face of each simplified face
+    /// Empty, or the final position of each simplified vertex, if vertices moved after the last collapse
+    /// (Preset::best). The positions of the versions are those before that.
     std::vector<Vec3> kept_positions;
 
     bool empty() const { return kept_faces.empty(); }
-    /// Collapses, then flips.
+    /// Number of patches: collapses, then edge flips.
     std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
         return {patch_faces.data() + patch_begin[k], patch_begin[k + 1] - patch_begin[k]};
     }
-    /// Position of a vertex of the small mesh. O(1)
+    /// Position of a simplified vertex. O(1)
     const Vec3& kept_position(std::size_t vertex) const {
         return kept_positions.empty() ? position(kept_versions[vertex]) : kept_positions[vertex];
     }
@@ -67,21 +67,27 @@ struct CollapseHistory {
     }
 };
 
-/// Checks that every position is finite, every index in range, and that every collapse joins two living versions.
-/// O(size)
-/// \throws InputError naming the first position, collapse or face that is wrong
+/// Checks that all positions are finite and all indices in range, that every collapse merges two existing
+/// versions that were not merged before, and that kept vertices, kept faces and edge flips are consistent.
+/// \throws InputError  names the first invalid element
+/// Complexity: O(size of the history).
 FAQEM_EXPORT void validate(const CollapseHistory& history);
 
-/// Rebuilds the small mesh from the history alone.
-/// \pre validate(history) passes.
-/// O(size)
+/// Reconstructs the simplified mesh from the history. Corner attributes are not part of a history.
+/// \pre validate(history) passes
+/// Complexity: O(size of the history).
 FAQEM_EXPORT TriangleMesh replay(const CollapseHistory& history);
 
-/// Writes in a little-endian binary format (docs/history-format.md). \throws WriteError
+/// Writes a history in the binary little-endian format of docs/history-format.md.
+/// \param out  a binary stream
+/// \throws WriteError  writing failed
+/// Complexity: O(size of the history).
 FAQEM_EXPORT void write(const CollapseHistory& history, std::ostream& out);
 
-/// Reads what write() wrote and validates it; memory grows only with the bytes really there.
-/// \throws InputError naming the section that is wrong
+/// Reads and validates a history that write() wrote. Memory is allocated only for bytes that are present.
+/// \param in  a binary stream, left just after the history
+/// \throws InputError  names the invalid section
+/// Complexity: O(size of the history).
 FAQEM_EXPORT CollapseHistory read_history(std::istream& in);
 
 FAQEM_NAMESPACE_END

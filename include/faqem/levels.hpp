@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Levels of detail: one run, many meshes, from fine to coarse.
+/// Levels of detail: several meshes from one run, from fine to coarse.
 
 #include <variant>
 #include <vector>
@@ -10,36 +10,37 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// What one level is to be: a number of faces (ratio(), faces()), or the smallest mesh found within a
-/// distance of the original (model_units(), of_diagonal()).
+/// Target of one level: a face count (ratio(), faces()), or the smallest mesh found within a distance of the
+/// original (model_units(), of_diagonal()).
 using Level = std::variant<Target, MaxError>;
 
-/// One level, and how far it is from the original.
+/// One level, with its distance from the original.
 struct SimplifiedLevel {
-    /// As simplify() gives it: origins and history lead back to the original. Counts of the report are those
-    /// since the original, times those of this level alone. Of a level that is a distance, report.max_error
-    /// is there.
+    /// As returned by simplify(): origins and history refer to the original. The counts of the report are
+    /// totals since the original, the times are those of this level only. report.max_error is set if the
+    /// target of the level is a distance.
     SimplifyResult result;
-    double distance = 0;  ///< of a point that was found: the two-sided distance is not smaller. Model units
-    /// No point of original or result is farther from the other, and no level before it has a larger error:
-    /// the larger of both, so that errors ascend. Infinity where nothing is left.
+    double distance = 0;  ///< lower bound of the two-sided Hausdorff distance to the original, model units
+    /// Upper bound of that distance, model units, or the error of the previous level if that is larger:
+    /// errors never descend. Infinity if no face is left.
     double error = 0;
 };
 
-/// Simplifies to one level after the other: each goes on from the one before, and is measured against the
-/// original. What comes after the last collapse (preset best moves the vertices) is done to a copy, so that
-/// the next level does not suffer from it. One level alone is what simplify() gives.
+/// Simplifies a mesh to several levels of detail. Each level continues from the previous one and is measured
+/// against the original. The final vertex fitting of Preset::best is applied to a copy of the level, so that
+/// it does not affect the next one. A single level equals the result of simplify().
 /// \param mesh     any triangle soup; read only during the call
-/// \param levels   from fine to coarse: counts (ratios are of the original's faces) must not ascend,
-///                 distances not descend. A count above what the level before has gives that mesh again; so
-///                 does a distance that it exceeds, with a warning.
-/// \param options  as for simplify(); target and max_error have to be unset
-/// \return one per level; where progress cancelled, the last one's stop says so, and the others are those
-///         that were ready. An empty mesh gives empty results.
-/// \throws OptionError  a level is out of range or finer than the one before, or an option is out of range
+/// \param levels   from fine to coarse: face counts (ratios refer to the original's faces) must not increase,
+///                 distances must not decrease. A face count above that of the previous level repeats that
+///                 level; so does a distance that the previous level exceeds, with a warning
+/// \param options  as for simplify(); target and max_error must be unset
+/// \return one result per level; for an empty mesh, empty results. If the progress callback cancels,
+///         report.stop of the last result is StopReason::cancelled, any results before it are complete, and
+///         results may be missing
+/// \throws OptionError  a level is out of range or finer than a previous one, or an option is out of range
 /// \throws InputError   as simplify()
-/// Complexity: for counts one run, and one measurement for each. A distance takes up to 12 runs more, from
-/// the original over the levels before it, each measured.
+/// Complexity: for face counts one run, and one measurement per level. Each distance takes up to 12 more
+/// runs, from the original over the previous levels, each with a measurement.
 FAQEM_EXPORT std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
                                                           const std::vector<Level>& levels,
                                                           const Options& options = {});

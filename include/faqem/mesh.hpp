@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangle meshes as plain arrays: what goes into faqem and what comes out.
+/// Triangle meshes as plain arrays: views of the caller's arrays for input, and meshes that own their arrays.
 
 #include <array>
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// Index of a vertex, face or corner. Corner c of face f is 3 * f + c, always computed in 64 bits.
+/// Index of a vertex or a face. Corner c of face f has the number 3 * f + c, computed with 64 bits.
 using Index = std::uint32_t;
 
-/// "None", wherever an Index may be absent.
+/// The absence of an index.
 inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 using Vec2f = std::array<float, 2>;
@@ -25,11 +25,11 @@ using Vec3f = std::array<float, 3>;
 using Vec4f = std::array<float, 4>;
 using Vec3 = std::array<double, 3>;
 
-/// Three vertex indices, counter-clockwise seen from outside.
+/// Three vertex indices, counter-clockwise as seen from outside.
 using Triangle = std::array<Index, 3>;
 
-/// Positions that belong to the caller, as float or double, where they are: packed, interleaved with other
-/// data, or one coordinate after the other. Nothing is copied.
+/// View of the caller's vertex positions, float or double: packed, interleaved with other data, or
+/// column-major. Does not copy or own them; they must outlive the view.
 class PositionView {
 public:
     PositionView() = default;
@@ -37,17 +37,17 @@ public:
     PositionView(std::span<const Vec3f> p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
     PositionView(const std::vector<Vec3>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
     PositionView(const std::vector<Vec3f>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
-    /// Flat xyz; a trailing one or two numbers are ignored.
+    /// Flat array x0 y0 z0 x1 ...; one or two excess numbers at the end are ignored.
     PositionView(std::span<const double> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
     PositionView(std::span<const float> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
     PositionView(const std::vector<double>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
     PositionView(const std::vector<float>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
 
-    /// Any layout: sizeof(Vertex) is the stride of positions in an array of Vertex; of a matrix with a row
-    /// per vertex, column by column, it is sizeof(double), and the step sizeof(double) * rows.
+    /// Any layout. For an array of structs Vertex the stride is sizeof(Vertex). For a column-major matrix
+    /// with one row per vertex the stride is sizeof(double), and the step sizeof(double) * rows.
     /// \param first   x of the first vertex; need not be aligned
-    /// \param count   of vertices
-    /// \param stride  bytes from a vertex to the next one
+    /// \param count   number of vertices
+    /// \param stride  bytes from one vertex to the next
     /// \param step    bytes from x to y, and from y to z
     PositionView(const double* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(double))
@@ -84,8 +84,8 @@ private:
     bool is_double_ = false;
 };
 
-/// Triangles that belong to the caller, as triples or as a flat list of indices, of 16 or 32 bits. Nothing is
-/// copied.
+/// View of the caller's triangles, as triples or as a flat array of indices with 16 or 32 bits. Does not copy
+/// or own them; they must outlive the view.
 class TriangleView {
 public:
     TriangleView() = default;
@@ -93,7 +93,7 @@ public:
         : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
     TriangleView(const std::vector<Triangle>& t)
         : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
-    /// Flat list; a trailing one or two indices are ignored.
+    /// Flat array, three indices per triangle; one or two excess indices at the end are ignored.
     TriangleView(std::span<const Index> flat)
         : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
     TriangleView(std::span<const std::uint16_t> flat)
@@ -103,11 +103,11 @@ public:
     TriangleView(const std::vector<std::uint16_t>& flat)
         : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
 
-    /// Any layout, as PositionView(). Of signed indices, those below 0 are out of range.
+    /// Any layout, as for PositionView. Negative signed indices are out of range.
     /// \param first   first corner of the first triangle; need not be aligned
-    /// \param count   of triangles
-    /// \param stride  bytes from a triangle to the next one
-    /// \param step    bytes from a corner to the next one
+    /// \param count   number of triangles
+    /// \param stride  bytes from one triangle to the next
+    /// \param step    bytes from one corner to the next
     TriangleView(const Index* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(Index))
         : data_(first), size_(count), stride_(stride), step_(step) {}
     TriangleView(const std::int32_t* first, std::size_t count, std::size_t stride,
@@ -143,32 +143,34 @@ private:
     bool is_short_ = false;
 };
 
-/// Attributes that live on face corners (UVs, colours): `width` floats per corner, 3 * faces corners.
-/// Corners at one vertex with equal values form a wedge; a vertex with more than one wedge is on a seam.
+/// Attributes of face corners, such as UVs and colours. Corners at one vertex with equal values form a wedge;
+/// a vertex with several wedges is on a seam.
 struct CornerAttributes {
-    std::vector<float> values;  ///< 3 * faces * width, or empty
-    std::uint32_t width = 0;    ///< floats per corner; 0 when there are none
+    std::vector<float> values;  ///< 3 * faces * width, finite, in the order of the corners; or empty
+    std::uint32_t width = 0;    ///< number of floats per corner; 0 if there are no attributes
 };
 
-/// A triangle soup that belongs to the caller. Non-manifold edges, duplicate and zero-area faces are allowed.
+/// View of the caller's triangle soup. Non-manifold edges, duplicate faces and faces of zero area are
+/// allowed.
 struct MeshView {
-    PositionView positions;                        ///< one per vertex, model units, finite
-    TriangleView triangles;                        ///< each index < positions.size()
-    std::span<const Index> face_groups = {};       ///< empty, or one group (material) per face
-    const CornerAttributes* attributes = nullptr;  ///< null, or attributes to carry along (UVs are kept)
-    std::span<const std::uint8_t> vertex_locks =
-        {};  ///< empty, or one per vertex; nonzero: must stay where it is
-    /// Empty, or one per vertex, in [1e-6, 1e6]: errors around it count this many times. See docs/method.md.
+    PositionView positions;                   ///< one per vertex, model units, finite
+    TriangleView triangles;                   ///< indices < positions.size()
+    std::span<const Index> face_groups = {};  ///< empty, or the group (material) of each face
+    /// Null, or attributes to preserve: collapses that would tear a seam are rejected.
+    const CornerAttributes* attributes = nullptr;
+    std::span<const std::uint8_t> vertex_locks = {};  ///< empty, or one per vertex; nonzero: must not move
+    /// Empty, or one per vertex, in [1e-6, 1e6]: factor on the costs of its collapses, see docs/method.md.
     std::span<const float> vertex_weights = {};
 };
 
 /// A triangle mesh that owns its arrays.
 struct TriangleMesh {
     std::vector<Vec3> positions;      ///< one per vertex, model units
-    std::vector<Triangle> triangles;  ///< each index < positions.size()
+    std::vector<Triangle> triangles;  ///< indices < positions.size()
     std::vector<Index> face_groups;   ///< empty, or one per face
     CornerAttributes attributes;      ///< empty, or 3 * faces corners
 
+    /// View of this mesh; valid until the mesh is modified or destroyed.
     MeshView view() const {
         return {positions, triangles, face_groups, attributes.width ? &attributes : nullptr, {}};
     }

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Door (b): an OpenMesh triangle mesh, simplified in place. Needs OpenMesh.
+/// Entry point for OpenMesh triangle meshes, which are simplified in place. Needs OpenMesh.
 ///
-/// A half-edge adapter: it feeds the mesh's connectivity, border and status bits to the engine and replays
-/// the collapses with OpenMesh's own collapse(), so that handles and custom properties of what survives stay
-/// valid. The loop does not run on OpenMesh itself: its kernel cannot hold edges with three faces, and is
-/// slower by far.
+/// The mesh is converted to arrays (connectivity, and locks from its status bits) and simplified. The
+/// collapses are then repeated with OpenMesh's collapse(), so that handles and custom properties of the
+/// remaining elements stay valid. The collapse loop does not use OpenMesh's data structure, which cannot
+/// represent edges with three faces and is much slower.
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cassert>
@@ -18,13 +18,13 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// Which part of an OpenMesh mesh may change.
+/// The part of an OpenMesh mesh that may change.
 enum class Region {
     all,
-    selected_faces,  ///< only vertices whose faces are all selected
+    selected_faces,  ///< only vertices whose faces are all selected may move or be removed
 };
 
-/// What properties of the mesh say; invalid handles say nothing.
+/// Properties of the mesh with additional input. An invalid handle means that there is no such property.
 struct Properties {
     OpenMesh::VPropHandleT<float> weight = OpenMesh::VPropHandleT<float>();  ///< as MeshView::vertex_weights
     OpenMesh::FPropHandleT<Index> group = OpenMesh::FPropHandleT<Index>();   ///< as MeshView::face_groups
@@ -32,15 +32,15 @@ struct Properties {
 
 namespace openmesh_detail {
 
-/// The mesh as arrays. Vertex i is the vertex handle i; faces are those that are not deleted.
+/// The mesh as arrays. Array index and handle of a vertex are equal; deleted faces are left out.
 template <class Mesh>
 struct Arrays {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
-    std::vector<std::uint8_t> locked;
-    std::vector<float> weights;  ///< empty, or one per vertex
-    std::vector<Index> groups;   ///< empty, or one per face
-    std::vector<typename Mesh::FaceHandle> faces;
+    std::vector<std::uint8_t> locked;              ///< one per vertex
+    std::vector<float> weights;                    ///< empty, or one per vertex
+    std::vector<Index> groups;                     ///< empty, or one per face
+    std::vector<typename Mesh::FaceHandle> faces;  ///< handle of each face
 };
 
 template <class Mesh>
@@ -71,7 +71,7 @@ void lock_by_status(const Mesh& mesh, Region region, std::vector<std::uint8_t>& 
     }
 }
 
-// Deleted vertices have no say.
+// Deleted vertices keep the default weight.
 template <class Mesh>
 void read_properties(const Mesh& mesh, const Properties& properties, Arrays<Mesh>& arrays) {
     if (properties.weight.is_valid()) {
@@ -120,8 +120,9 @@ void move(Mesh& mesh, typename Mesh::VertexHandle v, const Vec3& p) {
                                            static_cast<Scalar>(p[2])));
 }
 
-/// Swaps the edge between faces f and g as the history tells it: f keeps the vertex where its halfedge on
-/// that edge begins. OpenMesh may give the two new faces the other handles: then these are exchanged.
+/// Flips the edge between faces f and g as in the history: f keeps the vertex at which its half-edge on that
+/// edge begins. OpenMesh may assign the handles of the two new faces the other way round; they are then
+/// exchanged.
 template <class Mesh>
 void flip_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHandle& g) {
     for (const auto h : mesh.fh_range(f)) {
@@ -134,10 +135,10 @@ void flip_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHand
         if (!stays) std::swap(f, g);
         return;
     }
-    assert(!"the faces of a swap share an edge");
+    assert(!"the faces of a flip share an edge");
 }
 
-/// Repeats the collapses, deletions and flips of `history` on the mesh it came from.
+/// Repeats the collapses, deletions and flips of `history` on the mesh that it was recorded for.
 template <class Mesh>
 void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& history) {
     std::vector<typename Mesh::VertexHandle> handle(history.positions.size() + history.collapses.size());
@@ -161,7 +162,7 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
         handle[history.positions.size() + k] = survivor;
     }
     delete_faces_until(history.collapses.size());
-    // Faces that ended without area are no part of the result.
+    // Faces of zero area that remain are not part of the result.
     std::vector<std::uint8_t> kept(arrays.faces.size(), 0);
     for (const Index f : history.kept_faces) kept[f] = 1;
     for (std::size_t f = 0; f < kept.size(); ++f) {
@@ -182,28 +183,30 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
 
 }  // namespace openmesh_detail
 
-/// Simplifies `mesh` in place, with the engine's strict link condition: a half-edge mesh stays one.
-/// \param mesh     any TriMesh_ArrayKernelT. Locked, and feature, vertices do not move; nor do the corners of
-///                 locked or feature edges and faces. Deleted elements are left alone. Status properties are
-///                 requested where missing. What is removed is marked deleted: call mesh.garbage_collection()
-///                 when you like. Normals are not updated.
-/// \param options  see Options; `topology.link`, `topology.weld` and `history` are decided here, `bake` is
-///                 ignored
-/// \param region   which part may change
-/// \param properties  weights and groups, where the mesh has such
-/// \return the report. When cancelled, the mesh is unchanged. `max_error` is measured in double, before the
-///         mesh rounds the positions to its scalar.
-/// \throws OptionError  as simplify(const MeshView&, ...); virtual edges are on: a half-edge mesh cannot have
-///                      them
+/// Simplifies an OpenMesh mesh in place. The link condition is always enforced, so that the result is a valid
+/// half-edge mesh.
+/// \param mesh        any TriMesh_ArrayKernelT. Locked and feature vertices do not move, nor do the vertices
+///                    of locked or feature edges and faces. Deleted elements are ignored. Missing status
+///                    properties are requested. Removed elements are marked as deleted; call
+///                    mesh.garbage_collection() to remove them. Normals are not updated
+/// \param options     see Options; topology.link, topology.weld and history are overridden; budget,
+///                    visibility and bake have no effect
+/// \param region      the part of the mesh that may change
+/// \param properties  optional weights and groups
+/// \return the report. If the progress callback cancels, report.stop is StopReason::cancelled and the mesh is
+///         unchanged. Report::max_error is measured in double precision, before positions are rounded to the
+///         scalar of the mesh
+/// \throws OptionError  an option is out of range, or virtual edges are on, which a half-edge mesh cannot
+///                      have
 /// \throws InputError   a position is not finite, or a weight is out of range
-///
+/// \throws whatever the progress callback throws
 /// Complexity: O(n log n) in the number of faces for bounded valence.
 template <class Traits>
 Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = {},
                 Region region = Region::all, const Properties& properties = {}) {
     using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
     if (options.topology.virtual_edges == VirtualEdges::on) {
-        throw OptionError("virtual edges join parts in ways that a half-edge mesh cannot hold");
+        throw OptionError("virtual edges must be off: a half-edge mesh cannot represent the result");
     }
     options.topology.link = LinkCondition::strict;
     options.topology.weld = Weld::none;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One options struct for every door. All members have defaults; use designated initialisers.
+/// Options of all entry points. All members have defaults; use designated initialisers.
 
 #include <array>
 #include <cstdint>
@@ -11,214 +11,218 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// How many faces are wanted. See ratio() and faces().
+/// Target face count, see ratio() and faces().
 struct Target {
     enum class Kind {
-        unset,  ///< as few as Options::max_error allows; without that, `value` as a ratio
-        ratio,
-        faces,
+        unset,  ///< determined by Options::max_error; if that is unset too, `value` is a ratio
+        ratio,  ///< `value` is a share of the input's faces
+        faces,  ///< `value` is a number of faces
     };
     Kind kind = Kind::unset;
     double value = 0.1;
 };
 
-/// A share of the input's faces, in (0, 1]. The result has at most max(4, floor(r * faces)) faces.
+/// Target as a share of the input's faces, in (0, 1]. The result has at most max(4, floor(r * faces)) faces.
 constexpr Target ratio(double r) { return {Target::Kind::ratio, r}; }
 
-/// A number of faces, >= 1. The result has at most max(4, n) faces.
+/// Target as a number of faces, >= 1. The result has at most max(4, n) faces.
 constexpr Target faces(std::uint64_t n) { return {Target::Kind::faces, static_cast<double>(n)}; }
 
-/// A distance or a size. See model_units() and of_diagonal().
+/// A distance or a size, see model_units() and of_diagonal().
 struct Length {
     enum class Unit {
-        model,     ///< of an asset, the scene's
-        diagonal,  ///< of the original's bounding box; of an asset, the whole scene's
+        model,     ///< model units; for an asset, scene units
+        diagonal,  ///< diagonal of the bounding box of the original mesh; for an asset, of the scene
     };
     double value = 0;
     Unit unit = Unit::model;
 };
 
-/// How far result and original may be from each other: no point of either is farther from the other, as
-/// hausdorff() measures it.
+/// Maximum two-sided Hausdorff distance between result and original, as measured by hausdorff().
 using MaxError = Length;
 
 /// A length in model units, finite and > 0.
 constexpr Length model_units(double length) { return {length, Length::Unit::model}; }
 
-/// A length as a share of the bounding box's diagonal, finite and > 0: 0.001 is a thousandth of it.
+/// A length as a share of the bounding-box diagonal, finite and > 0.
 constexpr Length of_diagonal(double share) { return {share, Length::Unit::diagonal}; }
 
-/// A named choice of metric, weights and rules.
+/// A named combination of metric, weights and legality rules; details in docs/method.md.
 enum class Preset {
-    qem,       ///< Garland and Heckbert 1997: plane quadrics, link condition
-    paper,     ///< FA-QEM as written: inverse-area base, curvature boundary, normal and area terms
-    stmw,      ///< Liu et al. 2024 as far as it is public: area-weighted quadrics, boundary-edge area term
-    fast,      ///< area-weighted planes without memory, planes that hold open edges; the weights do not apply
-    balanced,  ///< as fast, and what a collapse adds to the largest distance from the original counts too
-    best,      ///< as balanced, and in the end vertices are moved closer to the original
+    qem,    ///< Garland and Heckbert 1997: accumulated plane quadrics, link condition
+    paper,  ///< FA-QEM (arXiv 2605.14029): inverse-area quadrics, boundary, normal and area terms
+    stmw,   ///< Liu et al. 2024 (arXiv 2409.15458), as far as published: area-weighted quadrics, area term
+    fast,   ///< memoryless area-weighted quadrics (Lindstrom and Turk 1998), boundary planes; ignores Weights
+    balanced,  ///< as `fast`; the increase of the tracked distance to the original adds to the cost
+    best,      ///< as `balanced`; then vertices are fitted to the original and edges flipped
 };
 
-/// Every preset, in the order of the tables.
+/// All presets, in the order of the enumeration.
 inline constexpr std::array<Preset, 6> all_presets = {Preset::qem,  Preset::paper,    Preset::stmw,
                                                       Preset::fast, Preset::balanced, Preset::best};
 
-/// Weights of the terms; what is not set comes from the preset. All must be finite and >= 0.
+/// Weights of the cost terms, finite and >= 0. Unset weights are those of the preset. Equation numbers, and
+/// the values of Preset::paper, are those of FA-QEM (arXiv 2605.14029).
 struct Weights {
-    std::optional<double> area = {};      ///< Lindstrom-Turk boundary area cost (paper eq. 11); paper: 100
-    std::optional<double> boundary = {};  ///< curvature-scaled boundary planes (paper eq. 6-9); paper: 500
-    std::optional<double> normal = {};    ///< tangent plane at the vertex (paper eq. 10); paper: 0.01
-    std::optional<double> uv = {};        ///< factor on quadrics at UV seams, where UVs are kept; paper: 5000
-    /// Inverse-area base weight (paper eq. 5), 0: unweighted; paper: 1.
+    std::optional<double> area = {};      ///< boundary area term of Lindstrom and Turk (eq. 11); paper: 100
+    std::optional<double> boundary = {};  ///< curvature-scaled boundary planes (eq. 6-9); paper: 500
+    std::optional<double> normal = {};    ///< tangent plane at the vertex (eq. 10); paper: 0.01
+    std::optional<double> uv = {};        ///< factor on quadrics at preserved UV seams; paper: 5000
+    /// Inverse-area weight of planes (eq. 5), 0: unweighted; paper: 1.
     std::optional<double> plane_area = {};
 };
 
-/// The link condition keeps the topology of a manifold surface (Dey et al. 1999).
+/// When the link condition (Dey et al. 1999), which preserves the topology of a manifold surface, is
+/// enforced.
 enum class LinkCondition {
     as_preset,
     off,
-    /// Kept where the surface is manifold, until collapses elsewhere cost more than what it protects could: a
-    /// handle that is smaller than the error goes. Presets without memory only; elsewhere as `on`.
+    /// Enforced on manifold neighbourhoods, but lifted for a pair when other collapses cost more than a
+    /// violation at a pair of its length could: handles smaller than the error are removed. Only for
+    /// memoryless presets (fast, balanced, best); otherwise as `on`.
     by_size,
-    on,      ///< kept where the surface is manifold, until nothing else is left to reach the target
-    strict,  ///< kept always; pairs at non-manifold vertices are not collapsed
+    on,      ///< enforced on manifold neighbourhoods, lifted only if the target cannot be reached otherwise
+    strict,  ///< always enforced; pairs with a non-manifold vertex are not collapsed
 };
 
-/// Whether vertices at one place are one vertex.
+/// Whether vertices with equal or close positions are merged before simplification.
 enum class Weld { by_position, none };
 
-/// Whether vertices on open borders may move.
+/// Whether boundary vertices may move.
 enum class Boundary { free, locked };
 
-/// Whether the curves between faces of different groups (of an asset: materials) may move.
+/// How boundaries between faces of different groups (for an asset: materials) are treated.
 enum class GroupBoundaries {
     free,
-    kept,  ///< held in place as open borders are, and never torn or joined, even if the target is missed
+    kept,  ///< preserved as surface boundaries are, never torn or merged, even if the target is missed
 };
 
-/// Collapses between open borders of parts that do not touch (paper, supplementary).
+/// Whether nearby boundary vertices of different components may be collapsed (FA-QEM, supplementary
+/// material).
 enum class VirtualEdges { off, on };
 
-/// What may happen to the connectivity.
+/// Options for the connectivity of the mesh.
 struct Topology {
     LinkCondition link = LinkCondition::as_preset;
     Boundary boundary = Boundary::free;
     GroupBoundaries group_boundaries = GroupBoundaries::free;
-    /// Files split vertices at UV and normal seams: without welding, every seam would be an open border.
+    /// Files duplicate vertices at UV and normal seams: without welding, every seam would be a boundary.
     Weld weld = Weld::by_position;
-    /// Vertices at most this far apart (model units) become one. Unset: the preset's (paper 1e-6, else
-    /// exact).
+    /// Maximum distance between welded vertices, model units, finite and >= 0. Unset: that of the preset
+    /// (1e-6 for `paper`, 0 for all others).
     std::optional<double> weld_distance = {};
     VirtualEdges virtual_edges = VirtualEdges::off;
-    /// Largest gap a virtual edge may span, as a share of the bounding-box diagonal, in (0, 1].
+    /// Maximum length of a virtual edge, as a share of the bounding-box diagonal, in (0, 1].
     double virtual_edge_distance = 0.01;
-    /// Connected components whose bounding box has a smaller diagonal are deleted before anything else; of an
-    /// asset, those smaller in all places of the scene. The largest of each mesh stays, and so do those with
-    /// locked vertices. max_error does not count what they were.
+    /// Connected components whose bounding box has a smaller diagonal are deleted first; for an asset, at the
+    /// largest scale of their instances. Finite and > 0. The largest component of each mesh, and components
+    /// with a locked vertex, are kept. max_error is measured from the mesh without the deleted components.
     std::optional<Length> prune = {};
 };
 
-/// How the target of a scene is spread over its meshes; used by the asset door only.
+/// How the target of a scene is distributed to its meshes; assets only.
 enum class Budget {
-    scene,  ///< by error: where faces show more, more are kept
-    mesh,   ///< in proportion to each mesh's faces
+    scene,  ///< by error: meshes whose simplification causes larger errors keep more faces
+    mesh,   ///< in proportion to the face count of each mesh
 };
 
-/// Whether what is hidden from outside counts less; used by the asset door only. See docs/method.md.
+/// Whether errors on hidden surface count less; assets only. See docs/method.md.
 enum class Visibility {
     ignored,
-    weighted,  ///< errors count by how much of the surface around them can be seen from outside the scene
+    weighted,  ///< costs are weighted by the visibility of the surface from outside the scene, at least 1/50
 };
 
-/// Whether the collapse history is kept. Off costs nothing.
+/// Whether optional data, such as the collapse history, is recorded.
 enum class Recording { off, on };
 
-/// Where the colours of the small model go.
+/// How the colours of the simplified model are stored.
 enum class Bake {
-    automatic,     ///< `atlas` or `per_triangle`, page by page: see docs/baking.md
-    atlas,         ///< a new atlas of charts: neighbouring triangles lie together
-    per_triangle,  ///< a new atlas, every triangle on its own (paper, Sec. 3.2.3)
+    automatic,     ///< `atlas` or `per_triangle`, chosen per page, see docs/baking.md
+    atlas,         ///< a new texture atlas of UV charts with adjacent triangles
+    per_triangle,  ///< a new texture atlas with separate triangles (FA-QEM, Sec. 3.2.3)
     vertex,        ///< vertex colours
-    keep,          ///< the source's UVs and images, carried through the collapses
-    none,          ///< geometry only: factors stay, textures go
+    keep,          ///< the UVs and images of the source, preserved by the collapses
+    none,          ///< geometry and material factors only; textures are dropped
 };
 
-/// Does it lay the small mesh out on new images?
+/// Tests whether a kind of baking makes a new texture atlas.
 constexpr bool makes_atlas(Bake kind) {
     return kind == Bake::automatic || kind == Bake::atlas || kind == Bake::per_triangle;
 }
 
-/// How a point of the small surface finds its place on the original.
+/// How points of the simplified mesh are mapped to the original; details in docs/baking.md.
 enum class Mapping {
     projection,  ///< successive projection through the collapse history (after Liu et al. 2024)
-    lineage,     ///< the paper's heuristic: the closer of the two parents, again and again
-    closest,     ///< the closest point of the original, whatever side or sheet it is on: for comparison
+    lineage,     ///< heuristic of FA-QEM: the closer parent of each undone collapse
+    closest,     ///< closest point of the original, regardless of side and surface patch; for comparison
 };
 
 /// Vertex normals of the result.
 enum class Normals {
-    transfer,  ///< the original's, through the map
-    smooth,    ///< those of the result's own faces, averaged up to the crease angle
-    flat,      ///< those of the result's own faces, one by one
-    none,      ///< left out, with Bake::none only: for what reads nothing but geometry
+    transfer,  ///< normals of the original at the mapped points
+    smooth,    ///< normals of the result's faces, averaged up to BakeOptions::crease_angle
+    flat,      ///< normals of the result's faces, not averaged
+    none,      ///< no normals; only with Bake::none
 };
 
-/// How baked images are encoded. Images with alpha are PNG in any case.
+/// Encoding of baked images. Images with alpha are always PNG.
 enum class ImageFormat {
     png,
     jpeg,    ///< with BakeOptions::jpeg_quality
-    source,  ///< JPEG where all the images that a channel is baked from are JPEG, else PNG
+    source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG
 };
 
-/// Whether a new atlas has a normal map. With Bake::keep the source's maps stay; elsewhere there is none.
+/// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
-    automatic,  ///< where the source has one, or where its normals differ by more than 5 degrees on average
-    on,         ///< for every lit material: without a map of the source, made from its geometry
+    automatic,  ///< if the source has one, or if normals differ by more than 5 degrees on average by area
+    on,         ///< for every lit material; made from the geometry if the source has no normal map
     off,
 };
 
-/// Appearance of the result; used by the asset door only.
+/// Appearance of the result; assets only. See docs/baking.md.
 struct BakeOptions {
     Bake kind = Bake::automatic;
-    /// Largest side of a baked image in texels, a power of two in [64, 16384].
+    /// Maximum side of a baked image in texels, a power of two in [64, 16384].
     std::uint32_t texture_size = 2048;
-    /// Texels per length of the surface, times those of the source, in [0.125, 8]; texture_size is the limit.
-    /// Unset: 1, and up to 1.41 on small pages, where more texels cost little and less is lost to sampling anew.
+    /// Texels per length of a new texture, relative to the source, in [0.125, 8]; texture_size is the limit.
+    /// Unset: 1, rising to 1.41 on small pages, which lose most by resampling.
     std::optional<double> texel_density = {};
     NormalMap normal_map = NormalMap::automatic;
     Mapping mapping = Mapping::projection;
-    /// Samples per texel and axis, in [1, 8]: 2 means 2 x 2.
+    /// Samples per texel along each axis, in [1, 8]: 2 means 2 x 2.
     std::uint32_t samples = 2;
     Normals normals = Normals::transfer;
-    /// Angle in degrees between normals above which a vertex is split, in [0, 180]. Not used by
+    /// Angle between normals, in degrees, above which a vertex is split, in [0, 180]. Ignored by
     /// Normals::flat.
     double crease_angle = 40;
     ImageFormat image_format = ImageFormat::png;
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
-    /// Whether SimplifiedAsset::correspondence is filled.
+    /// Whether to record SimplifiedAsset::correspondence; needs a new atlas.
     Recording correspondence = Recording::off;
 };
 
-/// Everything that can be asked of simplify().
+/// Options of simplify() and of all other entry points.
 struct Options {
     Target target = {};
     Budget budget = Budget::scene;
     Visibility visibility = Visibility::ignored;
-    /// Without a target: the result is the smallest mesh found within this distance. With one: the target is
-    /// run, and Report::max_error tells whether it is within. What counts is the proven bound, not the value.
+    /// Without a target, the result is the smallest mesh found within this distance of the original. With a
+    /// target, one run is made and measured. In both cases the upper bound of the distance decides, see
+    /// Report::max_error.
     std::optional<MaxError> max_error = {};
     Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};
-    Recording history = Recording::off;
+    Recording history = Recording::off;  ///< whether to record the collapse history; free if off
     BakeOptions bake = {};
-    /// Threads to use at most; 0: all there are. The result does not depend on it.
+    /// Maximum number of threads; 0: all. The result does not depend on it.
     std::uint32_t threads = 0;
-    /// Called now and then; may cancel. May be empty.
+    /// Called at intervals, may cancel the run. May be empty.
     Progress progress = {};
 };
 
-/// Checks every range stated above.
-/// \throws OptionError naming the member
+/// Checks the ranges and combinations stated above.
+/// \throws OptionError  names the option
 FAQEM_EXPORT void validate(const Options& options);
 
 FAQEM_NAMESPACE_END

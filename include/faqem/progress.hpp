@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Progress and cancelling.
+/// Progress callback and cancellation.
 
 #include <functional>
 
@@ -8,16 +8,17 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// The phases of the work, in order.
+/// Phases of a run, in order.
 enum class Phase { load, weld, simplify, map, bake, save };
 
-/// What a callback answers.
+/// Return value of the progress callback.
 enum class Continue { yes, cancel };
 
-/// Called on the calling thread, after every few thousand operations. The fraction may stay for a while.
-/// \param phase     what is being done
-/// \param fraction  share of the phase that is done, in [0, 1]
-/// An exception thrown by the callback passes through to the caller of faqem.
+/// Progress callback. It is called on the thread that called faqem, every few thousand operations. An
+/// exception that it throws ends the run and is passed on to the caller of faqem.
+/// \param phase     current phase
+/// \param fraction  completed share of the phase, in [0, 1]; several calls may have the same value
+/// \return Continue::cancel to end the run with StopReason::cancelled
 using Progress = std::function<Continue(Phase phase, double fraction)>;
 
 FAQEM_NAMESPACE_END

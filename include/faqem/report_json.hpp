@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The report as JSON. A header of its own because the header-only mode needs nlohmann-json for it.
+/// Reports as JSON. This is a separate header because it needs nlohmann-json in header-only mode.
 
 #include <string>
 
@@ -9,7 +9,8 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// The report as JSON, with the keys documented in docs/cli.md and the process's peak memory.
+/// Returns a report as JSON, with the keys documented in docs/cli.md, and the peak resident memory of the
+/// process. Bytes of strings that are not valid UTF-8 are replaced by U+FFFD.
 FAQEM_EXPORT std::string to_json(const Report& report);
 
 FAQEM_NAMESPACE_END

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Levels of detail of a scene in one file.
+/// Saving the levels of detail of a scene in one glTF file.
 
 #include <filesystem>
 #include <string>
@@ -11,24 +11,29 @@
 
 namespace faqem {
 
-/// A level to be saved.
+/// One level of save_levels().
 struct SavedLevel {
     Asset asset;
-    /// One per part: the level is for where the part's box has at most this share of the screen's height as
-    /// its diagonal. Nothing is made of those of the first level.
+    /// One per part: the largest screen coverage at which the level is used, as the diagonal of the part's
+    /// bounding box relative to the screen height. Ignored for the first level.
     std::vector<double> coverage;
 };
 
-/// Saves as .glb or .gltf with the extension MSFT_lod: the scene is that of the first level, and every node
-/// with a mesh names nodes with the meshes of the others, which no scene holds. Viewers that do not know the
-/// extension show the first level. The coverages go along as the hint MSFT_screencoverage, none above 1, the
-/// last 0. Where a node has a place, children or an animation, its mesh goes to a child, so that the levels
-/// need no place of their own. Images of equal bytes are stored once.
-/// \param levels  from fine to coarse, of one source: with the same parts in the same order; at least one
-/// \return what the format could not hold, one sentence each: points and lines are in the first level alone
-/// \throws InputError        the levels have not the same number of parts, or not a coverage for each part
-/// \throws UnsupportedError  the name does not end in .glb or .gltf
+/// Saves levels of detail as one .glb or .gltf file with the extension MSFT_lod.
+///
+/// The scene is that of the first level. Every node with a mesh refers to nodes with the meshes of the other
+/// levels, which are not part of a scene; viewers without the extension show the first level. The coverages
+/// are written as MSFT_screencoverage, at most 1 and non-increasing, the last one 0. If a node has a
+/// transform, children, a camera or an animation, its mesh is moved to a new child node, so that the nodes of
+/// the other levels need no transform. Identical images are stored once.
+/// \param levels     from fine to coarse, at least one, with the same parts in the same order
+/// \param file       name ending in .glb or .gltf
+/// \param overwrite  whether existing files may be replaced
+/// \return what the format cannot store, one sentence each; points and lines are in the first level only
+/// \throws InputError        the levels differ in their number of parts, or lack a coverage for each part
+/// \throws UnsupportedError  the file name does not end in .glb or .gltf
 /// \throws WriteError        as save()
+/// Complexity: O(size of the assets).
 FAQEM_EXPORT std::vector<std::string> save_levels(std::vector<SavedLevel> levels,
                                                   const std::filesystem::path& file,
                                                   Overwrite overwrite = Overwrite::no);

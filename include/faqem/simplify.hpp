@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Door (a): flat arrays in, flat arrays out. Needs the standard library only.
+/// Entry point for flat arrays. Needs only the standard library, and Eigen in header-only mode.
 
 #include <vector>
 
@@ -12,27 +12,29 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// What simplify() gives back. Owns everything.
+/// Result of simplify(). Owns its arrays.
 struct SimplifyResult {
-    TriangleMesh mesh;                 ///< groups and attributes are there if the input had them
-    std::vector<Index> vertex_origin;  ///< per vertex of `mesh`: an input vertex it grew from
-    std::vector<Index> face_origin;    ///< per face of `mesh`: the input face it was
+    TriangleMesh mesh;                 ///< with groups and attributes if the input has them
+    std::vector<Index> vertex_origin;  ///< source vertex: an input vertex that was collapsed into each vertex
+    std::vector<Index> face_origin;    ///< the input face of each face
     Report report;
-    CollapseHistory history;  ///< empty unless options.history is on
+    CollapseHistory history;  ///< empty unless Options::history is on
 };
 
-/// Collapses vertex pairs, cheapest first, until the target is reached (paper, Algorithm 1).
+/// Simplifies a mesh by collapsing vertex pairs in the order of their cost until the target is reached
+/// (FA-QEM, arXiv 2605.14029, Algorithm 1).
 /// \param mesh     any triangle soup; read only during the call
-/// \param options  see Options; `bake` is ignored here
-/// \return the small mesh, the report, and the history if asked for. An empty mesh gives an empty result.
-///         A vertex that was not moved keeps its position to the last bit. Where the progress callback
-///         cancels, report.stop says so, and the mesh is as far as it was if collapses were under way, or
-///         else empty.
+/// \param options  see Options; budget, visibility and bake have no effect
+/// \return the simplified mesh, the report, and the history if requested. An empty mesh gives an empty
+///         result. A vertex that was not moved has its input position, bit by bit. If the progress callback
+///         cancels, report.stop is StopReason::cancelled, and the mesh is an intermediate one or empty
 /// \throws OptionError  an option is out of range
-/// \throws InputError   an index is out of range, a position is not finite, an array has the wrong length,
-///                      or there are more than 2^32 - 2 vertices or faces, or 2^32 - 2 corners / 3
+/// \throws InputError   an index is out of range, a position or attribute is not finite, a weight is out of
+///                      range, an array has the wrong length, or there are more than 2^32 - 2 vertices or
+///                      715,827,880 faces
+/// \throws whatever the progress callback throws
 /// Complexity: O(n log n) time in the number of faces for bounded valence, O(n) memory. With max_error and no
-/// target up to 12 such runs, each from the original and measured; `progress` goes over all of them.
+/// target, up to 12 runs from the original, each with a measurement; `progress` covers all of them.
 FAQEM_EXPORT SimplifyResult simplify(const MeshView& mesh, const Options& options = {});
 
 FAQEM_NAMESPACE_END

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The map from the small surface to the original, read from the collapse history alone.
+/// The map from the simplified mesh to the original, computed from the collapse history alone.
 
 #include <memory>
 #include <span>
@@ -16,51 +16,56 @@ class SurfaceMap;
 namespace detail {
 struct Workers;
 
-/// A map that several threads make; the calling one polls. \throws what the poll throws
+/// Constructs a SurfaceMap on several threads; the calling thread checks for cancellation.
+/// \throws whatever the cancellation check of `workers` throws
 FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, Mapping mapping,
                                          std::span<const Triangle> unwelded, const Workers& workers);
 }  // namespace detail
 
-/// How a sample found its place.
+/// How a point was mapped; see docs/baking.md for the tests.
 enum class MapStep {
-    history,      ///< the walk through the history, every test passed
-    approximate,  ///< the walk, with the sheet or side test dropped somewhere
-    /// The walk ended on a wrong face: closest one among those that collapsed into the small face. Of
-    /// Mapping::closest: always.
+    history,      ///< by the walk through the history, with all tests passed
+    approximate,  ///< by the walk, which took a face of the wrong side or of another surface patch
+    /// The walk was abandoned or ended on a wrong face, and the closest face that passes the tests was taken.
+    /// Always with Mapping::closest.
     closest,
 };
 
-/// A place on the original surface.
+/// A point on the original surface.
 struct SurfacePoint {
     Index face = no_index;  ///< input face
-    Vec3 barycentric = {};  ///< weights of its three corners, >= 0, sum 1
+    Vec3 barycentric = {};  ///< weights of the three corners, >= 0, sum 1
     MapStep step = MapStep::history;
 };
 
-/// Answers "where on the original is this point of the small mesh?". Immutable once built; map() may be
-/// called from several threads at once.
+/// Maps points of the simplified mesh to the original. Immutable after construction; map() and map_near() may
+/// be called from several threads concurrently.
 class FAQEM_EXPORT SurfaceMap {
 public:
-    /// \param history  of the run that made the small mesh; must outlive the map
-    /// \param mapping  how places are found
-    /// \param unwelded  empty, or the faces of the original as they were before vertices at one place were
-    ///                  joined, one per face of the history: surfaces that touch, and share vertices only
-    ///                  since then, are told apart by it (projection). Not kept.
-    /// O(size of the history) memory; time as well, and O(n log n) for n faces of the original, on all threads
-    /// there are.
+    /// Prepares the map, on all threads of the machine.
+    /// \param history   history of the run; not copied, must outlive the map
+    /// \param mapping   see Mapping
+    /// \param unwelded  empty, or the triangles of the original before welding, one per face of the history.
+    ///                  With them Mapping::projection distinguishes surfaces that touch, but share vertices
+    ///                  only because of welding. Not used after the call
+    /// \pre validate(history) passes
+    /// Complexity: O(n log n) time in the faces of the original plus the size of the history, O(size of the
+    /// history) memory.
     SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded = {});
     ~SurfaceMap();
     SurfaceMap(SurfaceMap&&) noexcept;
     SurfaceMap& operator=(SurfaceMap&&) noexcept;
 
-    /// \param face         face of the small mesh, < history.kept_faces.size()
-    /// \param barycentric  the point on it
-    /// \return a face of the original and barycentrics on it; never no_index
+    /// Maps one point.
+    /// \param face         face of the simplified mesh, < history.kept_faces.size()
+    /// \param barycentric  weights of its three corners, >= 0, sum 1
+    /// \return a point on the original; its face is never no_index
+    /// Complexity: O(log n) typically.
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// As map(), but faster for many points close together: `near` bounds the search instead of a walk. The
-    /// same answer, except where only the walk would find a face that is closer still.
-    /// \param near  answer for a nearby point of the same small face
+    /// As map(), but faster for many adjacent points: `near` bounds the search, and the walk is usually not
+    /// needed. The result is the same, unless only the walk would find a closer face.
+    /// \param near  result for a nearby point of the same simplified face
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:

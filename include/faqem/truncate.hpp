@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Levels of detail from a stored history, without another run.
+/// Levels of detail from a stored history, without another run: the history is truncated at a face count.
 
 #include <array>
 #include <cstdint>
@@ -14,17 +14,18 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// What a run had at the end of a level that was not its last one.
+/// The state of a run at the end of a level other than the last one.
 struct HistoryLevel {
-    std::uint64_t collapses = 0;              ///< how many came before
-    std::uint64_t deleted = 0;                ///< how many of CollapseHistory::deleted_faces came before
-    std::vector<std::array<Index, 2>> flips;  ///< faces of edges that were flipped then, in this level alone
-    std::vector<Index> kept_versions;         ///< as those of CollapseHistory
-    std::vector<Index> kept_faces;
-    std::vector<Vec3> kept_positions;
+    std::uint64_t collapses = 0;  ///< number of collapses before the end of the level
+    std::uint64_t deleted = 0;    ///< number of CollapseHistory::deleted_faces before the end of the level
+    std::vector<std::array<Index, 2>> flips;  ///< pairs of faces whose edge is flipped in this level only
+    std::vector<Index> kept_versions;         ///< as CollapseHistory::kept_versions
+    std::vector<Index> kept_faces;            ///< as CollapseHistory::kept_faces
+    std::vector<Vec3> kept_positions;         ///< as CollapseHistory::kept_positions
 };
 
-/// The history of a chain: that of its last level, and what the levels before it had.
+/// The history of a chain of levels: that of the last level, and the states at the ends of the previous
+/// levels.
 struct ChainHistory {
     CollapseHistory last;
     std::vector<HistoryLevel> before;  ///< from fine to coarse
@@ -33,43 +34,50 @@ struct ChainHistory {
 };
 
 /// Joins the histories of the levels of one run.
-/// \param levels  from fine to coarse, as simplify_levels() gives them; at least one
-/// \throws InputError  they are not of one run
-/// O(size of all)
+/// \param levels  from fine to coarse, as returned by simplify_levels(); at least one
+/// \throws InputError  the histories are not of one run, or there are none
+/// Complexity: O(total size).
 FAQEM_EXPORT ChainHistory join(std::span<const CollapseHistory> levels);
 
-/// The history of one level, as its run gave it.
+/// Returns the history of one level, equal to that of its run.
 /// \pre level < history.level_count()
-/// O(size)
+/// Complexity: O(size of the history).
 FAQEM_EXPORT CollapseHistory truncate_to_level(const ChainHistory& history, std::size_t level);
 
-/// The history up to where no more than `faces` are left: of a level that the run stopped at there, and of
-/// one with just as many faces, as its run gave it, else with every vertex where the last collapse put it.
-/// Where even the last level has more faces, that level. For presets whose order of collapses does not depend
-/// on the target (qem, paper, stmw) a run to `faces` gives the same, as long as it took no step of the
-/// ladder.
-/// \pre histories are valid
-/// O(size)
+/// Truncates a history at the first time when at most `faces` faces are left. If a level ends there, or has
+/// exactly that many faces, the result is the history of that level; otherwise all vertices are at the
+/// positions of their last collapse. If the last level has more faces, the result is the last level. For qem,
+/// paper and stmw, whose order of collapses does not depend on the target, the result equals that of a run to
+/// `faces` if no rung of the ladder was taken.
+/// \pre validate() passes for all levels
+/// Complexity: O(size of the history).
 FAQEM_EXPORT CollapseHistory truncate_to_faces(const ChainHistory& history, std::uint64_t faces);
 
-/// truncate_to_faces() for the parts of an asset together. As many faces as a level has give that level; others are
-/// shared out in proportion between the levels around them.
-/// \param parts  with as many levels each; those of parts without faces are empty
-/// \throws InputError  the parts have not the same number of levels
+/// Truncates the histories of all parts of an asset to a total face count. The count of a level gives that
+/// level; between two levels, the count of each part is interpolated linearly.
+/// \param parts  one per part, with equal numbers of levels; empty histories for parts without faces
+/// \param faces  total over all parts
+/// \throws InputError  the parts differ in their number of levels
+/// Complexity: O(total size).
 FAQEM_EXPORT std::vector<CollapseHistory> truncate_to_faces(std::span<const ChainHistory> parts,
                                                             std::uint64_t faces);
 
-/// The small mesh of a history, as the run gave it. Attributes on corners are not in a history.
-/// Of the report the counts of faces, vertices and collapses.
+/// Reconstructs the result of a run from its history: the mesh without corner attributes, face_origin, the
+/// history, and the counts of faces, vertices and collapses in the report. vertex_origin is empty.
 /// \pre validate(history) passes
-/// O(size)
+/// Complexity: O(size of the history).
 FAQEM_EXPORT SimplifyResult restore(CollapseHistory history);
 
-/// Writes in a little-endian binary format (docs/history-format.md). \throws WriteError
+/// Writes a chain in the binary little-endian format of docs/history-format.md.
+/// \param out  a binary stream
+/// \throws WriteError  writing failed
+/// Complexity: O(size of the history).
 FAQEM_EXPORT void write(const ChainHistory& history, std::ostream& out);
 
-/// Reads what write() wrote, of a chain or of one history, and validates every level.
-/// \throws InputError naming the section that is wrong
+/// Reads a chain or a single history that write() wrote, and validates every level.
+/// \param in  a binary stream, left just after the history
+/// \throws InputError  names the invalid section
+/// Complexity: O(levels * size of the history).
 FAQEM_EXPORT ChainHistory read_chain_history(std::istream& in);
 
 FAQEM_NAMESPACE_END

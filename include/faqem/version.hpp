@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The version, and the only place that has the number: CMake reads it here.
+/// The version number. It is defined here only; CMake reads this file.
 
 #include <string_view>
 
@@ -8,12 +8,12 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// The version of these headers, as https://semver.org counts. What each number promises is in CHANGELOG.md.
+/// Version of these headers (https://semver.org); CHANGELOG.md states what each number promises.
 inline constexpr int version_major = 0;
 inline constexpr int version_minor = 1;
 inline constexpr int version_patch = 0;
 
-/// "MAJOR.MINOR.PATCH" of the library that runs: with a shared one it may be newer than the headers.
+/// Returns "MAJOR.MINOR.PATCH" of the library in use. A shared library may be newer than the headers.
 FAQEM_EXPORT std::string_view version();
 
 FAQEM_NAMESPACE_END

@@ -25,17 +25,20 @@ Part make_part(const MeshView& mesh) {
     return part;
 }
 
-/// What a writer relies on: simplify() checks it too, but a model can be saved without it.
+/// Checks the invariants that writers rely on. simplify() checks them too, but a model can be saved without
+/// it.
 void check(const Part& part) {
     for (std::size_t v = 0; v < part.positions.size(); ++v) {
         for (const double x : part.positions[v]) {
-            if (!std::isfinite(x)) throw InputError("", "vertex " + std::to_string(v), "is not finite");
+            if (!std::isfinite(x))
+                throw InputError("", "vertex " + std::to_string(v), "position is not finite");
         }
     }
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (const Index v : part.triangles[f]) {
             if (v >= part.positions.size())
-                throw InputError("", "face " + std::to_string(f), "there is no vertex " + std::to_string(v));
+                throw InputError("", "face " + std::to_string(f),
+                                 "vertex index is out of range: " + std::to_string(v));
         }
     }
 }

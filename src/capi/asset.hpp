@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a faqem_asset is inside.
+/// Definition of faqem_asset.
 
 #include <limits>
 #include <optional>
@@ -14,7 +14,7 @@
 
 struct faqem_asset {
     explicit faqem_asset(faqem::Asset made) : asset(std::move(made)) {}
-    /// \throws CancelledError
+    /// \throws CancelledError  the run was cancelled
     explicit faqem_asset(faqem::SimplifiedAsset simplified,
                          double error = std::numeric_limits<double>::quiet_NaN())
         : asset(std::move(simplified.asset)),
@@ -25,18 +25,18 @@ struct faqem_asset {
     }
 
     faqem::Asset asset;
-    std::optional<faqem::capi::ReportWithJson> stored_report = {};  ///< of what was made of another
-    std::vector<faqem::CollapseHistory> histories =
-        {};  ///< one per part, or none where they were not asked for
-    double level_error = std::numeric_limits<double>::quiet_NaN();
+    std::optional<faqem::capi::ReportWithJson> stored_report = {};  ///< set for simplified assets
+    std::vector<faqem::CollapseHistory> histories = {};  ///< one per part, or empty if not recorded
+    double level_error = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the asset is not a level
 };
 
 namespace faqem::capi {
 
-/// \throws OptionError  it is no enumerator
+/// Converts to the C++ enumeration.
+/// \throws OptionError  unknown enumerator
 inline Overwrite to_overwrite(faqem_overwrite overwrite) {
     if (overwrite != FAQEM_OVERWRITE_NO && overwrite != FAQEM_OVERWRITE_YES)
-        throw OptionError("overwrite: no such enumerator");
+        throw OptionError("overwrite: unknown enumerator");
     return overwrite == FAQEM_OVERWRITE_YES ? Overwrite::yes : Overwrite::no;
 }
 

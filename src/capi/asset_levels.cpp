@@ -19,7 +19,7 @@ using namespace faqem;
 
 void check_levels(const faqem_asset* const* levels, std::size_t count) {
     capi::require_argument(levels, "levels");
-    if (count == 0) throw OptionError("there are no levels");
+    if (count == 0) throw OptionError("levels: at least one is required");
     for (std::size_t i = 0; i < count; ++i)
         capi::require_argument(levels[i], ("level " + std::to_string(i)).c_str());
 }
@@ -35,7 +35,7 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
         capi::require_argument(levels, "levels");
         capi::require_argument(results, "results");
         if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
-            throw OptionError("textures: no such enumerator");
+            throw OptionError("textures: unknown enumerator");
         std::vector<SimplifiedAssetLevel> simplified = simplify_levels(
             asset->asset, capi::to_levels(levels, level_count), capi::options_or_defaults(options),
             textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
@@ -57,7 +57,7 @@ faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_co
         check_levels(levels, level_count);
         capi::require_argument(path, "path");
         if (!(screen_error > 0 && std::isfinite(screen_error)))
-            throw OptionError("screen_error: must be finite and above 0");
+            throw OptionError("screen_error must be finite and > 0");
         const Asset& first = levels[0]->asset;
         const detail::SceneSize size = detail::scene_size(first);
         std::vector<SavedLevel> saved;
@@ -82,9 +82,9 @@ faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t
         for (std::size_t i = 0; i < level_count; ++i) {
             const std::string where = "level " + std::to_string(i);
             if (levels[i]->histories.empty())
-                throw OptionError(where + " has no history: faqem_options_set_history() was not asked for");
+                throw OptionError(where + " has no history: see faqem_options_set_history()");
             if (levels[i]->histories.size() != count)
-                throw InputError("", where, "has not as many parts as the first one");
+                throw InputError("", where, "the number of parts differs from that of level 0");
         }
         std::vector<ChainHistory> parts;
         for (std::size_t p = 0; p < count; ++p) {
@@ -104,7 +104,7 @@ faqem_status faqem_asset_bake_truncated(const faqem_asset* source, const faqem_h
         capi::require_argument(simplified, "simplified");
         const Options bake_options = capi::options_or_defaults(options);
         if (bake_options.bake.kind == Bake::keep)
-            throw OptionError("bake: a history does not hold the UVs that were kept");
+            throw OptionError("bake: `keep` is not possible, because a history has no UVs");
         const SimplifiedParts simplified_parts =
             detail::parts_from_histories(capi::truncate_parts(history, faces));
         detail::check_source_matches_histories(source->asset, simplified_parts);

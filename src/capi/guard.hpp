@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// No exception leaves the C door.
+/// Conversion of exceptions to status codes: no exception may leave the C API.
 
 #include <string>
 
@@ -9,21 +9,24 @@
 
 namespace faqem::capi {
 
-/// The work was given up because the progress callback said so.
+/// The progress callback cancelled the run.
 class CancelledError : public Error {
 public:
-    CancelledError() : Error("cancelled") {}
+    CancelledError() : Error("cancelled by the progress callback") {}
 };
 
-/// To be called in a handler: what the exception is, also written to `error` where there is one.
+/// Converts the current exception to a status and message. To be called in a catch block.
+/// \param error  receives both; may be null
 faqem_status status_of_exception(faqem_error* error) noexcept;
 
-/// \throws OptionError  an argument that must not be null is
+/// Checks that an argument is not null.
+/// \throws OptionError  it is null; the message has its name
 inline void require_argument(const void* argument, const char* name) {
-    if (!argument) throw OptionError(std::string(name) + " is null");
+    if (!argument) throw OptionError(std::string(name) + " must not be null");
 }
 
-/// Runs `work` and says how it ended.
+/// Calls `work` and converts its exceptions.
+/// \param error  receives status and message, also on success; may be null
 template <class Work>
 faqem_status catch_exceptions(faqem_error* error, Work&& work) noexcept {
     try {

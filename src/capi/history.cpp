@@ -21,20 +21,20 @@ static_assert(has_same_value(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
               has_same_value(FAQEM_MAPPING_CLOSEST, Mapping::closest));
 
 const CollapseHistory& history_of(const faqem_result* result) {
-    capi::require_argument(result, "a result");
+    capi::require_argument(result, "result");
     if (result->out.history.empty())
         throw OptionError(
-            "a result has no history: faqem_options_set_history() was not asked for, or there are no faces");
+            "a result has no history: see faqem_options_set_history() (results without faces have none)");
     return result->out.history;
 }
 
 void check_point(const CollapseHistory& history, Index face, const Vec3& weights, std::size_t i) {
     const std::string where = "point " + std::to_string(i);
     if (face >= history.kept_faces.size())
-        throw InputError("", where, "there is no face " + std::to_string(face));
+        throw InputError("", where, "face index is out of range: " + std::to_string(face));
     const double sum = weights[0] + weights[1] + weights[2];
     if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 && sum > 1 - 1e-6 && sum < 1 + 1e-6))
-        throw InputError("", where, "its weights are negative, or their sum is not 1");
+        throw InputError("", where, "barycentric weights must be >= 0 and sum to 1");
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ faqem_history::faqem_history(std::vector<ChainHistory> histories) : parts(std::m
 
 std::vector<CollapseHistory> capi::truncate_parts(const faqem_history* history, std::uint64_t faces) {
     capi::require_argument(history, "history");
-    if (faces == 0) throw OptionError("faces must be at least 1");
+    if (faces == 0) throw OptionError("faces must be >= 1");
     return truncate_to_faces(history->parts, faces);
 }
 
@@ -56,7 +56,7 @@ faqem_status faqem_history_create(const faqem_result* const* results, size_t res
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(results, "results");
         capi::require_argument(history, "history");
-        if (result_count == 0) throw OptionError("there are no results");
+        if (result_count == 0) throw OptionError("results: at least one is required");
         std::vector<CollapseHistory> levels;
         for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
         *history = new faqem_history(std::vector<ChainHistory>{join(levels)});
@@ -93,11 +93,11 @@ faqem_status faqem_history_truncate(const faqem_history* history, uint64_t faces
                                     faqem_error* error) {
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(result, "result");
-        std::vector<CollapseHistory> cuts = capi::truncate_parts(history, faces);
-        if (cuts.size() > 1)
-            throw OptionError("the history is of " + std::to_string(cuts.size()) +
-                              " meshes: they are cut by faqem_history_truncate_parts()");
-        *result = new faqem_result(restore(std::move(cuts.front())));
+        std::vector<CollapseHistory> truncated = capi::truncate_parts(history, faces);
+        if (truncated.size() > 1)
+            throw OptionError("the history has " + std::to_string(truncated.size()) +
+                              " meshes: use faqem_history_truncate_parts()");
+        *result = new faqem_result(restore(std::move(truncated.front())));
     });
 }
 
@@ -106,8 +106,8 @@ faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(results, "results");
         std::vector<std::unique_ptr<faqem_result>> objects;
-        for (CollapseHistory& cut : capi::truncate_parts(history, faces))
-            objects.push_back(std::make_unique<faqem_result>(restore(std::move(cut))));
+        for (CollapseHistory& part : capi::truncate_parts(history, faces))
+            objects.push_back(std::make_unique<faqem_result>(restore(std::move(part))));
         for (std::size_t p = 0; p < objects.size(); ++p) results[p] = objects[p].release();
     });
 }
@@ -122,16 +122,16 @@ faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping,
         capi::require_argument(source_faces, "source_faces");
         capi::require_argument(source_barycentric, "source_barycentric");
         if (mapping < FAQEM_MAPPING_PROJECTION || mapping > FAQEM_MAPPING_CLOSEST)
-            throw OptionError("mapping: unknown");
+            throw OptionError("mapping: unknown enumerator");
         const auto weights = [&](std::size_t i) {
             return Vec3{barycentric[3 * i], barycentric[3 * i + 1], barycentric[3 * i + 2]};
         };
         for (std::size_t i = 0; i < count; ++i) check_point(history, faces[i], weights(i), i);
         const SurfaceMap map(history, static_cast<Mapping>(mapping));
         for (std::size_t i = 0; i < count; ++i) {
-            const SurfacePoint at = map.map(faces[i], weights(i));
-            source_faces[i] = at.face;
-            for (std::size_t k = 0; k < 3; ++k) source_barycentric[3 * i + k] = at.barycentric[k];
+            const SurfacePoint point = map.map(faces[i], weights(i));
+            source_faces[i] = point.face;
+            for (std::size_t k = 0; k < 3; ++k) source_barycentric[3 * i + k] = point.barycentric[k];
         }
     });
 }

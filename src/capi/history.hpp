@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a faqem_history is inside.
+/// Definition of faqem_history.
 
 #include <string>
 #include <vector>
@@ -13,12 +13,14 @@ struct faqem_history {
     explicit faqem_history(std::vector<faqem::ChainHistory> histories);
 
     std::vector<faqem::ChainHistory> parts;
-    std::string bytes;  ///< made at once: getters only read
+    std::string bytes;  ///< serialised in the constructor, so that getters are thread-safe
 };
 
 namespace faqem::capi {
 
-/// truncate_to_faces() for all parts. \throws OptionError, InputError
+/// truncate_to_faces() for all parts.
+/// \throws OptionError  `history` is null, or `faces` is 0
+/// \throws InputError  as truncate_to_faces()
 std::vector<CollapseHistory> truncate_parts(const faqem_history* history, std::uint64_t faces);
 
 }  // namespace faqem::capi

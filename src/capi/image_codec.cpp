@@ -1,4 +1,5 @@
-// Takes the place of the library's own image_codec(), which is linked to OpenImageIO.
+// Replaces the image_codec() of the asset library, which links to OpenImageIO: the C API loads the image
+// plugin when the first image is read or written.
 
 #include "asset/image/image_codec.hpp"
 

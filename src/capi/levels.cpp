@@ -17,7 +17,7 @@ namespace {
 
 using namespace faqem;
 
-constexpr double max_faces = 9007199254740992;  // 2^53: whole numbers are exact up to it
+constexpr double max_faces = 9007199254740992;  // 2^53: doubles represent all integers up to it
 
 Level to_level(const faqem_level& level, std::size_t index) {
     switch (level.kind) {
@@ -25,14 +25,15 @@ Level to_level(const faqem_level& level, std::size_t index) {
             return ratio(level.value);
         case FAQEM_LEVEL_FACES:
             if (!(level.value >= 1 && level.value <= max_faces && level.value == std::floor(level.value)))
-                throw OptionError("level " + std::to_string(index) + ": is no number of faces");
+                throw OptionError("level " + std::to_string(index) +
+                                  ": the number of faces must be an integer from 1 to 2^53");
             return faces(static_cast<std::uint64_t>(level.value));
         case FAQEM_LEVEL_DISTANCE:
             return model_units(level.value);
         case FAQEM_LEVEL_DISTANCE_OF_DIAGONAL:
             return of_diagonal(level.value);
     }
-    throw OptionError("level " + std::to_string(index) + ": is of an unknown kind");
+    throw OptionError("level " + std::to_string(index) + ": unknown kind");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The C door's levels.
+/// Conversion of the C API's levels.
 
 #include <cstddef>
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace faqem::capi {
 
-/// \throws OptionError  an enumerator or a number of faces that there is not
+/// Converts levels of the C API.
+/// \throws OptionError  a kind is unknown, or a number of faces is not an integer from 1 to 2^53
 std::vector<Level> to_levels(const faqem_level* levels, std::size_t count);
 
 }  // namespace faqem::capi

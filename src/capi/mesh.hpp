@@ -1,19 +1,18 @@
 #pragma once
 /// \file
-/// The C door's meshes as views.
+/// Conversion of the C API's meshes to views.
 
 #include "faqem/faqem.h"
 #include "faqem/mesh.hpp"
 
 namespace faqem::capi {
 
-/// A mesh of the C door. Only corner values are copied; indices and positions are checked by whoever gets the
-/// view.
+/// View of a mesh of the C API. Only corner values are copied. Indices and values are not checked here.
 struct MeshArrays {
-    /// \throws InputError  arrays that must be there are null, or there are more elements than indices can
-    ///                     count
+    /// \throws InputError  a required array is null or given twice, or has more elements than 32-bit indices
+    ///                     can address
     explicit MeshArrays(const faqem_mesh& mesh);
-    MeshArrays(const MeshArrays&) = delete;  // the view points into it
+    MeshArrays(const MeshArrays&) = delete;  // `view` refers to `corners`
     MeshArrays& operator=(const MeshArrays&) = delete;
 
     CornerAttributes corners;

@@ -36,7 +36,7 @@ static_assert(has_same_value(FAQEM_PHASE_LOAD, Phase::load) &&
               has_same_value(FAQEM_PHASE_MAP, Phase::map) && has_same_value(FAQEM_PHASE_BAKE, Phase::bake) &&
               has_same_value(FAQEM_PHASE_SAVE, Phase::save));
 
-/// A length of the member that `member` gives.
+/// Sets the Length that `member` returns a reference to.
 template <class Member>
 faqem_status set_length(faqem_options* options, double value, faqem_unit unit, Member&& member) {
     if (unit != FAQEM_UNIT_MODEL && unit != FAQEM_UNIT_DIAGONAL) return FAQEM_ERROR_OPTION;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How the setters of the C door's options are written.
+/// Helpers for the setters of the C API's options.
 
 #include <type_traits>
 
@@ -8,7 +8,8 @@
 
 namespace faqem::capi {
 
-/// Changes the options where there are any.
+/// Applies a change to the options.
+/// \return FAQEM_ERROR_OPTION if `options` is null
 template <class Change>
 faqem_status set(faqem_options* options, Change&& change) {
     if (!options) return FAQEM_ERROR_OPTION;
@@ -16,7 +17,10 @@ faqem_status set(faqem_options* options, Change&& change) {
     return FAQEM_OK;
 }
 
-/// Sets a member to an enumerator of the same number. \param last  the last that there is; the first is 0
+/// Sets a member to the C++ enumerator with the same value.
+/// \param last    last enumerator of the C enumeration; the first is 0
+/// \param member  returns a reference to the member
+/// \return FAQEM_ERROR_OPTION if `options` is null or `value` is not an enumerator
 template <class Value, class Member>
 faqem_status set_enum(faqem_options* options, Value value, Value last, Member&& member) {
     if (!options || value < 0 || value > last) return FAQEM_ERROR_OPTION;
@@ -25,10 +29,10 @@ faqem_status set_enum(faqem_options* options, Value value, Value last, Member&& 
     return FAQEM_OK;
 }
 
-/// Whether enumerators of both doors have one number.
+/// Tests whether a C enumerator and a C++ enumerator have the same value.
 template <class CEnum, class CppEnum>
-constexpr bool has_same_value(CEnum there, CppEnum here) {
-    return static_cast<int>(there) == static_cast<int>(here);
+constexpr bool has_same_value(CEnum c_value, CppEnum cpp_value) {
+    return static_cast<int>(c_value) == static_cast<int>(cpp_value);
 }
 
 }  // namespace faqem::capi

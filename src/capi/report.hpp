@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the C door's objects are inside, where it was built with assets or without.
+/// Definition of faqem_options, and conversion of reports.
 
 #include <string>
 
@@ -14,7 +14,7 @@ struct faqem_options {
 
 namespace faqem::capi {
 
-/// A report and its JSON, made at once: getters only read.
+/// A report and its JSON, which is made in the constructor, so that getters are thread-safe.
 struct ReportWithJson {
     explicit ReportWithJson(const Report& r) : report(r), json(to_json(r)) {}
 
@@ -22,10 +22,10 @@ struct ReportWithJson {
     std::string json;
 };
 
-/// The numbers of a report.
+/// Converts a report to that of the C API.
 faqem_report to_c_report(const Report& report);
 
-/// The options, or the defaults where there are none.
+/// Returns the options, or the defaults if `options` is null.
 inline Options options_or_defaults(const faqem_options* options) {
     return options ? options->options : Options{};
 }

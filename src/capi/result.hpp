@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a faqem_result is inside.
+/// Definition of faqem_result.
 
 #include <limits>
 #include <utility>
@@ -10,7 +10,7 @@
 #include "faqem/simplify.hpp"
 
 struct faqem_result {
-    /// \throws CancelledError
+    /// \throws CancelledError  the run was cancelled
     explicit faqem_result(faqem::SimplifyResult result,
                           double error = std::numeric_limits<double>::quiet_NaN())
         : out(std::move(result)), stored_report(out.report), level_error(error) {
@@ -19,5 +19,5 @@ struct faqem_result {
 
     faqem::SimplifyResult out;
     faqem::capi::ReportWithJson stored_report;
-    double level_error;
+    double level_error;  ///< NaN if the result is not a level
 };

@@ -21,7 +21,7 @@ const Value* data_or_null(const std::vector<Value>& values) {
 }  // namespace
 
 const char* faqem_version(void) {
-    return version().data();  // of a literal, which ends with zero
+    return version().data();  // view of a string literal, so it is zero-terminated
 }
 
 faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options, faqem_result** result,

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Builds the Python wheel around a built C door, without any index.
-# Usage: build_wheel.sh LIBRARY VERSION OUTDIR, with LIBRARY the file libfaqem_c.so; beside it is what it loads for
-# images, unless it is linked to that. PYTHON: python3.
+# Builds a Python wheel that contains the compiled C library. Needs no package index.
+# Usage: build_wheel.sh LIBRARY VERSION OUTDIR
+# LIBRARY is the file libfaqem_c.so. The image plugin faqem-images.so is taken from its directory, if present.
+# The environment variable PYTHON selects the interpreter (default: python3).
 set -eu
 library=$1 version=$2 out=$3
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,4 +1,4 @@
-"""The parts that pyproject.toml cannot say: version and platform. build_wheel.sh is what to call."""
+"""Version and platform tag of the wheel, which pyproject.toml cannot express. Called by build_wheel.sh."""
 
 import os
 
@@ -7,14 +7,14 @@ from wheel.bdist_wheel import bdist_wheel
 
 
 class PlatformDistribution(Distribution):
-    """With a library inside."""
+    """A distribution that contains a compiled library."""
 
     def has_ext_modules(self):
         return True
 
 
 class PlatformWheel(bdist_wheel):
-    """For this platform and any Python 3: the library knows nothing of Python."""
+    """A wheel for this platform and any Python 3, since the library does not use Python's C API."""
 
     def get_tag(self):
         return "py3", "none", super().get_tag()[2]

@@ -1,10 +1,10 @@
-"""Mesh simplification that keeps the look: numpy arrays and textured models.
+"""Mesh simplification with texture baking, for numpy arrays and textured models.
 
     out = faqem.simplify(vertices, triangles, ratio=0.1)
-    light = faqem.bake(faqem.load("statue.glb"), faces=20_000)
-    faqem.save(light, "light.glb")
+    simplified = faqem.bake(faqem.load("statue.glb"), faces=20_000)
+    faqem.save(simplified, "simplified.glb")
 
-docs/python.md has every option.
+docs/python.md describes all options.
 """
 
 from ._library import version as _version

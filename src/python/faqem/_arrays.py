@@ -1,4 +1,4 @@
-"""numpy arrays as the meshes of the C door, and back."""
+"""Conversion between numpy arrays and the arrays of the C API."""
 
 import ctypes
 
@@ -12,12 +12,12 @@ _no_index = 2**32 - 1
 
 def _check_shape(array, width, name):
     if array.ndim != 2 or array.shape[1] != width:
-        raise InputError(f"{name}: the shape is {array.shape}, not (n, {width})")
+        raise InputError(f"{name}: the shape must be (n, {width}), but is {array.shape}")
     return array
 
 
 def _strided(array, kind):
-    """The array itself where the C door can read it as it lies, else a copy."""
+    """Returns the array as type `kind`, without a copy if its type fits and all strides are positive."""
     array = numpy.asarray(array, dtype=kind)
     return array if all(step > 0 for step in array.strides) else numpy.ascontiguousarray(array)
 
@@ -31,24 +31,27 @@ def _positions(vertices):
 
 
 def _indices(values, name):
-    """As uint32; uint16 stays what it is."""
+    """Returns vertex or group indices as uint32, or as uint16 if they are of that type."""
     array = numpy.asarray(values)
     if array.size and not numpy.issubdtype(array.dtype, numpy.integer):
-        raise InputError(f"{name}: {array.dtype} are no whole numbers")
+        raise InputError(f"{name}: integers are expected, but the type is {array.dtype}")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
-        raise InputError(f"{name}: below 0, or above what 32-bit indices can count")
+        raise InputError(f"{name}: a value is negative or exceeds 2^32 - 2")
     return _strided(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
 
 
 def _per_element(values, count, kind, name):
     array = numpy.ascontiguousarray(values, dtype=kind)
     if array.shape != (count,):
-        raise InputError(f"{name}: the shape is {array.shape}, not ({count},)")
+        raise InputError(f"{name}: the shape must be ({count},), but is {array.shape}")
     return array
 
 
 class MeshArrays:
-    """A mesh for the C door. `mesh` is valid as long as this object is. What has the right type is not copied."""
+    """A mesh for the C API. `mesh` is valid as long as this object exists.
+
+    Arrays of the right type are not copied.
+    """
 
     def __init__(self, vertices, triangles, groups=None, locks=None, weights=None, uvs=None):
         positions = _positions(vertices)
@@ -72,7 +75,7 @@ class MeshArrays:
         if uvs is not None:
             corner_values = numpy.ascontiguousarray(uvs, dtype=numpy.float32)
             if corner_values.ndim != 3 or corner_values.shape[:2] != (len(corners), 3) or corner_values.shape[2] < 1:
-                raise InputError(f"uvs: the shape is {corner_values.shape}, not ({len(corners)}, 3, n)")
+                raise InputError(f"uvs: the shape must be ({len(corners)}, 3, n), but is {corner_values.shape}")
             self._set_array("corner_values", corner_values)
             self.mesh.corner_width = corner_values.shape[2]
 
@@ -83,7 +86,7 @@ class MeshArrays:
 
 
 def copy_array(pointer, *shape):
-    """An array of its own with the numbers that a getter points to. Where it points to none: an empty one."""
+    """Copies the array that a getter of the C API returns; null gives an empty array."""
     if not pointer:
         kind = numpy.dtype(pointer._type_)
         return numpy.empty((0, *shape[1:]), dtype=kind)
@@ -91,5 +94,5 @@ def copy_array(pointer, *shape):
 
 
 def mesh_pointer(mesh_arrays):
-    """The argument for a `const faqem_mesh*`."""
+    """Returns the argument for a parameter of type `const faqem_mesh*`."""
     return ctypes.byref(mesh_arrays.mesh)

@@ -1,4 +1,4 @@
-"""Levels of detail, and the histories that they can be cut from again."""
+"""Levels of detail, and collapse histories from which further levels can be restored."""
 
 import ctypes
 import os
@@ -10,13 +10,13 @@ from ._options import Options, parse_length, checked_integer
 from ._simplify import Simplified
 from .errors import OptionError
 
-_ratio, _faces, _distance = 0, 1, 2  # a share of the diagonal comes after the distance
+_ratio, _faces, _distance = 0, 1, 2  # faqem_level_kind; 3 is a distance as a share of the diagonal
 
 
 def _level(level):
     if isinstance(level, str):
         if not level.startswith("error:"):
-            raise OptionError(f"levels: {level!r} is none; a distance is 'error:0.01' or 'error:0.1%'")
+            raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')")
         value, unit = parse_length(level[len("error:"):], "levels")
         return Level(_distance + unit, value)
     if 0 < level <= 1:
@@ -25,18 +25,20 @@ def _level(level):
 
 
 def level_array(levels):
-    """An array of faqem_level."""
+    """Converts levels to an array of faqem_level."""
     return (Level * len(levels))(*map(_level, levels))
 
 
 def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
-    """Simplifies a triangle soup to one level after the other, and measures each against the original.
+    """Simplifies a triangle soup to several levels of detail, and measures each against the original.
 
-    levels   from fine to coarse: 0.5 (share of the triangles), 5000 (triangles), "error:0.01" (distance in model
-             units) or "error:0.1%" (of the diagonal)
-    options  those of simplify(), without ratio, faces and max_error
+    vertices, triangles, groups, locks, weights, uvs
+             as for simplify()
+    levels   from fine to coarse: 0.5 (share of the triangles), 5000 (number of triangles), "error:0.01"
+             (distance in model units) or "error:0.1%" (distance as a share of the diagonal)
+    options  those of simplify(), except ratio, faces and max_error
 
-    Returns a list of Simplified, whose `error` ascends. Raises what simplify() raises.
+    Returns a list of Simplified, whose `error` never decreases. Raises the exceptions of simplify().
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
@@ -47,12 +49,12 @@ def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, 
 
 
 def handle_array(levels):
-    """The objects of the C door that Simplified or Model have."""
+    """Returns the C objects of a list of Simplified or Model as an array."""
     return (ctypes.c_void_p * len(levels))(*(level._handle.value for level in levels))
 
 
 class History:
-    """How the original became one level after the other. Comes from History.of() or History.load()."""
+    """Collapse history of a chain of levels. Created by History.of() or History.load()."""
 
     def __init__(self, handle):
         self._handle = handle
@@ -60,7 +62,13 @@ class History:
 
     @classmethod
     def of(cls, levels):
-        """Of what simplify_levels() or bake_levels(), or a list of one simplify() or bake(), gave with history=True."""
+        """Creates the history of a run with history=True.
+
+        levels  the result of simplify_levels() or bake_levels(), or a list with one result of simplify() or
+                bake()
+
+        Raises OptionError if a level has no history, and InputError if the levels are not of one run.
+        """
         objects = handle_array(levels)
         of_arrays = all(isinstance(level, Simplified) for level in levels)
         make = library.faqem_history_create if of_arrays else library.faqem_asset_history_create
@@ -68,13 +76,13 @@ class History:
 
     @classmethod
     def load(cls, path):
-        """From a file of save(), or of the command. Raises InputError, OSError."""
+        """Reads a history file of save() or of the command. Raises InputError, OSError."""
         with open(path, "rb") as file:
             content = file.read()
         return cls(create(library.faqem_history_read, content, len(content)))
 
     def save(self, path, *, overwrite=False):
-        """In the format of docs/history-format.md. Raises OSError."""
+        """Writes the history in the format of docs/history-format.md. Raises OSError."""
         size = ctypes.c_size_t()
         content = ctypes.string_at(library.faqem_history_bytes(self._handle, ctypes.byref(size)), size.value)
         with open(os.fspath(path), "wb" if overwrite else "xb") as file:
@@ -86,20 +94,21 @@ class History:
 
     @property
     def part_count(self):
-        """Meshes that it is of: 1, or the parts of a model."""
+        """Number of meshes: 1, or the number of parts of a model."""
         return library.faqem_history_part_count(self._handle)
 
     def truncate(self, faces):
-        """The mesh when no more than so many triangles were left, as a Simplified; see docs/levels.md.
+        """Restores the mesh at the first time when at most `faces` triangles were left; see docs/levels.md.
 
-        Raises OptionError, also where it is of several meshes: truncate_parts() is for them, and bake_truncated() for models.
+        Returns a Simplified. Raises OptionError, also if the history has several meshes: use truncate_parts(),
+        or bake_truncated() for a model.
         """
         if self.part_count > 1:
-            raise OptionError(f"the history is of {self.part_count} meshes: truncate_parts() cuts them")
+            raise OptionError(f"the history has {self.part_count} meshes: use truncate_parts()")
         return Simplified(create(library.faqem_history_truncate, self._handle, checked_integer(faces, "faces", 53)))
 
     def truncate_parts(self, faces):
-        """The same for all meshes together: a list of Simplified, one for each part of the model."""
+        """Restores all meshes at a total number of triangles. Returns a list of Simplified, one per part."""
         made = (ctypes.c_void_p * self.part_count)()
         call(library.faqem_history_truncate_parts, self._handle, checked_integer(faces, "faces", 53), made)
         return [Simplified(ctypes.c_void_p(one)) for one in made]

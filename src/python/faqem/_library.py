@@ -1,4 +1,4 @@
-"""The functions of the C door (faqem/faqem.h, faqem_levels.h, faqem_asset.h), and its errors as exceptions."""
+"""The functions of the C API (faqem/faqem.h, faqem_levels.h, faqem_asset.h), with errors as exceptions."""
 
 import ctypes
 import pathlib
@@ -10,7 +10,7 @@ Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_int, c_double)
 
 
 class Mesh(ctypes.Structure):
-    """faqem_mesh."""
+    """struct faqem_mesh"""
 
     _fields_ = [
         ("positions", POINTER(c_float)),
@@ -32,7 +32,7 @@ class Mesh(ctypes.Structure):
 
 
 class Level(ctypes.Structure):
-    """faqem_level."""
+    """struct faqem_level"""
 
     _fields_ = [("kind", c_int), ("value", c_double)]
 
@@ -141,18 +141,18 @@ _exceptions = {
     3: errors.InputError,
     4: errors.UnsupportedError,
     7: errors.WriteError,
-    8: errors.Error,  # cancelled: the progress callback raised, and what it raised goes on instead
+    8: errors.Error,  # cancelled by an exception in the progress callback, which Options.run() raises instead
     11: MemoryError,
 }
 
 
 def version():
-    """Version of the library, "MAJOR.MINOR.PATCH"."""
+    """Returns the version of the library, "MAJOR.MINOR.PATCH"."""
     return library.faqem_version().decode()
 
 
 def call(function, *arguments):
-    """Calls a function whose last argument is the error. Raises what it says."""
+    """Calls a function whose last argument is a faqem_error. Raises the corresponding exception."""
     error = _Error()
     status = function(*arguments, ctypes.byref(error))
     if status != 0:
@@ -160,7 +160,7 @@ def call(function, *arguments):
 
 
 def create(function, *arguments):
-    """Calls a function whose last arguments are the object that it makes and the error. Returns the object."""
+    """Calls a function whose last arguments are the created object and a faqem_error. Returns the object."""
     handle = c_void_p()
     call(function, *arguments, ctypes.byref(handle))
     return handle

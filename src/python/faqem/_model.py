@@ -1,4 +1,4 @@
-"""Textured models: load, bake, save."""
+"""Textured models: loading, simplification with baking, saving."""
 
 import ctypes
 import dataclasses
@@ -20,7 +20,7 @@ _level_textures = {"each": 0, "shared": 1}
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """A copy of one mesh of a model, in its own coordinates."""
+    """A copy of one mesh of a model, in local coordinates."""
 
     name: str
     vertices: numpy.ndarray  #: (v, 3) float64; vertices are split at seams, as in the file
@@ -28,7 +28,7 @@ class Part:
 
 
 class Model:
-    """A scene of parts, materials and images. Comes from load(), bake() or Model.from_arrays()."""
+    """A scene of parts, materials and images. Created by load(), bake() or Model.from_arrays()."""
 
     def __init__(self, handle):
         self._handle = handle
@@ -36,31 +36,31 @@ class Model:
 
     @classmethod
     def from_arrays(cls, vertices, triangles):
-        """One part without materials; the arrays are copied."""
+        """Creates a model of one part without materials; the arrays are copied. Raises InputError."""
         arrays = MeshArrays(vertices, triangles)
         return cls(create(library.faqem_asset_create, mesh_pointer(arrays)))
 
     @property
     def parts(self):
-        """A list of Part, copied anew each time."""
+        """List of Part, copied at each access."""
         count = library.faqem_asset_part_count(self._handle)
         return [self._part(part) for part in range(count)]
 
     @property
     def warnings(self):
-        """What was repaired, left out, or could not be saved."""
+        """List of str: what was repaired, left out, or could not be saved."""
         count = library.faqem_asset_warning_count(self._handle)
         return [library.faqem_asset_warning(self._handle, i).decode(errors="replace") for i in range(count)]
 
     @property
     def report(self):
-        """What bake() did, with the keys of docs/cli.md; None for other models."""
+        """Report of bake(), with the keys documented in docs/cli.md; None for other models."""
         text = library.faqem_asset_report_json(self._handle)
         return None if text is None else json.loads(text)
 
     @property
     def error(self):
-        """Of a level: no point is farther from the original, in units of the scene; None of other models."""
+        """Upper bound of the distance of a level from the original, in scene units; None for other models."""
         error = library.faqem_asset_level_error(self._handle)
         return None if math.isnan(error) else error
 
@@ -77,38 +77,42 @@ class Model:
 def _path(path):
     encoded = os.fsencode(path)
     if b"\0" in encoded:
-        raise InputError(f"{path!r}: a zero byte in a file name")
+        raise InputError(f"{path!r}: the file name contains a zero byte")
     return encoded
 
 
 def load(path):
-    """Loads .glb, .gltf, .obj, .ply, .stl or .off. Raises InputError, UnsupportedError, MemoryError."""
+    """Loads a .glb, .gltf, .obj, .ply, .stl or .off file.
+
+    Returns a Model. Raises InputError, UnsupportedError, MemoryError.
+    """
     return Model(create(library.faqem_asset_load, _path(path)))
 
 
 def bake(model, /, **options):
-    """Simplifies a model and bakes its look anew; the model is left as it is.
+    """Simplifies a model and bakes its appearance into new textures; the given model is unchanged.
 
-    options  those of simplify(), and bake, texture_size, texel_density, normal_map, normals, image_format; see
-             docs/python.md
+    options  those of simplify(), and visibility, bake, texture_size, texel_density, normal_map, normals,
+             image_format; see docs/python.md
 
-    Raises OptionError, InputError, UnsupportedError, MemoryError, and what `progress` raises.
+    Returns a Model. Raises OptionError, InputError, UnsupportedError, MemoryError, and the exceptions of
+    `progress`.
     """
     chosen = Options(**options)
     return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._handle, chosen.object)))
 
 
 def bake_levels(model, levels, /, *, textures="each", **options):
-    """Simplifies a model to one level after the other, each with a new look; the model is left as it is.
+    """Simplifies a model to several levels of detail and bakes each; the given model is unchanged.
 
-    levels    as of simplify_levels(); distances are in units of the scene
-    textures  "each": every level its own; "shared": all those that were baked for the finest level
-    options   those of bake(), without ratio, faces and max_error
+    levels    as for simplify_levels(); distances are in scene units
+    textures  "each": every level has its own textures; "shared": all levels have those of the finest one
+    options   those of bake(), except ratio, faces and max_error
 
-    Returns a list of Model, whose `error` ascends. Raises what bake() raises.
+    Returns a list of Model, whose `error` never decreases. Raises the exceptions of bake().
     """
     if textures not in _level_textures:
-        raise OptionError(f"textures: {textures!r} is neither 'each' nor 'shared'")
+        raise OptionError(f"textures: unknown value {textures!r} (expected: each, shared)")
     chosen = Options(**options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
@@ -118,14 +122,14 @@ def bake_levels(model, levels, /, *, textures="each", **options):
 
 
 def bake_truncated(model, history, faces, /, **options):
-    """The model when no more than so many triangles were left, with a look baked anew, without another run.
+    """Restores a model from a history at a number of triangles and bakes its appearance, without another run.
 
-    model    the one that was simplified
-    history  History.of() of its levels, or from a file
-    faces    for all meshes together; as many as a level has give that level
-    options  those of the look that the run had; see docs/python.md
+    model    the model that was simplified
+    history  History.of() its levels, or History.load()
+    faces    maximum number of triangles over all meshes; the number of a level gives that level
+    options  baking options of the run; see docs/python.md
 
-    Returns a Model. Raises what bake() raises, and InputError where the history is of another model.
+    Returns a Model. Raises the exceptions of bake(), and InputError if the history is of another model.
     """
     chosen = Options(**options)
     count = checked_integer(faces, "faces", 53)
@@ -134,26 +138,31 @@ def bake_truncated(model, history, faces, /, **options):
 
 
 def save_levels(levels, path, /, *, pixel_error=1, screen_height=1080, overwrite=False):
-    """Saves levels in one .glb or .gltf with the extension MSFT_lod; see docs/levels.md.
+    """Saves levels of detail as one .glb or .gltf file with the extension MSFT_lod; see docs/levels.md.
 
-    levels         Models from fine to coarse, of one source; the first one may be the source itself
-    pixel_error    pixels that a level may be off where it is shown,
-    screen_height  on a screen with so many
+    levels         list of Model from fine to coarse, of one source; the first one may be the source itself
+    path           file name ending in .glb or .gltf
+    pixel_error    maximum error of a level on screen, in pixels, > 0
+    screen_height  height of the screen in pixels, > 0
+    overwrite      whether existing files may be replaced
 
-    What the format cannot hold is added to the warnings of the first level. Raises what save() raises.
+    What the format cannot store is added to the warnings of the first level. Raises OptionError, and the
+    exceptions of save().
     """
     if not (pixel_error > 0 and screen_height > 0):
-        raise OptionError("pixel_error and screen_height: must be above 0")
+        raise OptionError("pixel_error and screen_height must be > 0")
     share = float(pixel_error) / float(screen_height)
     call(library.faqem_asset_save_levels, handle_array(levels), len(levels), share, _path(path), 1 if overwrite else 0)
 
 
 def save(model, path, *, overwrite=False):
-    """Saves as .glb, .gltf, .obj, .ply or .stl, by name; the file is complete or not there at all.
+    """Saves a model as .glb, .gltf, .obj, .ply or .stl, by file extension. Each file is complete or absent.
 
-    model  a Model, or a pair of arrays (vertices, triangles)
+    model      a Model, or a pair of arrays (vertices, triangles)
+    path       file name
+    overwrite  whether existing files may be replaced
 
-    What the format cannot hold is added to model.warnings. Raises WriteError, UnsupportedError, InputError.
+    What the format cannot store is added to model.warnings. Raises WriteError, UnsupportedError, InputError.
     """
     if not isinstance(model, Model):
         model = Model.from_arrays(*model)

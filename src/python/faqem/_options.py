@@ -1,4 +1,4 @@
-"""Keyword arguments as the options of the C door."""
+"""Conversion of keyword arguments to the options of the C API."""
 
 import weakref
 
@@ -17,37 +17,38 @@ _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 
 def enum_value(names, name, option):
-    """The number of an enumerator of the C door."""
+    """Returns the value of an enumerator of the C API. Raises OptionError if the name is unknown."""
     if name not in names:
-        raise OptionError(f"{option}: unknown value {name!r} (known: {', '.join(names)})")
+        raise OptionError(f"{option}: unknown value {name!r} (expected: {', '.join(names)})")
     return names.index(name)
 
 
 def parse_length(value, option):
-    """0.01 in model units, or "0.1%" of the diagonal. Returns number and unit."""
+    """Parses 0.01 (model units) or "0.1%" (of the diagonal). Returns value and unit."""
     try:
         if isinstance(value, str) and value.endswith("%"):
             return float(value[:-1]) / 100, 1
         return float(value), 0
     except ValueError:
-        raise OptionError(f"{option}: {value!r} is no length") from None
+        raise OptionError(f"{option}: {value!r} is not a length, such as 0.01 or '0.1%'") from None
 
 
 def checked_integer(value, option, bits):
+    """Returns `value` as int. Raises OptionError if it is not an integer from 0 to 2^bits - 1."""
     if not (isinstance(value, int) or hasattr(value, "__index__")) or not 0 <= int(value) < 2**bits:
-        raise OptionError(f"{option}: {value!r} is no whole number from 0 to 2^{bits} - 1")
+        raise OptionError(f"{option}: {value!r} is not an integer from 0 to 2^{bits} - 1")
     return int(value)
 
 
 class Options:
-    """The object of the C door. Unset options are None."""
+    """Options object of the C API. None leaves an option at its default."""
 
     def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, boundary=None,
                  group_boundaries=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
                  progress=None, history=None, visibility=None, bake=None, texture_size=None, texel_density=None,
                  normal_map=None, normals=None, image_format=None):
         if ratio is not None and faces is not None:
-            raise OptionError("ratio and faces: give one of them")
+            raise OptionError("ratio and faces: only one of them can be set")
         self.object = library.faqem_options_create()
         if not self.object:
             raise MemoryError
@@ -90,25 +91,25 @@ class Options:
 
     def _set(self, name, *values):
         if getattr(library, "faqem_options_set_" + name)(self.object, *values) != 0:
-            raise OptionError(f"{name}: {values} is refused")
+            raise OptionError(f"{name}: invalid value {values}")
 
     def _set_progress(self, progress):
-        """An exception cannot pass through C: it cancels, and is raised behind the call."""
+        """Sets the callback. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
 
         def called(_user, phase, fraction):
             try:
                 if progress is not None:
                     progress(_phases[phase], fraction)
-            except BaseException as raised:  # Ctrl-C too
+            except BaseException as raised:  # includes KeyboardInterrupt
                 self._callback_exception = raised
                 return 1
             return 0
 
-        self._callback = Progress(called)  # C has a pointer to it only
+        self._callback = Progress(called)  # keeps the callback alive: C has only a pointer to it
         self._set("progress", self._callback, None)
 
     def run(self, work):
-        """Calls `work`, and raises what the callback raised meanwhile."""
+        """Calls `work` and returns its result. Raises the exception of the progress callback, if any."""
         try:
             return work()
         finally:

@@ -1,4 +1,4 @@
-"""Flat arrays in, flat arrays out."""
+"""Simplification of meshes given as arrays."""
 
 import ctypes
 import json
@@ -15,19 +15,19 @@ _mappings = ["projection", "lineage", "closest"]
 
 
 class Simplified:
-    """A small mesh, where it came from, and what happened. The arrays are its own."""
+    """A simplified mesh, the origin of its elements, and the report. Owns its arrays."""
 
-    vertices: numpy.ndarray  #: (v, 3) float64; what was not moved is unchanged to the last bit
+    vertices: numpy.ndarray  #: (v, 3) float64; vertices that were not moved are unchanged bit by bit
     triangles: numpy.ndarray  #: (f, 3) uint32
-    groups: "numpy.ndarray | None"  #: (f,) uint32, or None where the input had none
-    uvs: "numpy.ndarray | None"  #: (f, 3, n) float32, or None where the input had none
-    vertex_origin: numpy.ndarray  #: (v,) uint32: an input vertex that each grew from; empty after History.truncate()
-    face_origin: numpy.ndarray  #: (f,) uint32: the input triangle that each was
-    report: dict  #: with the keys of docs/cli.md
-    error: "float | None"  #: of a level: no point is farther from the original; None of other results
+    groups: "numpy.ndarray | None"  #: (f,) uint32, or None if the input has no groups
+    uvs: "numpy.ndarray | None"  #: (f, 3, n) float32, or None if the input has no uvs
+    vertex_origin: numpy.ndarray  #: (v,) uint32: source vertex of each vertex; empty after History.truncate()
+    face_origin: numpy.ndarray  #: (f,) uint32: input triangle of each triangle
+    report: dict  #: with the keys documented in docs/cli.md
+    error: "float | None"  #: upper bound of the distance of a level from the original; None for other results
 
     def __init__(self, handle):
-        self._handle = handle  # its history is asked for later
+        self._handle = handle  # kept for map() and History.of(), which need the history
         weakref.finalize(self, library.faqem_result_destroy, handle)
         v = library.faqem_result_vertex_count(handle)
         f = library.faqem_result_face_count(handle)
@@ -44,18 +44,19 @@ class Simplified:
         self.error = None if numpy.isnan(error) else error
 
     def map(self, faces, barycentric, mapping="projection"):
-        """Where points lie on the original. Needs history=True.
+        """Maps points of the simplified mesh to the original. Needs history=True.
 
-        faces        (n,) triangles of the small mesh
-        barycentric  (n, 3) weights of their corners, >= 0, of sum 1
+        faces        (n,) indices of triangles of the simplified mesh
+        barycentric  (n, 3) weights of their corners, >= 0, sum 1
         mapping      "projection", "lineage" or "closest"; see docs/baking.md
 
-        Returns the input triangles (n,) and the weights of their corners (n, 3).
+        Returns the input triangles (n,) and the weights of their corners (n, 3). Raises InputError, and
+        OptionError if there is no history.
         """
         faces = numpy.ascontiguousarray(faces, dtype=numpy.uint32)
         weights = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
         if faces.ndim != 1 or weights.shape != (len(faces), 3):
-            raise InputError(f"map: the shapes are {faces.shape} and {weights.shape}, not (n,) and (n, 3)")
+            raise InputError(f"map: the shapes must be (n,) and (n, 3), but are {faces.shape} and {weights.shape}")
         source_faces, source_weights = numpy.empty_like(faces), numpy.empty_like(weights)
 
         def pointer(array, kind):
@@ -70,16 +71,16 @@ class Simplified:
 def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
     """Simplifies a triangle soup.
 
-    vertices   (v, 3) numbers; float32 and float64 are used without a copy
-    triangles  (f, 3) whole numbers below v; uint32 and uint16 without a copy
-    groups     (f,) whole numbers, for group_boundaries="kept"
-    locks      (v,) truth values: these stay where they are
-    weights    (v,) numbers in [1e-6, 1e6]: errors there count so many times
-    uvs        (f, 3, n) numbers at the corners, which are carried along
-    options    ratio, faces, max_error, preset, link, boundary, group_boundaries, weld_distance, virtual_edges,
-               prune, history, threads, progress; see docs/python.md
+    vertices   (v, 3) positions; float32 and float64 are used without a copy
+    triangles  (f, 3) vertex indices; uint32 and uint16 are used without a copy
+    groups     (f,) integers, for group_boundaries="kept"
+    locks      (v,) booleans: true for vertices that must not move
+    weights    (v,) factors on the costs, in [1e-6, 1e6]
+    uvs        (f, 3, n) attributes of the corners, which are preserved
+    options    ratio, faces, max_error, preset, link, boundary, group_boundaries, weld_distance,
+               virtual_edges, prune, history, threads, progress; see docs/python.md
 
-    Raises OptionError, InputError, MemoryError, and what `progress` raises.
+    Returns a Simplified. Raises OptionError, InputError, MemoryError, and the exceptions of `progress`.
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)

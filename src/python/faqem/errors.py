@@ -1,8 +1,8 @@
-"""The exceptions of faqem, one per kind. What is out of memory raises MemoryError."""
+"""The exceptions of faqem, one class per kind of error. Out of memory is MemoryError."""
 
 
 class Error(Exception):
-    """Base of all of them."""
+    """Base class of all exceptions of faqem."""
 
 
 class OptionError(Error, ValueError):
@@ -10,16 +10,16 @@ class OptionError(Error, ValueError):
 
 
 class InputError(Error, ValueError):
-    """The data is wrong, or a file could not be read. The message names file and element."""
+    """The input is invalid, or a file could not be read. The message names file and element."""
 
 
 class UnsupportedError(InputError):
-    """The input is valid, but of a kind that is not read."""
+    """The input is valid, but of a kind that is not supported."""
 
 
 class WriteError(Error, OSError):
-    """A file could not be written. The old one, if any, is untouched."""
+    """A file could not be written. An existing file is unchanged."""
 
 
 class InternalError(Error):
-    """A mistake in faqem."""
+    """A defect in faqem."""
