@@ -35,7 +35,8 @@ Format format_by_name(const fs::path& file) {
     return extension == ".off" ? Format::off : Format::unknown;
 }
 
-/// OBJ and STL have no signature; glTF as JSON is only told from its first bracket.
+/// Detects the format from the first 64 bytes. A leading brace is taken as JSON glTF. OBJ and STL have no
+/// signature and give Format::unknown.
 Format format_by_content(const fs::path& file) {
     std::array<char, 64> head = {};
     std::ifstream in(file, std::ios::binary);
@@ -72,7 +73,7 @@ Asset load(const fs::path& file) {
             break;
     }
     throw UnsupportedError(file.string(), "",
-                           "is not in a known format: .glb, .gltf, .obj, .ply, .stl or .off");
+                           "has an unknown format; supported are .glb, .gltf, .obj, .ply, .stl and .off");
 }
 
 std::vector<std::string> save(const Asset& asset, const fs::path& file, Overwrite overwrite) {
@@ -90,7 +91,7 @@ std::vector<std::string> save(const Asset& asset, const fs::path& file, Overwrit
             break;
     }
     throw UnsupportedError(file.string(), "",
-                           "cannot be written: the name must end in .glb, .gltf, .obj, .ply or .stl");
+                           "cannot be written: the file name must end in .glb, .gltf, .obj, .ply or .stl");
 }
 
 std::vector<Instance> instances(const Asset& asset) {

@@ -34,7 +34,7 @@ std::string reason(int error) { return std::generic_category().message(error); }
     throw WriteError(file.string() + ": cannot " + action + ": " + reason(error));
 }
 
-/// An open file or folder, closed at the end.
+/// Owns a file descriptor of a file or folder and closes it on destruction.
 class Descriptor {
 public:
     Descriptor() = default;
@@ -49,15 +49,15 @@ public:
     }
     int get() const { return number_; }
     explicit operator bool() const { return number_ >= 0; }
-    /// Closes now; false and errno on failure.
+    /// Closes the descriptor. Returns false and sets errno on failure.
     bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
 private:
     int number_ = -1;
 };
 
-// Names of the temporary files of this process. Whoever takes a name out of its slot owns it: the writer
-// frees it, the signal handler leaks it, as it may not free memory.
+// Names of the temporary files of this process. The code that exchanges a slot with null owns the name: the
+// writer frees it; the signal handler leaks it, because it must not free memory.
 std::array<std::atomic<char*>, 64> temporary_names;
 static_assert(std::atomic<char*>::is_always_lock_free, "used in a signal handler");
 
@@ -71,7 +71,7 @@ std::atomic<char*>& register_temporary(char* name) {
     }
 }
 
-/// A new file under a registered name, removed at the end unless it was renamed.
+/// A temporary file with a registered name. It is removed on destruction unless release() was called.
 class TemporaryFile {
 public:
     TemporaryFile(const fs::path& target, mode_t mode) {
@@ -81,13 +81,13 @@ public:
         const std::string path = fs::absolute(target.parent_path() / base).string();
         name_ = std::make_unique<char[]>(path.size() + 1);
         std::memcpy(name_.get(), path.c_str(), path.size() + 1);
-        // Registered before it exists: a signal in between finds nothing to remove, which does no harm.
+        // The name is registered before the file is created; removing a file that does not exist is harmless.
         slot_ = &register_temporary(name_.get());
         file_ = Descriptor(::open(name_.get(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
         if (!file_) {
             const int error = errno;
             unregister();
-            fail_write(target, "create a file beside it", error);
+            fail_write(target, "create a temporary file in its folder", error);
         }
     }
     TemporaryFile(TemporaryFile&& other) noexcept
@@ -103,7 +103,7 @@ public:
 
     const char* name() const { return name_.get(); }
     Descriptor& file() { return file_; }
-    /// The file has its final name now.
+    /// Keeps the file: called after it was renamed to its final name.
     void release() { unregister(); }
 
 private:
@@ -133,11 +133,11 @@ bool rename_if_absent(const char* from, const char* to) {
     if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return true;
     if (errno != EINVAL && errno != ENOSYS) return false;
 #endif
-    // A hard link is refused where a file exists, and on success the temporary name has done its work.
+    // Fallback: link() fails if the target exists; after success the temporary name is no longer needed.
     return ::link(from, to) == 0 && ::unlink(from) == 0;
 }
 
-/// One file on its way: where it really goes (behind a link), and its bytes on the disk beside it.
+/// A file whose bytes are on the disk under a temporary name. `target` is the path with links resolved.
 struct PendingFile {
     fs::path target;
     Descriptor folder;
@@ -172,7 +172,7 @@ void commit_file(PendingFile& pending, Overwrite overwrite) {
     const bool renamed = overwrite == Overwrite::yes ? ::rename(from, to) == 0 : rename_if_absent(from, to);
     if (!renamed) fail_write(pending.target, "write", errno);
     pending.temporary.release();
-    // Some file systems cannot sync a folder and say so with EINVAL.
+    // Some file systems cannot sync a folder and return EINVAL.
     if (::fsync(pending.folder.get()) != 0 && errno != EINVAL)
         fail_write(pending.target, "sync its folder", errno);
 }
@@ -184,7 +184,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// A percent sign without two hexadecimal digits stands for itself.
+/// Decodes percent escapes. A percent sign that is not followed by two hexadecimal digits is kept.
 std::string percent_decoded(std::string_view text) {
     std::string decoded;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -229,14 +229,14 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
     if (size > max_bytes)
         throw ReadError(
             file.string(), "",
-            "has " + std::to_string(size) + " bytes, at most " + std::to_string(max_bytes) + " are read");
+            "has " + std::to_string(size) + " bytes; the limit is " + std::to_string(max_bytes) + " bytes");
     std::vector<std::uint8_t> bytes(size);
     for (std::uint64_t done = 0; done < size;) {
         const ssize_t got =
             ::read(in.get(), bytes.data() + done, std::min<std::uint64_t>(size - done, 1u << 30));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail_read(file, errno);
-        if (got == 0) throw ReadError(file.string(), "", "became shorter while it was read");
+        if (got == 0) throw ReadError(file.string(), "", "was truncated while it was being read");
         done += static_cast<std::uint64_t>(got);
     }
     return bytes;
@@ -273,15 +273,15 @@ fs::path resolve_inside(const fs::path& folder, std::string_view reference, Refe
     if (kind == ReferenceSyntax::file_name) std::replace(name.begin(), name.end(), '\\', '/');
     if (name.empty()) refuse("is empty");
     if (name.find('\0') != std::string::npos) refuse("contains a zero byte");
-    if (has_scheme(name)) refuse("is not a path relative to the file");
+    if (has_scheme(name)) refuse("is not a relative path");
     const fs::path relative(name);
     if (relative.is_absolute()) refuse("is an absolute path");
-    if (escapes_folder(relative)) refuse("leads out of the folder of the file");
+    if (escapes_folder(relative)) refuse("is outside the folder of the file");
     try {
         const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder);
         fs::path found = fs::canonical(root / relative);
         if (std::mismatch(root.begin(), root.end(), found.begin(), found.end()).first != root.end())
-            refuse("leads out of the folder of the file");
+            refuse("is outside the folder of the file");
         if (!fs::is_regular_file(found)) refuse("is not a regular file");
         return found;
     } catch (const fs::filesystem_error& error) {

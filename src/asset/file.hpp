@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files as whole byte arrays: read with a size cap, written completely or not at all.
+/// Reading of whole files with a size limit, atomic writing of files, and resolution of file references.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,49 +13,58 @@
 
 namespace faqem::detail {
 
-/// Reads a regular file. FIFOs, devices and folders are refused without waiting for them.
-/// \param max_bytes  a larger file is an error before anything is allocated
-/// \throws ReadError  naming the file and the reason
+/// Reads a whole regular file. FIFOs, devices and folders are rejected without blocking.
+/// \param file       path of the file
+/// \param max_bytes  maximum size in bytes; a larger file is rejected before memory is allocated
+/// \return the bytes of the file
+/// \throws ReadError  if the file cannot be read, is not a regular file or is too large
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
 
-/// One file to be written; the bytes belong to the caller.
+/// A file to be written. The bytes are borrowed.
 struct FileContent {
     std::filesystem::path file;
     std::span<const std::uint8_t> bytes;
 };
 
-/// Writes a file so that, whatever happens, the old or the new content is there, complete: a temporary file
-/// in the same folder, synced, then renamed. A new file gets 0666 without the umask, a replaced one keeps its
-/// mode; a symbolic link is followed.
-/// \param overwrite  no: a file that exists is an error, also when it appears while we write
-/// \throws WriteError  with path and reason; no temporary file is left behind
+/// Writes a file atomically: after a failure or a crash, the path holds the complete old or the complete new
+/// content. Writes a temporary file in the same folder, syncs it and renames it. A new file gets the mode
+/// 0666 minus the umask; a replaced file keeps its mode. Symbolic links are followed.
+/// \param file       path of the file
+/// \param bytes      new content, borrowed
+/// \param overwrite  Overwrite::no: an existing file is an error, even if it is created during the write
+/// \throws WriteError  with the path and the reason; the temporary file is removed
 FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                              Overwrite overwrite);
 
-/// Writes several files that belong together: the first is put in place after all of them are on the disk, so
-/// that a full disk leaves nothing new behind. They appear in the order given: put the one that refers to the
-/// others last.
+/// Writes several files that belong together. All temporary files are on the disk before the first one is
+/// renamed, so that a full disk leaves no new file behind. The files are renamed in the given order: a file
+/// that refers to the others should be the last one.
+/// \param files      paths and contents, borrowed
+/// \param overwrite  as in write_file()
 /// \throws WriteError  as write_file()
 void write_files(std::span<const FileContent> files, Overwrite overwrite);
 
-/// Removes the temporary files of writes under way. Async-signal-safe: meant for the handler of SIGINT and
-/// SIGTERM, which ends the process afterwards (the interrupted write fails if it is let go on).
+/// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
+/// SIGINT and SIGTERM, which ends the process afterwards. If the process continues, the interrupted writes
+/// fail.
 FAQEM_EXPORT void remove_temporary_files() noexcept;
 
-/// How a reference in a file is written.
+/// Syntax of a file reference inside a model file.
 enum class ReferenceSyntax {
-    uri,       ///< glTF: percent-encoded, separated by slashes
-    file_name  ///< OBJ, MTL: literal, separated by slashes or backslashes
+    uri,       ///< glTF: percent-encoded, slashes as separators
+    file_name  ///< OBJ and MTL: literal, slashes or backslashes as separators
 };
 
-/// Finds a file referred to from an asset and makes sure that it lies in the asset's folder or below,
-/// symbolic links followed. The current directory plays no part.
-/// \param folder  folder of the asset; empty: the current directory
-/// \param reference  path relative to it
+/// Resolves a file reference of an asset. The file must lie in the folder of the asset or below it after
+/// symbolic links are resolved. The current directory is used only if `folder` is empty.
+/// \param folder     folder of the asset; empty: the current directory
+/// \param reference  path relative to `folder`
+/// \param kind       syntax of the reference
 /// \return the canonical path of a regular file
-/// \throws ReadError  no such file, or it cannot be looked at
-/// \throws InputError  empty, absolute, with a scheme (`http:`, `C:`), leading outside, or not a regular file
+/// \throws ReadError   if the file does not exist or is not accessible
+/// \throws InputError  if the reference is empty, is absolute, has a scheme (`http:`, `C:`), lies outside the
+///                     folder or is not a regular file
 FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& folder,
                                                   std::string_view reference,
                                                   ReferenceSyntax kind = ReferenceSyntax::uri);

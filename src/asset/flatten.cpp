@@ -20,8 +20,8 @@ Vec3 transformed(const Transform& m, const Vec3& p) {
     return q;
 }
 
-/// Cofactors of the upper left 3 x 3, row by row: the inverse transpose times the determinant, there even
-/// where the transform is singular.
+/// Cofactors of the upper left 3 x 3 block, row by row: the inverse transpose times the determinant. They are
+/// defined for singular transforms too.
 std::array<Vec3, 3> cofactors(const Transform& m) {
     std::array<Vec3, 3> c;
     const auto at = [&](std::size_t r, std::size_t col) { return m[4 * (col % 3) + r % 3]; };
@@ -46,7 +46,7 @@ Vec3f transformed_normal(const std::array<Vec3, 3>& cofactor, double sign, const
             static_cast<float>(q[2] / length)};
 }
 
-/// Which attributes the flat part has.
+/// Vertex attributes of the flattened part.
 struct VertexLayout {
     bool normals = false, colors = false;
     std::size_t uv_sets = 0;
@@ -124,9 +124,9 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
     const std::string cannot = format + " cannot hold ";
     if (asset.source)
         losses.push_back(
-            cannot + "a scene: all meshes are placed in world space, and everything else of it is left out");
+            cannot + "a scene: all meshes are transformed to world space, the rest of the scene is left out");
     if (const std::size_t uninstanced = uninstanced_part_count(asset))
-        losses.push_back("no node of the scene shows " + std::to_string(uninstanced) +
+        losses.push_back("no node of the scene references " + std::to_string(uninstanced) +
                          (uninstanced == 1 ? " mesh, which was left out" : " meshes, which were left out"));
     if (any([](const Part& p) { return !p.joints.empty(); }))
         losses.push_back(cannot + "skins: the mesh keeps its rest pose");

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A scene as one part, for formats without a scene graph.
+/// Flattening of a scene to one part in world space, for formats without a scene graph.
 
 #include <filesystem>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace faqem::detail {
 
-/// All instances of all parts in world space, one after the other. Normals go by the inverse transpose and
-/// have unit length; mirrored instances have their winding turned round. Attributes that only some parts have
-/// get neutral values elsewhere: normals and UVs zero, colours white. Tangents, skins and morph targets are
-/// left out. A part that is alone and stays where it is comes out with the same bits.
-/// \throws InputError  when there are more vertices or faces than 32-bit indices can tell apart
+/// Concatenates all instances of all parts, transformed to world space. Normals are transformed by the
+/// inverse transpose and normalised; the winding of mirrored instances is reversed. Attributes that only some
+/// parts have get neutral values in the others: zero normals and UVs, white colours. Tangents, skins and
+/// morph targets are left out. With the identity transform, positions and normals are copied bit for bit.
+/// \throws InputError  if there are more vertices or faces than 32-bit indices can address
 FAQEM_EXPORT Part flatten(const Asset& asset);
 
-/// The same for these instances instead of those of the asset's scene.
+/// Same as above, for the given instances instead of those of the scene of the asset.
 Part flatten(const Asset& asset, const std::vector<Instance>& all);
 
-/// What flatten() leaves out of this asset, one sentence each.
-/// \param format  name of the format for the sentences
+/// Lists what flatten() leaves out of the asset, one sentence each.
+/// \param format  name of the output format, used in the sentences
 std::vector<std::string> flattening_losses(const Asset& asset, const std::string& format);
 
-/// True when all coordinates are floats exactly.
+/// Whether all coordinates are exactly representable as float.
 bool is_float_representable(const std::vector<Vec3>& positions);
 
 }  // namespace faqem::detail

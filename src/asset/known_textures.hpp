@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Which textures material extensions have, and what is in them (Khronos, glTF 2.0 extension registry).
+/// Textures of the glTF material extensions that can be baked, and the meaning of their channels
+/// (Khronos, glTF 2.0 extension registry).
 
 #include <algorithm>
 #include <array>
@@ -8,25 +9,25 @@
 
 namespace faqem::detail {
 
-/// What the channels of a texture say.
+/// Meaning of the channels of a texture.
 enum class TextureContent {
-    data,             ///< numbers in RGB
-    alpha,            ///< a number in alpha
-    color,            ///< sRGB
-    color_and_alpha,  ///< sRGB, and a number in alpha
-    normal,           ///< a direction in tangent space
+    data,             ///< linear values in RGB
+    alpha,            ///< linear value in alpha
+    color,            ///< sRGB colour
+    color_and_alpha,  ///< sRGB colour, linear value in alpha
+    normal,           ///< tangent-space normal
 };
 
 /// A texture of a material extension.
 struct KnownTexture {
     std::string_view extension, name;
     TextureContent content;
-    /// The factor it is multiplied with where that is 0 by default: it switches on, everywhere, what the
-    /// texture has in places. Else empty.
+    /// Name of the factor that the texture is multiplied by, if the default of the factor is 0; else empty.
+    /// Without the texture, such a factor would apply the effect to the whole surface.
     std::string_view enabling_factor;
 };
 
-/// By extension and name.
+/// All known textures, sorted by extension and name.
 inline constexpr std::array known_textures = {
     KnownTexture{"KHR_materials_clearcoat", "clearcoatNormalTexture", TextureContent::normal, ""},
     KnownTexture{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", TextureContent::data, ""},
@@ -51,7 +52,7 @@ inline constexpr std::array known_textures = {
     KnownTexture{"KHR_materials_volume", "thicknessTexture", TextureContent::data, "thicknessFactor"},
 };
 
-/// Null where it is not known.
+/// Finds a texture by extension and name; null if it is not known.
 inline const KnownTexture* find_known_texture(std::string_view extension, std::string_view name) {
     const auto found = std::find_if(
         known_textures.begin(), known_textures.end(),

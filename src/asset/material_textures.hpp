@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// All textures of a material.
+/// Iteration over the textures of a material.
 
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
 
-/// Calls visit(texture) for the five textures of glTF's material, in a fixed order, whether they are set or not.
-/// \param material  Material or const Material
+/// Calls visit(texture) for the five textures of the core glTF material in a fixed order, including unset
+/// ones.
+/// \tparam M  Material or const Material
 template <class M, class Visit>
 void for_each_core_texture(M& material, const Visit& visit) {
     visit(material.base_color_texture);
@@ -17,7 +18,7 @@ void for_each_core_texture(M& material, const Visit& visit) {
     visit(material.emissive_texture);
 }
 
-/// As for_each_core_texture(), then those of extensions.
+/// Same as for_each_core_texture(), followed by the textures of material extensions.
 template <class M, class Visit>
 void for_each_texture(M& material, const Visit& visit) {
     for_each_core_texture(material, visit);

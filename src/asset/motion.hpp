@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What moves in a scene.
+/// Detection of animated and deformable scenes.
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"

@@ -20,17 +20,18 @@ bool has_gltf_or_glb_extension(const fs::path& file) {
 }
 
 void check_levels(const std::vector<SavedLevel>& levels) {
-    if (levels.empty()) throw InputError("", "levels", "there are none");
+    if (levels.empty()) throw InputError("", "levels", "at least one level is required");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const std::size_t parts = levels[i].asset.parts.size();
         if (parts != levels[0].asset.parts.size())
-            throw InputError("", "level " + std::to_string(i), "has not the parts of the first one");
+            throw InputError("", "level " + std::to_string(i),
+                             "must have the same number of parts as level 0");
         if (levels[i].coverage.size() != parts)
-            throw InputError("", "level " + std::to_string(i), "needs one coverage per part");
+            throw InputError("", "level " + std::to_string(i), "must have one coverage value per part");
     }
 }
 
-/// The image that has the same bytes, or a new one.
+/// Returns the index of an image with the same bytes; appends the image if there is none.
 Index add_image(std::vector<Image>& images, Image&& image) {
     const auto same = std::find_if(images.begin(), images.end(), [&](const Image& other) {
         return !image.encoded.empty() && other.encoded == image.encoded;
@@ -40,7 +41,7 @@ Index add_image(std::vector<Image>& images, Image&& image) {
     return index;
 }
 
-/// Adds parts that are no meshes of the source document, and what they need.
+/// Appends the parts of a level, with their materials and images, as parts without a source mesh.
 void append_level(Asset& to, Asset&& level) {
     std::vector<Index> image_map;
     for (Image& own : level.images) image_map.push_back(add_image(to.images, std::move(own)));
@@ -62,13 +63,14 @@ void append_level(Asset& to, Asset&& level) {
     }
 }
 
-/// A level is left for the next one at the coverage that is enough for that; the last one never.
+/// Values of MSFT_screencoverage for one part, one per level: the coverage below which the next level is
+/// used, non-increasing and at most 1. The last value is 0.
 std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
     std::vector<double> coverage;
     for (std::size_t i = 1; i < levels.size(); ++i) {
         const double max_coverage = coverage.empty() ? 1 : coverage.back();
         const double wanted = levels[i].coverage[part];
-        coverage.push_back(wanted < max_coverage ? wanted : max_coverage);  // NaN: a point at no distance
+        coverage.push_back(wanted < max_coverage ? wanted : max_coverage);  // also clamps NaN
     }
     coverage.push_back(0);
     return coverage;

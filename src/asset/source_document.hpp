@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the glTF reader keeps for its writer.
+/// The source document that the glTF reader keeps for the writer.
 
 #include <cstdint>
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace faqem {
 
-/// A glTF document as it was read. Nothing in it changes after load(): the writer makes a changed copy.
+/// A glTF document as it was read. It is immutable after load(); the writer modifies a copy.
 struct SourceDocument {
     detail::Json document;                           ///< validated
     std::vector<std::vector<std::uint8_t>> buffers;  ///< one per buffer, byteLength bytes each
-    std::vector<Image> images;        ///< one per image of the document; encoded is empty where it is missing
-    std::vector<Material> materials;  ///< one per material as read; TextureRef::image counts in `images`
+    std::vector<Image> images;        ///< one per image of the document; `encoded` is empty if it is missing
+    std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
 };
 
 }  // namespace faqem

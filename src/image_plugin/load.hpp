@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// For the command and the C door, which load what reads and writes images with the first one: OpenImageIO brings
-/// some 250 shared libraries, that take .3 s and 130 MB, also where there is no image.
+/// Loading of the image plugin for the command-line tool and the C library. They load it when they need the
+/// first image, because OpenImageIO depends on about 250 shared libraries, which take 0.3 s and 130 MB.
 
 #include <filesystem>
 
@@ -9,9 +9,11 @@
 
 namespace faqem::image_plugin {
 
-/// Loads the module. It stays, since the libraries below it have threads of their own.
-/// \param program_folder  the folder of the program or library that asks
-/// \throws Error  if the module is neither there nor where it is installed, or is of another version
+/// Loads the image plugin. It is never unloaded, since the libraries it depends on have their own threads.
+/// \param program_folder  folder of the calling program or library
+/// \return the image codec, valid until the process ends
+/// \throws Error  if the plugin is neither in `program_folder` nor at its installed location, or belongs to
+///                another version
 const detail::ImageCodec& load_codec(const std::filesystem::path& program_folder);
 
 }  // namespace faqem::image_plugin

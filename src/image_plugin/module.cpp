@@ -1,4 +1,4 @@
-// What load.cpp finds in the module.
+// The exported function of the image plugin, which load.cpp looks up.
 
 #include "asset/image/image_codec.hpp"
 #include "faqem/export.hpp"

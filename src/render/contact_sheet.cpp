@@ -13,10 +13,10 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float top_grey = 0.80f, bottom_grey = 0.58f, text_grey = 0.035f;  // linear light
+constexpr float top_grey = 0.80f, bottom_grey = 0.58f, text_grey = 0.035f;  // linear
 constexpr std::uint32_t glyph_width = 5, glyph_height = 7;
 
-/// Rows of five dots, the leftmost in the highest bit.
+/// A bitmap character of 5 x 7 dots. In each row, bit 4 is the leftmost dot.
 struct Glyph {
     char character;
     std::array<std::uint8_t, glyph_height> rows;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Puts rendered frames side by side into one picture.
+/// Composition of rendered frames to one image.
 
 #include <string>
 #include <vector>
@@ -9,13 +9,15 @@
 
 namespace faqem::render {
 
-/// The views of one model.
+/// A row of the contact sheet: the views of one model.
 struct ContactSheetRow {
     std::vector<Frame> frames;  ///< all of the same size
-    std::string label;          ///< digits, commas, spaces and the letters of "faces"
+    std::string label;          ///< digits, commas, spaces and the letters of "faces"; others are not drawn
 };
 
-/// One row under the other on a neutral ground, labels at the left. sRGB, opaque.
+/// Composes rows of frames from top to bottom on a grey background, with labels at the lower left of each
+/// row. The result is opaque sRGB.
+/// \pre at least one row with at least one frame; all rows have the same number of frames of the same size
 Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows);
 
 }  // namespace faqem::render

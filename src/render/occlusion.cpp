@@ -11,12 +11,12 @@ namespace faqem::render {
 namespace {
 
 constexpr int directions = 12;
-constexpr std::array<double, 3> radii = {0.006, 0.017, 0.04};  // shares of the picture
+constexpr std::array<double, 3> radii = {0.006, 0.017, 0.04};  // fractions of the image size
 constexpr double strength = 0.85;
-constexpr double min_elevation_sine = 0.08;  // flat surfaces of small faces must stay clean
+constexpr double min_elevation_sine = 0.08;  // avoids occlusion on nearly flat surfaces of small faces
 constexpr double two_pi = 6.283185307179586;
 
-/// Point seen at a pixel, relative to the eye.
+/// Position of the surface at a pixel, relative to the eye.
 Vector3 point(const SurfelImage& surfels, const Camera& camera, std::int64_t x, std::int64_t y,
               double inverse_depth) {
     const double half = surfels.size / 2.0, depth = 1 / inverse_depth;
@@ -32,7 +32,7 @@ struct Offset {
 constexpr int rotations = 16;
 using Pattern = std::vector<Offset>;
 
-/// The neighbours to look at, for each of the rotations.
+/// Offsets of the sampled neighbours in pixels, for each rotation of the pattern.
 std::array<Pattern, rotations> patterns(std::uint32_t size) {
     std::array<Pattern, rotations> result;
     for (int r = 0; r < rotations; ++r) {
@@ -76,7 +76,7 @@ std::vector<float> ambient_accessibility(const SurfelImage& surfels, const Camer
     const auto by_rotation = patterns(surfels.size);
     for (std::int64_t y = 0; y < size; ++y) {
         for (std::int64_t x = 0; x < size; ++x) {
-            // A 4 x 4 tile of rotations; 2 x 2 of them are averaged into a pixel.
+            // Rotations are arranged in tiles of 4 x 4 samples; 2 x 2 samples are averaged to a pixel.
             const auto rotation = static_cast<std::size_t>(x % 4 * 4 + y % 4 * 5) % rotations;
             const auto i = static_cast<std::size_t>(y * size + x);
             if (surfels.pixels[i].inverse_depth > 0)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Shadow in the corners, from the depth buffer alone.
+/// Screen-space ambient occlusion.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -10,21 +10,22 @@ namespace faqem::render {
 
 struct Camera;
 
-/// What is seen at a pixel; inverse_depth is 0 where that is nothing.
+/// The visible surface at a pixel; inverse_depth is 0 if there is none.
 struct Surfel {
     float inverse_depth = 0;
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
-/// A square picture of surfels.
+/// A square image of surfels.
 struct SurfelImage {
-    std::uint32_t size = 0;
-    double tan_half_fov = 0;  ///< of half the field of view
+    std::uint32_t size = 0;   ///< width and height in pixels
+    double tan_half_fov = 0;  ///< tangent of half the field of view
     std::vector<Surfel> pixels;
 };
 
-/// Share of the light from all around that reaches each pixel, in (0, 1]: how far neighbours on the screen
-/// rise above its tangent plane (after Crytek's screen-space ambient occlusion, Mittring 2007).
+/// Computes the fraction of ambient light that reaches each pixel, in (0, 1], from the height of neighbouring
+/// pixels above its tangent plane (screen-space ambient occlusion of Crytek, Mittring 2007). Pixels without a
+/// surface get 1.
 std::vector<float> ambient_accessibility(const SurfelImage& surfels, const Camera& camera);
 
 }  // namespace faqem::render

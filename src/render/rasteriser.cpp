@@ -17,39 +17,40 @@ using Eigen::Vector3f;
 using Eigen::Vector4f;
 
 constexpr std::uint32_t samples_per_axis = 2;
-constexpr double edge_width = 0.8;  // pixels of the supersampled picture, to either side
+constexpr double edge_width = 0.8;  // half the line width, in pixels of the supersampled image
 const Vector4f edge_colour(0.02f, 0.03f, 0.05f, 1.0f);
 
-/// One corner of a triangle on the screen.
+/// A corner of a projected triangle.
 struct Corner {
     Vector3 world, normal;
-    Vector2d screen;       ///< pixels, y down
-    double inverse_depth;  ///< 1 / distance along the view axis: linear on the screen
+    Vector2d screen;       ///< in pixels, y points down
+    double inverse_depth;  ///< 1 / distance along the view axis, which is linear in screen space
     Index vertex;
 };
 
-/// What is the same all over one triangle.
+/// A projected triangle with its constant attributes.
 struct ScreenTriangle {
     std::array<Corner, 3> corners;
     const Part* part;
     const Material* material;
-    Vector3 normal;      ///< of the plane, towards the eye
-    double facing;       ///< 1: seen from the front, -1: from behind
-    double screen_area;  ///< on the screen, twice, signed
+    Vector3 normal;      ///< face normal, towards the eye
+    double facing;       ///< 1: front-facing, -1: back-facing
+    double screen_area;  ///< twice the signed area in screen space
 };
 
 const Material default_material;
 
+/// The scene, the options and the buffers of one rendering.
 struct RenderTarget {
     const Scene& scene;
     const Camera& camera;
     Shading shading;
     Edges edges;
-    SurfelImage surfels;           ///< depth and normals, for the occlusion
-    std::vector<Vector4f> colour;  ///< premultiplied
+    SurfelImage surfels;           ///< depth and normals
+    std::vector<Vector4f> colour;  ///< linear RGBA, premultiplied
 };
 
-/// Perspective-correct weights of the corners.
+/// Converts screen-space barycentric coordinates to perspective-correct ones.
 Vector3 perspective_weights(const ScreenTriangle& face, const Vector3& screen_weights) {
     Vector3 w;
     for (int k = 0; k < 3; ++k)
@@ -70,13 +71,14 @@ bool has_uvs(const ScreenTriangle& face, const TextureRef& texture_ref) {
            !face.part->uvs[texture_ref.uv_set].empty();
 }
 
-/// Transformed UV of a corner.
+/// UV of a corner with the texture transform applied.
 Vector2d corner_uv(const ScreenTriangle& face, const TextureRef& texture_ref, std::size_t k) {
     const Vec2f& uv = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
     return transform_uv(texture_ref, {uv[0], uv[1]});
 }
 
-/// Mip level: half the logarithm of texels per pixel. One per face, as faces are small.
+/// Mip level of a face: half the base-2 logarithm of the number of texels per pixel. It is constant per face,
+/// since faces are small.
 double mip_level(const ScreenTriangle& face, const Texture& texture, const std::array<Vector2d, 3>& uv) {
     const Vector2d a = uv[1] - uv[0], b = uv[2] - uv[0];
     const double texels =
@@ -85,7 +87,7 @@ double mip_level(const ScreenTriangle& face, const Texture& texture, const std::
     return ratio > 1 ? 0.5 * std::log2(ratio) : 0;
 }
 
-/// RGBA of a texture at a place on the face; nothing where there is no such texture.
+/// RGBA of a texture at the barycentric coordinates w; empty if there is no texture.
 std::optional<Vector4f> sample_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
                                        const std::vector<Texture>& textures, const Vector3& w) {
     if (!has_uvs(face, texture_ref) || texture_ref.image >= textures.size() || !textures[texture_ref.image])
@@ -114,7 +116,7 @@ Vector4f base_colour(const RenderTarget& target, const ScreenTriangle& face, con
     return colour;
 }
 
-/// Bends a normal by the material's normal map, in the frame of the face's own UVs.
+/// Applies the normal map of the material to a normal, in the tangent frame of the UVs of the face.
 Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
                       const Vector3& normal) {
     const TextureRef& texture_ref = face.material->normal_texture;
@@ -131,7 +133,7 @@ Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, co
     Vector3 tangent = handedness * (d2.y() * e1 - d1.y() * e2);
     tangent -= normal * normal.dot(tangent);
     tangent.stableNormalize();
-    // glTF: the bitangent goes up in the picture, that is against v.
+    // In glTF the bitangent points up in the image, opposite to v.
     Vector3 bitangent = -handedness * (d1.x() * e2 - d2.x() * e1);
     bitangent -= normal * normal.dot(bitangent);
     bitangent.stableNormalize();
@@ -150,7 +152,8 @@ Vector3 shading_normal(const RenderTarget& target, const ScreenTriangle& face, c
     return face.facing * normal;
 }
 
-/// A key light from the upper left, a weak one from the right, sky above and ground below; a soft highlight.
+/// Shades a surface with a key light from the upper left, a fill light from the right, hemispherical ambient
+/// light and a soft specular highlight.
 Vector3f lighting(const Camera& camera, const Vector3f& albedo, const Vector3& normal,
                   const Vector3& to_eye) {
     const Vector3 key = (-0.55 * camera.right + 0.75 * camera.up + 0.75 * camera.back).normalized();
@@ -166,7 +169,9 @@ Vector3f lighting(const Camera& camera, const Vector3f& albedo, const Vector3& n
     return albedo.cwiseProduct(light) + shine * Vector3f::Ones();
 }
 
-/// Colour of a face at a place, alpha as in its material; nothing where a mask cuts it away.
+/// Colour of a face at the barycentric coordinates w, with the alpha of its material; empty if the alpha mask
+/// discards the pixel.
+/// \param normal  receives the shading normal
 std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
                               Vector3& normal) {
     Vector4f colour = base_colour(target, face, w);
@@ -190,7 +195,7 @@ std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& 
     return colour;
 }
 
-/// Distance in pixels from a place to the nearest edge of the face.
+/// Distance in pixels to the nearest edge of the face.
 double edge_distance(const ScreenTriangle& face, const Vector3& screen_weights) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -219,7 +224,7 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     Vector4f premultiplied = *colour * alpha;
     premultiplied[3] = alpha;
     target.colour[pixel] = premultiplied + (1 - alpha) * target.colour[pixel];
-    if (face.material->alpha_mode == AlphaMode::blend) return;  // lets through what is behind: drawn last
+    if (face.material->alpha_mode == AlphaMode::blend) return;  // blended faces do not write depth
     surfel.inverse_depth = static_cast<float>(inverse_depth);
     surfel.normal = normal.cast<float>();
 }
@@ -274,12 +279,12 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     face.normal = engine::area_vector(face.corners[0].world, face.corners[1].world, face.corners[2].world)
                       .stableNormalized();
     if (face.normal.dot(camera.eye - face.corners[0].world) < 0) face.normal = -face.normal;
-    // y points down on the screen, so what is counter-clockwise in the world has a negative area there.
+    // y points down on the screen, so the area of counter-clockwise faces is negative.
     face.facing = (face.screen_area < 0) != instance.mirrored ? 1 : -1;
     return face;
 }
 
-/// Opaque faces in any order, then those that let light through from the back to the front.
+/// Draws opaque and masked faces in any order, then blended faces from back to front.
 void draw_scene(RenderTarget& target) {
     std::vector<std::pair<double, ScreenTriangle>> blended;
     for (const Scene::PartInstance& instance : target.scene.parts) {
@@ -308,7 +313,8 @@ Frame downsample(const std::vector<Vector4f>& colour, std::uint32_t size) {
     for (std::uint32_t y = 0; y < fine; ++y) {
         for (std::uint32_t x = 0; x < fine; ++x) {
             Vector4f c = colour[std::size_t{y} * fine + x];
-            for (int k = 0; k < 3; ++k) c[k] = std::min(c[k], 1.0f);  // before averaging, or highlights fray
+            // Clamped before averaging, which otherwise makes the edges of highlights jagged.
+            for (int k = 0; k < 3; ++k) c[k] = std::min(c[k], 1.0f);
             frame.pixels[std::size_t{y / samples_per_axis} * size + x / samples_per_axis] +=
                 c / static_cast<float>(samples_per_axis * samples_per_axis);
         }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A small software rasteriser for before-and-after pictures: depth buffer, perspective-correct attributes,
-/// textures, two lights and a shadow in the corners.
+/// A simple software rasteriser: depth buffer, perspective-correct attributes, textures, two lights and
+/// ambient occlusion.
 
 #include <cstdint>
 #include <string>
@@ -15,51 +15,64 @@ namespace faqem::render {
 
 using engine::Vector3;
 
-/// An asset in world space with its images decoded.
+/// An asset in world space with decoded images.
 struct Scene {
+    /// An instance of a part in world space.
     struct PartInstance {
-        Index part = no_index;
+        Index part = no_index;  ///< index into Asset::parts
         std::vector<Vector3> positions;
-        std::vector<Vector3> normals;  ///< unit or zero; empty: the faces' own
-        bool mirrored = false;
+        std::vector<Vector3> normals;  ///< unit or zero; empty: face normals are used
+        bool mirrored = false;         ///< the transform reverses the orientation
     };
     Asset asset;
     std::vector<PartInstance> parts;
-    std::vector<Texture> color_textures, normal_maps;  ///< by image; empty where not used so or not decodable
-    std::uint64_t faces = 0;
+    std::vector<Texture> color_textures, normal_maps;  ///< by image; empty if unused or not decodable
+    std::uint64_t faces = 0;                           ///< number of faces of all instances
     std::vector<std::string> warnings;
 };
 
-/// Decodes images that cannot be decoded as white, with a warning.
+/// Transforms an asset to world space and decodes its images. An image that cannot be decoded is drawn white,
+/// with a warning in Scene::warnings.
 Scene make_scene(Asset asset);
 
+/// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.
 struct Camera {
     Vector3 eye = Vector3::Zero();
     Vector3 right = Vector3::UnitX(), up = Vector3::UnitY(), back = Vector3::UnitZ();
-    double tan_half_fov = 0.2;  ///< of half the field of view
+    double tan_half_fov = 0.2;  ///< tangent of half the field of view
 };
 
-/// The camera that looks at `centre` from a direction, at unit distance.
-/// \param azimuth    about y, radians; 0: from +z
-/// \param elevation  radians above the horizon
+/// Creates a camera that looks at `centre` from unit distance.
+/// \param centre     point in the centre of the image
+/// \param azimuth    rotation about the y axis in radians; 0: the camera looks from +z
+/// \param elevation  angle above the horizon in radians
 Camera orbit_camera(const Vector3& centre, double azimuth, double elevation);
 
-/// Distance from `centre` at which a camera with these directions has the whole scene in the picture.
+/// Distance from `centre` at which a camera with the given orientation sees the whole scene. O(faces)
 double fitting_distance(const Scene& scene, const Camera& camera, const Vector3& centre);
 
-/// Box of the corners of all faces. False: there are none.
+/// Computes the axis-aligned bounding box of all faces. Returns false if there are no faces.
 bool bounding_box(const Scene& scene, Vector3& low, Vector3& high);
 
+/// Whether lights are used, or the base colour is drawn.
 enum class Shading { lit, unlit };
+
+/// Whether the edges of the triangles are drawn.
 enum class Edges { hidden, drawn };
 
-/// Square picture, premultiplied linear RGBA.
+/// A square image in premultiplied linear RGBA.
 struct Frame {
-    std::uint32_t size = 0;
-    std::vector<Eigen::Vector4f> pixels;  ///< size * size
+    std::uint32_t size = 0;               ///< width and height in pixels
+    std::vector<Eigen::Vector4f> pixels;  ///< size * size, row 0 at the top
 };
 
-/// Draws a scene with 2 x 2 samples per pixel. Backs of faces are drawn too, as seen from their side.
+/// Renders a scene with 2 x 2 samples per pixel. Back-facing triangles are drawn with flipped normals.
+/// \param scene    the scene, borrowed
+/// \param camera   the camera
+/// \param size     width and height of the image in pixels
+/// \param shading  whether lights are used
+/// \param edges    whether edges are drawn
+/// \return the image; pixels without a surface are transparent
 Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges);
 
 }  // namespace faqem::render

@@ -10,7 +10,7 @@ namespace faqem::render {
 
 namespace {
 
-/// What an instance's transform does to positions, normals and winding.
+/// Transform of positions and normals of an instance, and whether it reverses the winding.
 struct InstanceTransform {
     Eigen::Matrix3d linear, normal;
     Vector3 offset;
@@ -22,7 +22,7 @@ InstanceTransform instance_transform(const Instance& instance) {
     InstanceTransform transform;
     transform.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
     transform.offset = {m[12], m[13], m[14]};
-    // The cofactor matrix is det times the inverse transpose, and exists where the inverse does not.
+    // The cofactor matrix is the determinant times the inverse transpose, also defined if it is singular.
     const Vector3 x = transform.linear.col(0), y = transform.linear.col(1), z = transform.linear.col(2);
     transform.normal << y.cross(z), z.cross(x), x.cross(y);
     transform.mirrored = x.dot(y.cross(z)) < 0;
@@ -35,7 +35,8 @@ std::optional<Texture> load_texture(const Image& image, ColorSpace color_space,
     try {
         return make_texture(decode(image), color_space);
     } catch (const Error& error) {
-        warnings.push_back("image '" + image.name + "' is drawn white: " + error.what());
+        warnings.push_back("image '" + image.name +
+                           "' cannot be decoded and is drawn white: " + error.what());
         return std::nullopt;
     }
 }

@@ -11,7 +11,7 @@ namespace faqem::render {
 
 namespace {
 
-// Coarser levels than this mix unrelated charts of an atlas, whose gutters are a few texels wide.
+// Coarser levels would mix unrelated charts of an atlas, whose gutters are a few texels wide.
 constexpr std::size_t max_levels = 4;
 
 const std::array<float, 256>& srgb_to_linear_table() {
@@ -72,7 +72,7 @@ std::uint32_t wrap_index(std::int64_t i, std::uint32_t size, Wrap wrap) {
 
 Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, const TextureRef& texture_ref,
                          const Eigen::Vector2d& uv) {
-    // Coordinates far outside say nothing any more, and must not overflow.
+    // Coordinates beyond the precision of double are meaningless; 0 avoids integer overflow.
     const auto texel_coordinate = [](double u, std::uint32_t size) {
         const double x = u * size;
         return std::isfinite(x) && std::abs(x) < 1e15 ? x : 0.0;

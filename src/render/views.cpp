@@ -11,7 +11,7 @@ namespace faqem::render {
 namespace {
 
 constexpr double two_pi = 6.283185307179586, first_azimuth = 0.35, margin = 1.04;
-constexpr std::array<double, 2> elevations = {0.16, 0.42};  // in two_pi: from the side, and a little into it
+constexpr std::array<double, 2> elevations = {0.16, 0.42};  // radians: alternating low and higher views
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pictures of several scenes from the same places.
+/// Rendering of several scenes from the same cameras.
 
 #include <cstdint>
 #include <string>
@@ -11,17 +11,25 @@
 
 namespace faqem::render {
 
-/// Cameras around a scene. All have the same distance, so that sizes can be compared, and the scene fits.
-/// \param file  of the scene, for errors
-/// \throws InputError  it has no triangles
+/// Creates cameras around a scene. All cameras have the same distance, at which each of them sees the whole
+/// scene.
+/// \param scene  the scene
+/// \param file   path of the scene, for error messages
+/// \param views  number of cameras
+/// \throws InputError  if the scene has no triangles
 std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views);
 
-/// Draws each scene in a row of a sheet, with a view for each camera and the number of faces for a label.
-/// \param size  side of a view, pixels
+/// Renders each scene as a row of a contact sheet, with one view per camera and the number of faces as label.
+/// The views are rendered in parallel.
+/// \param scenes   the scenes, one per row
+/// \param cameras  the cameras, one per column
+/// \param size     width and height of a view in pixels
+/// \param shading  whether lights are used
+/// \param edges    whether edges are drawn
 std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
                                        std::uint32_t size, Shading shading, Edges edges);
 
-/// `1,234,567`
+/// Formats a number with thousands separators: `1,234,567`.
 std::string with_commas(std::uint64_t number);
 
 }  // namespace faqem::render

@@ -1,4 +1,4 @@
-// Choice of format, and where the parts are in the scene.
+// Format detection and instances of the scene.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,7 +22,7 @@ void check_close(const Vec3& a, const Vec3& b) {
     for (std::size_t i = 0; i < 3; ++i) CHECK(a[i] == Approx(b[i]).margin(1e-12));
 }
 
-/// The square with the given nodes instead of its own, and no scene.
+/// Loads the square with the given nodes and without a scene.
 Asset with_nodes(const char* nodes) {
     GltfBuilder builder = square_gltf();
     builder.json.erase("scenes");
@@ -32,7 +32,7 @@ Asset with_nodes(const char* nodes) {
 
 }  // namespace
 
-TEST_CASE("the format is found from the content before the name") {
+TEST_CASE("the format is detected from the content before the file name") {
     const TemporaryFolder folder;
     put(folder / "scan.bin", square_gltf().glb());
     CHECK(load(folder / "scan.bin").parts.size() == 1);
@@ -42,7 +42,7 @@ TEST_CASE("the format is found from the content before the name") {
     CHECK(load(folder / "text.GLTF").parts.empty());
 }
 
-TEST_CASE("files of no known format, folders and missing files are refused") {
+TEST_CASE("unknown formats, folders and missing files are rejected") {
     const TemporaryFolder folder;
     put(folder / "a.txt", "hello");
     CHECK(contains(message_of<UnsupportedError>([&] { load(folder / "a.txt"); }), "a.txt"));
@@ -53,7 +53,7 @@ TEST_CASE("files of no known format, folders and missing files are refused") {
     CHECK_FALSE(std::filesystem::exists(folder / "a.xyz"));
 }
 
-TEST_CASE("saving does not overwrite unasked") {
+TEST_CASE("saving does not overwrite an existing file by default") {
     const TemporaryFolder folder;
     const Asset asset = load_glb(square_gltf());
     save(asset, folder / "a.glb");
@@ -69,7 +69,7 @@ TEST_CASE("an empty asset can be saved and loaded") {
     CHECK(load(folder / "a.glb").parts.empty());
 }
 
-TEST_CASE("parts without a scene are at home, once each") {
+TEST_CASE("without a scene each part has one instance with the identity transform") {
     Asset asset;
     asset.parts.resize(2);
     const std::vector<Instance> all = instances(asset);
@@ -78,8 +78,8 @@ TEST_CASE("parts without a scene are at home, once each") {
     check_close(transformed(all[1], {1, 2, 3}), {1, 2, 3});
 }
 
-TEST_CASE("transforms are accumulated from the root: translation after rotation after scale") {
-    // A quarter turn about z takes x to y.
+TEST_CASE("node transforms apply scale, rotation and translation and accumulate from the root") {
+    // The rotation by 90 degrees about z maps x to y.
     const Asset asset = with_nodes(R"([
         {"children":[1],"translation":[10,0,0]},
         {"mesh":0,"translation":[0,5,0],"rotation":[0,0,0.70710678118654752,0.70710678118654752],"scale":[2,3,4]}])");
@@ -90,7 +90,7 @@ TEST_CASE("transforms are accumulated from the root: translation after rotation 
     check_close(transformed(all[0], {0, 0, 1}), {10, 5, 4});
 }
 
-TEST_CASE("matrices, mirrored and zero scales are kept as they are") {
+TEST_CASE("mirrored matrices and zero scales are kept in instance transforms") {
     const Asset asset = with_nodes(R"([
         {"mesh":0,"matrix":[-1,0,0,0,0,1,0,0,0,0,1,0,4,5,6,1]},{"mesh":0,"scale":[0,0,0]}])");
     const std::vector<Instance> all = instances(asset);
@@ -101,7 +101,7 @@ TEST_CASE("matrices, mirrored and zero scales are kept as they are") {
     check_close(transformed(all[1], {1, 1, 1}), {0, 0, 0});
 }
 
-TEST_CASE("only the default scene counts, in the order of its nodes") {
+TEST_CASE("instances are those of the default scene in the order of its nodes") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"] = Json::parse(R"([{"mesh":0,"translation":[1,0,0]},{"mesh":0,"translation":[2,0,0]},
                                            {"mesh":0,"translation":[3,0,0]}])");
@@ -113,7 +113,7 @@ TEST_CASE("only the default scene counts, in the order of its nodes") {
     CHECK(all[1].transform[12] == 2);
 }
 
-TEST_CASE("100000 nodes in a chain do not exhaust the stack") {
+TEST_CASE("a chain of 100000 nodes does not overflow the stack") {
     GltfBuilder builder = square_gltf();
     Json nodes = Json::array();
     for (int i = 0; i < 99999; ++i) nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});

@@ -32,7 +32,7 @@ mode_t mode_of(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a file is read whole", "[file]") {
+TEST_CASE("all bytes of a file are read", "[file]") {
     const TemporaryFolder folder;
     put(folder / "a", std::string("x\0\xFFy", 4));
     CHECK(read_file(folder / "a") == std::vector<std::uint8_t>{'x', 0, 255, 'y'});
@@ -40,7 +40,7 @@ TEST_CASE("a file is read whole", "[file]") {
     CHECK(read_file(folder / "empty").empty());
 }
 
-TEST_CASE("a file above the cap is refused, one at the cap is not", "[file]") {
+TEST_CASE("files larger than the size limit are rejected", "[file]") {
     const TemporaryFolder folder;
     put(folder / "a", "12345");
     CHECK(read_file(folder / "a", 5).size() == 5);
@@ -49,7 +49,7 @@ TEST_CASE("a file above the cap is refused, one at the cap is not", "[file]") {
     CHECK(contains(message, "has 5 bytes"));
 }
 
-TEST_CASE("what is not a regular file is not read, and a FIFO does not block", "[file]") {
+TEST_CASE("only regular files are read and a FIFO does not block", "[file]") {
     const TemporaryFolder folder;
     REQUIRE(::mkfifo((folder / "fifo").c_str(), 0600) == 0);
     CHECK(contains(message_of<ReadError>([&] { read_file(folder / "fifo"); }), "regular"));
@@ -58,7 +58,7 @@ TEST_CASE("what is not a regular file is not read, and a FIFO does not block", "
     CHECK(contains(message_of<ReadError>([&] { read_file(folder / "none"); }), "No such file"));
 }
 
-TEST_CASE("a new file has the usual permissions, a replaced one keeps its own", "[file]") {
+TEST_CASE("a new file gets default permissions and a replaced file keeps its permissions", "[file]") {
     const TemporaryFolder folder;
     const mode_t mask = ::umask(0027);
     write_file(folder / "a", bytes_of("new"), Overwrite::no);
@@ -72,7 +72,7 @@ TEST_CASE("a new file has the usual permissions, a replaced one keeps its own", 
     CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("an existing file is not replaced unasked", "[file]") {
+TEST_CASE("an existing file is not replaced unless overwriting is allowed", "[file]") {
     const TemporaryFolder folder;
     put(folder / "a", "old");
     const std::string message =
@@ -83,7 +83,7 @@ TEST_CASE("an existing file is not replaced unasked", "[file]") {
     CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("of many writers that may not overwrite, one wins", "[file]") {
+TEST_CASE("exactly one of several concurrent writers creates a new file", "[file]") {
     const TemporaryFolder folder;
     std::atomic<int> won{0}, lost{0};
     std::vector<std::thread> writers;
@@ -102,7 +102,7 @@ TEST_CASE("of many writers that may not overwrite, one wins", "[file]") {
     CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("a link is followed, a dangling one is not overwritten unasked", "[file]") {
+TEST_CASE("symbolic links are followed and a dangling link is not overwritten by default", "[file]") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "sub");
     put(folder / "sub/real", "old");
@@ -115,7 +115,7 @@ TEST_CASE("a link is followed, a dangling one is not overwritten unasked", "[fil
     CHECK(!fs::exists(folder / "nowhere"));
 }
 
-TEST_CASE("folders, devices and missing folders are no place to write to", "[file]") {
+TEST_CASE("writing to folders, devices and missing folders fails", "[file]") {
     const TemporaryFolder folder;
     CHECK_THROWS_AS(write_file(folder.path(), bytes_of("x"), Overwrite::yes), WriteError);
     CHECK_THROWS_AS(write_file("/dev/full", bytes_of("x"), Overwrite::yes), WriteError);
@@ -123,10 +123,10 @@ TEST_CASE("folders, devices and missing folders are no place to write to", "[fil
     CHECK(files_in(folder) == 0);
 }
 
-TEST_CASE("a write that stops half-way leaves the old file and nothing else", "[file]") {
+TEST_CASE("a failed write keeps the old file and leaves no temporary file", "[file]") {
     const TemporaryFolder folder;
     put(folder / "a", "old");
-    // The limit of the file size stands for a full disk: write() stores a part, then fails.
+    // A file size limit simulates a full disk: write() stores a part and then fails.
     struct rlimit old_limit = {};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &old_limit) == 0);
     auto* const old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -145,7 +145,7 @@ TEST_CASE("a write that stops half-way leaves the old file and nothing else", "[
     CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("several files are refused together", "[file]") {
+TEST_CASE("if one of several files exists, none is written by default", "[file]") {
     const TemporaryFolder folder;
     put(folder / "b", "old");
     const FileContent files[] = {{folder / "a", bytes_of("1")}, {folder / "b", bytes_of("2")}};
@@ -156,19 +156,19 @@ TEST_CASE("several files are refused together", "[file]") {
     CHECK(get(folder / "b") == "2");
 }
 
-TEST_CASE("a signal handler can remove the temporary file of a write under way", "[file]") {
+TEST_CASE("a signal handler can remove the temporary file of a write in progress", "[file]") {
     const TemporaryFolder folder;
-    // The write is larger than the limit; the signal this raises arrives while the temporary file is there.
+    // The write exceeds the file size limit; the resulting signal arrives while the temporary file exists.
     static std::atomic<std::size_t> before, after;
-    static const TemporaryFolder* place;
-    place = &folder;
+    static const TemporaryFolder* watched_folder;
+    watched_folder = &folder;
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
         std::signal(SIGXFSZ, [](int) {
-            before = files_in(*place);
+            before = files_in(*watched_folder);
             remove_temporary_files();
-            after = files_in(*place);
+            after = files_in(*watched_folder);
             ::_exit(before == 1 && after == 0 ? 0 : 1);
         });
         const struct rlimit limit = {1000, 1000};
@@ -181,18 +181,18 @@ TEST_CASE("a signal handler can remove the temporary file of a write under way",
     }
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
-    place = nullptr;
+    watched_folder = nullptr;
     CHECK(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("a process killed in the middle of a write leaves the old file whole", "[file]") {
+TEST_CASE("a process killed during a write keeps the complete old file", "[file]") {
     const TemporaryFolder folder;
     put(folder / "a", "old");
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
-        // The write is larger than the limit: the signal comes when a part of the file is written.
+        // The write exceeds the file size limit: the signal arrives when a part of the file is written.
         std::signal(SIGXFSZ, [](int) { ::kill(::getpid(), SIGKILL); });
         const struct rlimit limit = {1000, 1000};
         if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(2);
@@ -206,13 +206,13 @@ TEST_CASE("a process killed in the middle of a write leaves the old file whole",
     REQUIRE(::waitpid(child, &status, 0) == child);
     CHECK(WIFSIGNALED(status));
     CHECK(get(folder / "a") == "old");
-    // What is left of the new one has another name, and does not stand in the way of the next write.
+    // The remaining temporary file has another name and does not prevent the next write.
     CHECK(files_in(folder) == 2);
     write_file(folder / "a", bytes_of("new"), Overwrite::yes);
     CHECK(get(folder / "a") == "new");
 }
 
-TEST_CASE("references are found inside the folder", "[file]") {
+TEST_CASE("references inside the folder are resolved", "[file]") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "sub dir");
     put(folder / "sub dir/a b.png", "x");
@@ -227,7 +227,7 @@ TEST_CASE("references are found inside the folder", "[file]") {
     CHECK_THROWS_AS(resolve_inside(folder.path(), "sub dir\\a b.png"), ReadError);
 }
 
-TEST_CASE("references that lead outside are refused before anything is looked at", "[file]") {
+TEST_CASE("references outside the folder are rejected whether or not the file exists", "[file]") {
     const TemporaryFolder folder;
     fs::create_directory(folder / "in");
     put(folder / "secret", "x");
@@ -252,7 +252,7 @@ TEST_CASE("references that lead outside are refused before anything is looked at
     CHECK_THROWS_AS(resolve_inside(folder / "in", "..\\secret", ReferenceSyntax::file_name), InputError);
     CHECK_THROWS_AS(resolve_inside(folder / "in", "none"), ReadError);
     CHECK(resolve_inside(folder / "in", "good").filename() == "a");
-    // A folder whose name only starts like the asset's folder is outside.
+    // A folder whose name only has the name of the asset folder as a prefix is outside.
     fs::create_directory(folder / "inside");
     put(folder / "inside/a", "x");
     CHECK_THROWS_AS(resolve_inside(folder / "in", "../inside/a"), InputError);

@@ -39,7 +39,7 @@ Vec3 face_normal(const Part& part) {
 
 }  // namespace
 
-TEST_CASE("a part that stays where it is keeps its bits", "[flatten]") {
+TEST_CASE("an instance with the identity transform is copied bit for bit", "[flatten]") {
     Asset asset = slope();
     asset.parts[0].name = "slope";
     asset.parts[0].positions[0] = {0.1, -0.0, 1e-300};
@@ -51,7 +51,7 @@ TEST_CASE("a part that stays where it is keeps its bits", "[flatten]") {
     CHECK(flat.name == "slope");
 }
 
-TEST_CASE("normals stay perpendicular and outside under any transform, mirrored or not", "[flatten]") {
+TEST_CASE("transformed normals match the face normals, also under mirroring", "[flatten]") {
     const Transform shear = {1, 0, 0, 0, 0.5, 2, 0, 0, -0.25, 0.5, 3, 0, 7, 8, 9, 1};
     for (const Transform& m :
          {identity, scaled(2, 1, 0.25), scaled(-1, 1, 1), scaled(-2, -1, 1), scaled(-1, -1, -1), shear}) {
@@ -68,21 +68,21 @@ TEST_CASE("positions are transformed by the column-major matrix", "[flatten]") {
     CHECK(flat.positions == std::vector<Vec3>{{11, 20, 30}, {12, 23, 30}, {10, 20, 31}});
 }
 
-TEST_CASE("a mirrored instance has its winding turned round", "[flatten]") {
+TEST_CASE("the winding of mirrored instances is reversed", "[flatten]") {
     CHECK(flatten(slope(), {{0, scaled(1, 1, 1)}}).triangles[0] == Triangle{0, 1, 2});
     CHECK(flatten(slope(), {{0, scaled(-1, 1, 1)}}).triangles[0] == Triangle{0, 2, 1});
     CHECK(flatten(slope(), {{0, scaled(-1, -1, 1)}}).triangles[0] == Triangle{0, 1, 2});
 }
 
-TEST_CASE("a transform without volume gives flat faces and finite normals", "[flatten]") {
-    const Part pressed = flatten(slope(), {{0, scaled(1, 1, 0)}});
-    CHECK(pressed.normals[0] == Vec3f{0, 0, 1});
+TEST_CASE("a singular transform gives finite normals", "[flatten]") {
+    const Part planar = flatten(slope(), {{0, scaled(1, 1, 0)}});
+    CHECK(planar.normals[0] == Vec3f{0, 0, 1});
     const Part point = flatten(slope(), {{0, scaled(0, 0, 0)}});
     CHECK(point.normals[0] == Vec3f{0, 0, 0});
     CHECK(point.triangles.size() == 1);
 }
 
-TEST_CASE("parts with different attributes are joined with neutral values", "[flatten]") {
+TEST_CASE("attributes that some parts lack get neutral values", "[flatten]") {
     Asset asset = slope();
     asset.parts.push_back(one_part({{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{2, 1, 0}}).parts[0]);
     asset.parts[1].colors.assign(3, {0.5f, 0, 0, 1});
@@ -100,7 +100,7 @@ TEST_CASE("parts with different attributes are joined with neutral values", "[fl
     CHECK(flat.name.empty());
 }
 
-TEST_CASE("is_float_representable tells floats from doubles", "[flatten]") {
+TEST_CASE("is_float_representable is true only if all coordinates are floats", "[flatten]") {
     CHECK(is_float_representable({{0.5, -3, 1e30f}, {0.1f, 0, 0}}));
     CHECK(!is_float_representable({{0.5, -3, 0.1}}));
     CHECK(!is_float_representable({{0.5, -3, 1e300}}));

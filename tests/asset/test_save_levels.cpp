@@ -15,7 +15,7 @@ std::string saved_levels(std::vector<SavedLevel> levels, const std::string& name
     return get(folder / name);
 }
 
-/// The asset, and twice the same with one face less.
+/// The asset as the first level, and two levels with one face per part.
 std::vector<SavedLevel> three_levels(const Asset& asset, double coverage = 0.5) {
     std::vector<SavedLevel> levels = {{asset, std::vector<double>(asset.parts.size(), 9)}};
     for (int i = 1; i < 3; ++i) {
@@ -30,7 +30,7 @@ std::vector<SavedLevel> three_levels(const Asset& asset, double coverage = 0.5) 
 
 }  // namespace
 
-TEST_CASE("a plain node gets its levels beside it, and the scene shows the first") {
+TEST_CASE("levels of a plain node are separate nodes and the scene has the first level only") {
     const std::string glb = saved_levels(three_levels(load_glb(square_gltf())));
     const Json json = json_of(glb);
     REQUIRE(json["nodes"].size() == 3);
@@ -48,7 +48,7 @@ TEST_CASE("a plain node gets its levels beside it, and the scene shows the first
     CHECK(instances(back).size() == 1);
 }
 
-TEST_CASE("a node with a place or an animation gives its mesh to a child") {
+TEST_CASE("the mesh of a node with a transform or an animation is moved to a child node") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"] =
         Json::parse(R"([{"name":"a","mesh":0,"translation":[1,2,3]},{"name":"b","mesh":0}])");
@@ -78,7 +78,7 @@ TEST_CASE("a node with a place or an animation gives its mesh to a child") {
     CHECK(json["scenes"][0]["nodes"] == Json({0, 1}));
 }
 
-TEST_CASE("levels of a new asset share equal images and keep their materials apart") {
+TEST_CASE("levels of a new asset share equal images and have separate materials") {
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
     asset.parts[0].uvs = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
     asset.parts[0].face_material = {0, 0};
@@ -97,7 +97,7 @@ TEST_CASE("levels of a new asset share equal images and keep their materials apa
     CHECK(instances(back).size() == 1);
 }
 
-TEST_CASE("extras that are no object stay, without the hint") {
+TEST_CASE("extras that are not an object are kept without MSFT_screencoverage") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"][0]["extras"] = 7;
     const Json json = json_of(saved_levels(three_levels(load_glb(builder))));
@@ -105,7 +105,7 @@ TEST_CASE("extras that are no object stay, without the hint") {
     CHECK(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"].size() == 2);
 }
 
-TEST_CASE("levels that do not fit each other or the format are refused") {
+TEST_CASE("inconsistent levels and formats without levels are rejected") {
     const Asset asset = load_glb(square_gltf());
     CHECK_THROWS_AS(saved_levels({}), InputError);
     CHECK_THROWS_AS(saved_levels({{asset, {}}}), InputError);

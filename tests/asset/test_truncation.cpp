@@ -11,14 +11,15 @@ using namespace faqem;
 using namespace faqem::detail;
 using namespace faqem::testing;
 
-// Small damage of small files must end in an asset with valid indices or in an InputError, nothing else. Run
-// under AddressSanitizer, this also shows that no byte outside the file is read.
+// Reading small damaged files must give an asset with valid indices or an InputError. With AddressSanitizer,
+// these tests also check that no byte outside the file is read.
 
 namespace {
 
 using Reader = Asset (*)(std::span<const std::uint8_t>, const std::filesystem::path&);
 
-/// Each prefix in memory of exactly its size, so that a read beyond the end is one beyond an allocation.
+/// Reads a text and returns whether the result is a valid asset or an InputError that names the file. The
+/// text is copied to memory of exactly its size, so that a read beyond its end is out of bounds.
 bool is_harmless(Reader read, const std::string& text) {
     const std::vector<std::uint8_t> exact(text.begin(), text.end());
     try {
@@ -84,7 +85,7 @@ std::vector<Sample> samples() {
 
 }  // namespace
 
-TEST_CASE("files cut off at any byte do no harm", "[truncation]") {
+TEST_CASE("files truncated at any byte give an error or a valid asset", "[truncation]") {
     for (const Sample& sample : samples())
         for (std::size_t size = 0; size <= sample.text.size(); ++size) {
             const bool harmless = is_harmless(sample.read, sample.text.substr(0, size));
@@ -93,14 +94,14 @@ TEST_CASE("files cut off at any byte do no harm", "[truncation]") {
     SUCCEED();
 }
 
-TEST_CASE("the whole samples are read", "[truncation]") {
+TEST_CASE("the complete samples are read", "[truncation]") {
     for (const Sample& sample : samples()) {
         CAPTURE(sample.name);
         CHECK(!sample.read(bytes_of(sample.text), "no-such-folder/a").parts.at(0).triangles.empty());
     }
 }
 
-TEST_CASE("files with any one byte replaced or left out do no harm", "[truncation]") {
+TEST_CASE("files with any byte replaced or removed give an error or a valid asset", "[truncation]") {
     for (const Sample& sample : samples())
         for (std::size_t at = 0; at < sample.text.size(); ++at) {
             std::string shorter = sample.text;
@@ -116,7 +117,7 @@ TEST_CASE("files with any one byte replaced or left out do no harm", "[truncatio
     SUCCEED();
 }
 
-TEST_CASE("material libraries cut off at any byte do no harm", "[truncation]") {
+TEST_CASE("material libraries truncated at any byte give an error or materials", "[truncation]") {
     const std::string text =
         "newmtl a\nKd 1 .5 \\\n 0\nd -halo 0.5\nNs 10\nmap_Kd -s 1 2 3 -o 1 -clamp on a b.png\nKe xyz 1 1 "
         "1\nmap_d -mm 0 1 x\n";

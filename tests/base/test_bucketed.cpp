@@ -5,7 +5,7 @@
 
 using faqem::detail::Buckets;
 
-TEST_CASE("buckets keep the order in which items came, and may be empty") {
+TEST_CASE("buckets: items keep their insertion order, and buckets may be empty") {
     const std::vector<std::pair<std::size_t, char>> all = {{2, 'a'}, {0, 'b'}, {2, 'c'}, {3, 'd'}, {0, 'a'}};
     const Buckets<char> buckets(4, [&](auto&& put) {
         for (const auto& [bucket, letter] : all) put(bucket, letter);

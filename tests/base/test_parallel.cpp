@@ -15,7 +15,7 @@
 using faqem::detail::parallel_blocks;
 using faqem::detail::thread_count;
 
-TEST_CASE("every index is worked on once, in blocks that do not depend on the threads") {
+TEST_CASE("parallel_blocks processes each index once, and its blocks do not depend on the threads") {
     for (const std::uint32_t threads : {0u, 1u, 2u, 7u}) {
         for (const std::size_t size :
              {std::size_t{0}, std::size_t{1}, std::size_t{99}, std::size_t{100}, std::size_t{1001}}) {
@@ -31,7 +31,7 @@ TEST_CASE("every index is worked on once, in blocks that do not depend on the th
     }
 }
 
-TEST_CASE("an exception in a block comes out, and the threads end") {
+TEST_CASE("parallel_blocks rethrows an exception of a block after all threads have ended") {
     for (const std::uint32_t threads : {1u, 4u}) {
         CHECK_THROWS_WITH(parallel_blocks(1000, 1, threads,
                                           [](std::size_t begin, std::size_t) {
@@ -43,12 +43,12 @@ TEST_CASE("an exception in a block comes out, and the threads end") {
 
 #ifndef FAQEM_SANITIZED
 
-TEST_CASE("where the system gives no more threads, those there are do the work") {
+TEST_CASE("parallel_blocks completes with fewer threads when the system cannot start more") {
     const pid_t child = fork();
     if (child == 0) {
         std::uint64_t pages = 0;
         std::ifstream("/proc/self/statm") >> pages;
-        // Room for the stacks of some threads.
+        // Enough address space for the stacks of a few threads only.
         const rlim_t bytes = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);
         const rlimit limit = {bytes, bytes};
         setrlimit(RLIMIT_AS, &limit);
@@ -64,7 +64,7 @@ TEST_CASE("where the system gives no more threads, those there are do the work")
 
 #endif
 
-TEST_CASE("zero threads means all there are") {
+TEST_CASE("zero threads means one per hardware thread") {
     CHECK(thread_count(0) >= 1);
     CHECK(thread_count(3) == 3);
 }

@@ -3,7 +3,7 @@
 
 #include "faqem/version.hpp"
 
-TEST_CASE("the library has the version of its headers") {
+TEST_CASE("the version of the library equals that of its headers") {
     const std::string expected = std::to_string(faqem::version_major) + "." +
                                  std::to_string(faqem::version_minor) + "." +
                                  std::to_string(faqem::version_patch);

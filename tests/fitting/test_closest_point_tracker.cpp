@@ -19,7 +19,7 @@ const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
 
 }  // namespace
 
-TEST_CASE("gaps: from a square that was lifted, and back to it") {
+TEST_CASE("closest point tracker: residuals of a lifted square in both directions") {
     const ReferenceSurface original({square, halves});
     std::vector<Vector3> lifted = square;
     for (Vector3& p : lifted) p.z() = 0.25;
@@ -36,7 +36,7 @@ TEST_CASE("gaps: from a square that was lifted, and back to it") {
     CHECK((back.sample(0).position(lifted, halves) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
 }
 
-TEST_CASE("gaps: faces that are flipped take other samples, the others keep theirs") {
+TEST_CASE("closest point tracker: samples of flipped faces are replaced, others are kept") {
     const ReferenceSurface original({square, halves});
     const std::vector<Vector3> bent = {{0, 0, 0.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}};
@@ -53,14 +53,14 @@ TEST_CASE("gaps: faces that are flipped take other samples, the others keep thei
     CHECK((there.residual(2) - Vector3(0, 0, -0.25)).norm() < 1e-15);
 }
 
-TEST_CASE("gaps: turns are distances between unit normals, at an edge to the nearest of them") {
-    // A step: a wall below the edge x = 0 that looks to x, and a floor beyond it that looks up.
+TEST_CASE("closest point tracker: the normal deviation at an edge is the smallest one") {
+    // A step: a wall below the edge x = 0 with normal +x, and a floor beyond the edge with normal +z.
     const std::vector<Vector3> step = {{0, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
     const std::vector<Triangle> sides = {{0, 2, 1}, {0, 3, 1}};
     const ReferenceSurface original({step, sides});
     REQUIRE((original.normals[0] - Vector3(1, 0, 0)).norm() < 1e-15);
     REQUIRE((original.normals[1] - Vector3(0, 0, 1)).norm() < 1e-15);
-    // A face that looks up, with a sample that is first on the edge, then on the wall.
+    // A face with normal +z, and a sample that is first on the edge, then on the wall.
     const std::vector<Vector3> below = {{-1, 0, -0.5}, {1, 0, -0.5}, {0, 1, -0.5}};
     const std::vector<Triangle> one = {{0, 1, 2}};
     MeshToReferenceTracker there(original, one, {{0, {0.5, 0.5, 0}}});
@@ -74,8 +74,7 @@ TEST_CASE("gaps: turns are distances between unit normals, at an edge to the nea
     CHECK(there.normal_deviation(0) == Approx(std::sqrt(2.0)));
 }
 
-TEST_CASE(
-    "gaps: of two faces upon each other that look apart, the one that looks the same way tells the turn") {
+TEST_CASE("closest point tracker: of two coincident opposite faces, the one with the same normal is used") {
     const std::vector<Triangle> back_first = {{0, 2, 1}, {0, 1, 2}};
     const ReferenceSurface original({square, back_first});
     const std::vector<Triangle> one = {{0, 1, 2}};
@@ -85,7 +84,7 @@ TEST_CASE(
     CHECK(there.normal_deviation(0) == Approx(0).margin(1e-7));
 }
 
-TEST_CASE("gaps: kept up over many moves they are what they would be measured anew, or a little longer") {
+TEST_CASE("closest point tracker: tracked residuals are equal to or slightly longer than exact ones") {
     const TriangleMesh sphere = test::icosphere(3), simplified = test::icosphere(1);
     const std::vector<Vector3> fixed_points = test::vectors(sphere);
     const ReferenceSurface original({fixed_points, sphere.triangles});
@@ -96,36 +95,36 @@ TEST_CASE("gaps: kept up over many moves they are what they would be measured an
         MeshToReferenceTracker there(original, simplified.triangles, samples);
         ReferenceToMeshTracker back(points, simplified.triangles);
         test::Random random(7);
-        double sum = 0, sum_anew = 0;
+        double sum = 0, sum_exact = 0;
         for (int round = 0; round < 12; ++round) {
             there.update(positions, 1 + round % 3);
             back.update(positions, 1 + round % 3);
-            MeshToReferenceTracker there_anew(original, simplified.triangles, samples);
-            ReferenceToMeshTracker back_anew(points, simplified.triangles);
-            there_anew.update(positions, 1);
-            back_anew.update(positions, 1);
-            const auto check = [&](const Vector3& kept_up, const Vector3& anew) {
-                CHECK(kept_up.norm() >= anew.norm() - 1e-14);
-                sum += kept_up.norm(), sum_anew += anew.norm();
+            MeshToReferenceTracker there_exact(original, simplified.triangles, samples);
+            ReferenceToMeshTracker back_exact(points, simplified.triangles);
+            there_exact.update(positions, 1);
+            back_exact.update(positions, 1);
+            const auto check = [&](const Vector3& tracked, const Vector3& exact) {
+                CHECK(tracked.norm() >= exact.norm() - 1e-14);
+                sum += tracked.norm(), sum_exact += exact.norm();
             };
-            for (std::size_t i = 0; i < there.size(); ++i) check(there.residual(i), there_anew.residual(i));
+            for (std::size_t i = 0; i < there.size(); ++i) check(there.residual(i), there_exact.residual(i));
             for (std::size_t i = 0; i < back.size(); ++i) {
-                check(back.residual(i), back_anew.residual(i));
+                check(back.residual(i), back_exact.residual(i));
                 const Vector3 on = back.sample(i).position(positions, simplified.triangles);
                 CHECK((on + back.residual(i) - points[i].position).norm() < 1e-14);
             }
-            // A few vertices at first, all of them in the end.
+            // Moves a few vertices in the first round, and all of them in the last one.
             for (Index v = 0; v < positions.size(); ++v) {
                 if (random.below(12) > static_cast<Index>(round)) continue;
                 for (int k = 0; k < 3; ++k) positions[v][k] += random.between(-reach, reach);
             }
         }
-        CHECK(sum <= (reach < 0.1 ? 1.01 : 1.05) * sum_anew);
+        CHECK(sum <= (reach < 0.1 ? 1.01 : 1.05) * sum_exact);
     }
 }
 
-TEST_CASE("gaps: a point that moves past a corner is followed to the faces behind it") {
-    //  A fan of six faces around vertex 0; the sample goes around it, and back over it.
+TEST_CASE("closest point tracker: a point is tracked across a vertex to all faces of its one-ring") {
+    // A fan of six faces around vertex 0. The sample moves around the vertex, and back across it.
     std::vector<Vector3> fan = {{0, 0, 0.2}};
     std::vector<Triangle> faces;
     for (Index k = 0; k < 6; ++k) {

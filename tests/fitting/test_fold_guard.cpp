@@ -11,13 +11,13 @@ using engine::Vector3;
 
 namespace {
 
-// Two triangles at the edge 0 1, which opens by an angle: 180 degrees is flat.
+// Two triangles at the edge 0 1 with the given dihedral angle; 180 degrees is flat.
 std::vector<Vector3> opened(double degrees) {
     const double a = degrees * test::pi / 180;
     return {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {std::cos(a), 0.5, std::sin(a)}};
 }
 const std::vector<Triangle> book = {{0, 2, 1}, {0, 1, 3}};
-const std::vector<Triangle> wound_against = {{0, 2, 1}, {1, 0, 3}};
+const std::vector<Triangle> inconsistent = {{0, 2, 1}, {1, 0, 3}};
 
 int folds(const FoldGuard& guard, const std::vector<Vector3>& positions) {
     int count = 0;
@@ -27,9 +27,9 @@ int folds(const FoldGuard& guard, const std::vector<Vector3>& positions) {
 
 }  // namespace
 
-TEST_CASE("fold guard: an edge is a fold where it opens by less than the limit's angle") {
+TEST_CASE("fold guard: an edge is folded if its dihedral angle is below the limit") {
     // A cosine of -0.9 between the normals: 25.8 degrees.
-    for (const auto& triangles : {book, wound_against}) {
+    for (const auto& triangles : {book, inconsistent}) {
         const std::vector<Vector3> flat = opened(180);
         const FoldGuard guard({flat, triangles}, -0.9);
         CHECK(folds(guard, flat) == 0);
@@ -39,13 +39,13 @@ TEST_CASE("fold guard: an edge is a fold where it opens by less than the limit's
     }
 }
 
-TEST_CASE("fold guard: what is a fold at the start is let be") {
+TEST_CASE("fold guard: edges that are folded initially are ignored") {
     const std::vector<Vector3> closed = opened(5);
     const FoldGuard guard({closed, book}, -0.9);
     CHECK(folds(guard, opened(3)) == 0);
 }
 
-TEST_CASE("fold guard: holes in the list and edges of one or three faces are left out") {
+TEST_CASE("fold guard: removed faces and edges with one or three faces are ignored") {
     std::vector<Vector3> positions = opened(5);
     positions.push_back({-1, 0.5, 0});
     const std::vector<Triangle> fin = {{0, 2, 1}, {no_index, no_index, no_index}, {0, 1, 3}, {0, 1, 4}};

@@ -17,7 +17,7 @@ const Vector3 up(0, 0, 1);
 
 }  // namespace
 
-TEST_CASE("fit: correspondences of the same height at all corners lift the triangle by that, nearly") {
+TEST_CASE("gauss-newton: equal residuals at all corners move the triangle by that residual, up to damping") {
     std::vector<Correspondence> correspondences;
     for (std::size_t k = 0; k < 3; ++k) {
         Correspondence correspondence{{0, {0, 0, 0}}, 0.5 * up, up};
@@ -26,23 +26,23 @@ TEST_CASE("fit: correspondences of the same height at all corners lift the trian
     }
     const std::vector<std::uint8_t> free(3, 0);
     for (const Vector3& step : detail::gauss_newton_step(one, correspondences, free, 0.5, 1)) {
-        // Each vertex: (w + hold) step = w residual, with hold = 0.02 * 1.2 w / 3 and 2e-4 of the same.
+        // For each vertex, (w + damping) step = w residual, with damping = (0.02 + 2e-4) * 1.2 w / 3.
         CHECK(step.z() == Approx(0.5 / (1 + 0.0202 * 1.2 / 3)).epsilon(1e-3));
         CHECK(step.head<2>().norm() < 1e-12);
     }
 }
 
-TEST_CASE("fit: fixed vertices stay, the others make up for them") {
+TEST_CASE("gauss-newton: fixed vertices do not move, and the others compensate") {
     const std::vector<Correspondence> correspondences = {{{0, {0.5, 0.5, 0}}, up, up}};
     const std::vector<std::uint8_t> fixed = {1, 0, 0};
     const std::vector<Vector3> steps = detail::gauss_newton_step(one, correspondences, fixed, 0.5, 1);
     CHECK(steps[0] == Vector3::Zero());
-    // Alone it would need to go twice as far: half of its move arrives at the middle of the edge.
+    // The step is twice the residual: the midpoint of the edge moves by half of the step of one vertex.
     CHECK(steps[1].z() == Approx(2).epsilon(0.02));
     CHECK(steps[2].norm() < 1e-9);
 }
 
-TEST_CASE("fit: far correspondences weigh more than near ones") {
+TEST_CASE("gauss-newton: distant correspondences have a larger weight") {
     // Two correspondences at one corner, up by 4 and down by 1: weights 2 and 1, so (2 * 4 - 1) / 3.
     const std::vector<Correspondence> correspondences = {{{0, {1, 0, 0}}, 4 * up, up},
                                                          {{0, {1, 0, 0}}, -1 * up, up}};
@@ -51,14 +51,14 @@ TEST_CASE("fit: far correspondences weigh more than near ones") {
           Approx(7.0 / 3).epsilon(0.02));
 }
 
-TEST_CASE("fit: without correspondences nothing moves") {
+TEST_CASE("gauss-newton: without correspondences the step is zero") {
     const std::vector<std::uint8_t> free(3, 0);
     for (const Vector3& step : detail::gauss_newton_step(one, {}, free, 0.5, 1))
         CHECK(step == Vector3::Zero());
 }
 
-TEST_CASE("fit: the step solves the system written out as a dense matrix") {
-    // Two triangles on an edge, one vertex fixed, correspondences with all kinds of weights and normals.
+TEST_CASE("gauss-newton: the step solves the dense system") {
+    // Two triangles with a common edge, one vertex fixed, random correspondences.
     const std::vector<Triangle> two = {{0, 1, 2}, {2, 1, 3}};
     const std::vector<std::uint8_t> fixed = {0, 0, 0, 1};
     test::Random random(3);
@@ -106,7 +106,7 @@ TEST_CASE("fit: the step solves the system written out as a dense matrix") {
     CHECK(detail::gauss_newton_step(two, correspondences, fixed, 0.5, 3) == steps);
 }
 
-TEST_CASE("fit: a sample is where its weights say") {
+TEST_CASE("gauss-newton: the position of a sample is the weighted mean of the corners") {
     const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
     CHECK((detail::SurfaceSample{0, {0.25, 0.25, 0.5}}.position(x, one) - Vector3(0.25, 1, 0)).norm() <
           1e-15);

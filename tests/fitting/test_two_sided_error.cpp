@@ -25,7 +25,7 @@ const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
 
 }  // namespace
 
-TEST_CASE("two sided gaps: a square that is lifted by a quarter is a quarter away on both sides") {
+TEST_CASE("two-sided error: a square moved along its normal has that distance in both directions") {
     const ReferenceSurface original({square, halves});
     std::vector<Vector3> lifted = square;
     for (Vector3& p : lifted) p.z() = 0.25;
@@ -38,7 +38,7 @@ TEST_CASE("two sided gaps: a square that is lifted by a quarter is a quarter awa
         CHECK(deviation.max_squared_distance == Approx(1.0 / 16));
     CHECK(sum(deviations).squared_distance_sum ==
           Approx(static_cast<double>(error.correspondences().size()) / 16));
-    // Nothing turns: only what is counted for each point of the lifted square.
+    // The normals are equal: only the offset per sample of the moved square is left.
     CHECK(sum(deviations).normal_deviation == Approx(0.005 * static_cast<double>(there)));
     for (const detail::Correspondence& correspondence : error.correspondences())
         CHECK((correspondence.residual - Vector3(0, 0, -0.25)).norm() < 1e-14);
@@ -47,7 +47,7 @@ TEST_CASE("two sided gaps: a square that is lifted by a quarter is a quarter awa
         CHECK(correspondence.sample.face == 1);
 }
 
-TEST_CASE("two sided gaps: the farthest point is what a search finds, however the mesh has moved") {
+TEST_CASE("two-sided error: the maximum distance is exact after any motion of the mesh") {
     const TriangleMesh sphere = test::icosphere(3), simplified = test::icosphere(1);
     const std::vector<Vector3> fine = test::vectors(sphere);
     const ReferenceSurface original({fine, sphere.triangles});
@@ -64,21 +64,21 @@ TEST_CASE("two sided gaps: the farthest point is what a search finds, however th
         CHECK(again.max_squared_distance == threaded.max_squared_distance);
         CHECK(again.squared_distance_sum == threaded.squared_distance_sum);
         CHECK(again.normal_deviation == threaded.normal_deviation);
-        TwoSidedError anew(original, simplified.triangles, positions, 1);
-        // The points on the mesh are others by a little, the original's are the same.
-        double farthest = 0, farthest_anew = 0;
-        anew.measure(positions);
-        for (std::size_t i = 0; i < anew.from_reference().size(); ++i) {
+        TwoSidedError exact(original, simplified.triangles, positions, 1);
+        // The samples of the mesh differ slightly, those of the original are the same.
+        double farthest = 0, farthest_exact = 0;
+        exact.measure(positions);
+        for (std::size_t i = 0; i < exact.from_reference().size(); ++i) {
             farthest = std::max(farthest, one.from_reference().residual(i).norm());
-            farthest_anew = std::max(farthest_anew, anew.from_reference().residual(i).norm());
+            farthest_exact = std::max(farthest_exact, exact.from_reference().residual(i).norm());
             CHECK(one.from_reference().residual(i).norm() >=
-                  anew.from_reference().residual(i).norm() - 1e-14);
+                  exact.from_reference().residual(i).norm() - 1e-14);
         }
-        CHECK(farthest == Approx(farthest_anew).epsilon(1e-12));
+        CHECK(farthest == Approx(farthest_exact).epsilon(1e-12));
     }
 }
 
-TEST_CASE("two sided gaps: a coarse mesh is measured by searches alone") {
+TEST_CASE("two-sided error: all residuals are exact for a mesh much coarser than the original") {
     const TriangleMesh sphere = test::icosphere(4), simplified = test::icosphere(0);  // 5120 and 20 faces
     const std::vector<Vector3> fine = test::vectors(sphere);
     const ReferenceSurface original({fine, sphere.triangles});
@@ -99,8 +99,8 @@ TEST_CASE("two sided gaps: a coarse mesh is measured by searches alone") {
     }
 }
 
-TEST_CASE("two sided gaps: flipped triangles get points by their new areas") {
-    //  A sliver 0 1 2 beside a large triangle: flipped, they share the area.
+TEST_CASE("two-sided error: flipped triangles get samples according to their new areas") {
+    // A sliver 0 1 2 next to a large triangle; after an edge flip both have about the same area.
     const std::vector<Vector3> at = {{0, 0, 0}, {4, 0, 0}, {2, 0.01, 0}, {2, 2, 0}};
     std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
     const std::vector<Triangle> whole = {{0, 1, 3}};
@@ -116,7 +116,7 @@ TEST_CASE("two sided gaps: flipped triangles get points by their new areas") {
     };
     CHECK(points_on(0) < 50);
     CHECK(points_on(1) > 2000);
-    // Over the edge 0 2: triangles 0 1 3 and 1 2 3 now.
+    // The edge 0 2 is flipped: the triangles are now 0 1 3 and 1 2 3.
     faces[0] = {0, 1, 3}, faces[1] = {1, 2, 3};
     error.resample_flipped(at, std::vector<std::uint8_t>{1, 1, 0});
     error.measure(at);

@@ -11,13 +11,13 @@ using engine::Vector3;
 
 namespace {
 
-TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& light,
+TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& simplified,
                     std::vector<std::uint8_t> fixed = {}, std::uint32_t threads = 1) {
-    fixed.resize(light.positions.size(), 0);
-    const std::vector<Vector3> from = test::vectors(original), to = test::vectors(light);
-    TriangleMesh result = light;
+    fixed.resize(simplified.positions.size(), 0);
+    const std::vector<Vector3> from = test::vectors(original), to = test::vectors(simplified);
+    TriangleMesh result = simplified;
     const auto moved =
-        detail::fit_vertices({from, original.triangles}, {to, light.triangles}, fixed, 0.3, threads);
+        detail::fit_vertices({from, original.triangles}, {to, simplified.triangles}, fixed, 0.3, threads);
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);
     return result;
 }
@@ -28,16 +28,16 @@ Comparison distance(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-TEST_CASE("relax: an inscribed icosahedron comes closer to the sphere") {
-    const TriangleMesh sphere = test::icosphere(4), light = test::icosphere(1);
-    const TriangleMesh result = fitted(sphere, light);
-    const Comparison before = distance(sphere, light), after = distance(sphere, result);
+TEST_CASE("vertex fitting: an inscribed icosphere is moved closer to the sphere") {
+    const TriangleMesh sphere = test::icosphere(4), simplified = test::icosphere(1);
+    const TriangleMesh result = fitted(sphere, simplified);
+    const Comparison before = distance(sphere, simplified), after = distance(sphere, result);
     CHECK(after.chamfer < 0.6 * before.chamfer);
     CHECK(after.hausdorff <= before.hausdorff);
-    CHECK(result.triangles == light.triangles);
+    CHECK(result.triangles == simplified.triangles);
 }
 
-TEST_CASE("relax: what fits already stays where it is") {
+TEST_CASE("vertex fitting: vertices do not move if the mesh equals the original") {
     const TriangleMesh cube = test::cube();
     const TriangleMesh result = fitted(cube, cube);
     for (std::size_t v = 0; v < cube.positions.size(); ++v) {
@@ -45,13 +45,13 @@ TEST_CASE("relax: what fits already stays where it is") {
     }
 }
 
-TEST_CASE("relax: fixed vertices and open borders do not move") {
+TEST_CASE("vertex fitting: fixed vertices and boundary vertices do not move") {
     const TriangleMesh bumpy = test::shaken(test::grid(24), 0.02, 3);
-    const TriangleMesh light = test::grid(4);
-    TriangleMesh scaled = light;
+    const TriangleMesh simplified = test::grid(4);
+    TriangleMesh scaled = simplified;
     for (Vec3& p : scaled.positions) p = {p[0] * 6, p[1] * 6, p[2]};
     std::vector<std::uint8_t> fixed(scaled.positions.size(), 0);
-    fixed[12] = 1;  // the middle of five by five
+    fixed[12] = 1;  // the centre of 5 x 5 vertices
     const TriangleMesh result = fitted(bumpy, scaled, fixed);
     std::size_t moved = 0;
     for (std::size_t v = 0; v < 25; ++v) {
@@ -62,12 +62,12 @@ TEST_CASE("relax: fixed vertices and open borders do not move") {
     CHECK(moved > 0);
 }
 
-TEST_CASE("relax: flat sides do not tilt for a gain in distance that is smaller than the loss in normals") {
-    // A cube with rounded edges against a cube: its corners lie outside, and to pull them in tilts the sides.
+TEST_CASE("vertex fitting: a decrease in distance must outweigh the increase in normal deviation") {
+    // A cube is fitted to a cube with rounded edges. Moving its corners inwards would tilt the flat sides.
     TriangleMesh rounded = test::icosphere(4);
     for (Vec3& p : rounded.positions) {
-        const double most = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        for (double& x : p) x = std::clamp(1.1 * x / most, -1.0, 1.0);
+        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        for (double& x : p) x = std::clamp(1.1 * x / largest, -1.0, 1.0);
     }
     const TriangleMesh cube = test::moved(test::scaled(test::cube(), 2), {-1, -1, -1});
     const Comparison before = distance(rounded, cube), after = distance(rounded, fitted(rounded, cube));
@@ -76,12 +76,12 @@ TEST_CASE("relax: flat sides do not tilt for a gain in distance that is smaller 
     CHECK(distances * normals * normals <= 1.001);
 }
 
-TEST_CASE("relax: the result does not depend on the number of threads") {
-    const TriangleMesh sphere = test::shaken(test::icosphere(3), 0.03, 1), light = test::icosphere(1);
-    CHECK(fitted(sphere, light, {}, 1).positions == fitted(sphere, light, {}, 3).positions);
+TEST_CASE("vertex fitting: the result does not depend on the number of threads") {
+    const TriangleMesh sphere = test::shaken(test::icosphere(3), 0.03, 1), simplified = test::icosphere(1);
+    CHECK(fitted(sphere, simplified, {}, 1).positions == fitted(sphere, simplified, {}, 3).positions);
 }
 
-TEST_CASE("relax: no face turns over or vanishes") {
+TEST_CASE("vertex fitting: no face is inverted or loses its area") {
     const TriangleMesh rough = test::shaken(test::icosphere(4), 0.1, 9);
     const SimplifyResult balanced =
         simplify(rough.view(), {.target = faces(120), .preset = Preset::balanced});
@@ -100,7 +100,7 @@ TEST_CASE("relax: no face turns over or vanishes") {
     CHECK(distance(rough, moved).chamfer < distance(rough, balanced.mesh).chamfer);
 }
 
-TEST_CASE("relax: edges flipped in between bring the surface closer still, and it stays closed") {
+TEST_CASE("vertex fitting: edge flips decrease the distance further and keep the surface closed") {
     const TriangleMesh rough = test::shaken(test::icosphere(4), 0.1, 9);
     const SimplifyResult balanced =
         simplify(rough.view(), {.target = faces(120), .preset = Preset::balanced});
@@ -116,7 +116,7 @@ TEST_CASE("relax: edges flipped in between bring the surface closer still, and i
     CHECK(distance(rough, best.mesh).chamfer < distance(rough, moved).chamfer);
 }
 
-TEST_CASE("relax: the history knows where the vertices went, and its versions stay") {
+TEST_CASE("vertex fitting: the history stores the final positions and keeps those of the versions") {
     const TriangleMesh mesh = test::shaken(test::icosphere(3), 0.05, 2);
     const SimplifyResult r =
         simplify(mesh.view(), {.target = ratio(0.1), .preset = Preset::best, .history = Recording::on});

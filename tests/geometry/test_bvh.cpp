@@ -21,7 +21,7 @@ namespace {
 // The triangle of most tests:
 //
 //     c (0,2,0)
-//     | \       interior, edges and corners are queried from above
+//     | \       Its interior, edges and corners are queried from above
 //     |   \     (height 3) and from the sides.
 //     a --- b (4,0,0)
 const Vector3 a(0, 0, 0), b(4, 0, 0), c(0, 2, 0);
@@ -41,7 +41,7 @@ ClosestPoint query(const Vector3& p, const Vector3& x = a, const Vector3& y = b,
     return hit;
 }
 
-/// Random triangles of very different size, some without area, about a grid that gives many exact ties.
+/// Random triangles of very different sizes in the unit cube, a fifth of them degenerate.
 struct Soup {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -74,7 +74,7 @@ struct Soup {
 
 }  // namespace
 
-TEST_CASE("the closest point on a triangle lies in the region of the query") {
+TEST_CASE("closest point on a triangle: each Voronoi region") {
     CHECK(query({1, 0.5, 3}).point == Vector3(1, 0.5, 0));
     CHECK(query({1, 0.5, 3}).distance_squared == 9);
     CHECK(query({-1, -2, 0}).point == a);
@@ -82,11 +82,11 @@ TEST_CASE("the closest point on a triangle lies in the region of the query") {
     CHECK(query({-1, 5, 0}).point == c);
     CHECK(query({2, -3, 1}).point.isApprox(Vector3(2, 0, 0)));
     CHECK(query({-3, 1, 1}).point.isApprox(Vector3(0, 1, 0)));
-    // Beyond bc, whose normal is (1, 2): from its middle (2, 1).
+    // Beyond bc, whose normal is (1, 2), in front of its midpoint (2, 1).
     CHECK(query({2 + 1, 1 + 2, 0}).point.isApprox(Vector3(2, 1, 0)));
 }
 
-TEST_CASE("a corner that is hit is returned to the last bit") {
+TEST_CASE("closest point on a triangle: a corner is returned bitwise exactly") {
     const Vector3 x(0.1, 0.2, 0.3), y(1.7, 0.2, 0.9), z(0.3, 2.1, 1e-3);
     for (const Vector3& corner : {x, y, z}) {
         const Vector3 centre = (x + y + z) / 3;
@@ -96,7 +96,7 @@ TEST_CASE("a corner that is hit is returned to the last bit") {
     }
 }
 
-TEST_CASE("triangles without area are segments or points") {
+TEST_CASE("closest point on a triangle: degenerate triangles count as segments or points") {
     CHECK(query({1, 2, 0}, a, b, b).point.isApprox(Vector3(1, 0, 0)));
     CHECK(query({1, 2, 0}, b, a, Vector3(2, 0, 0)).point.isApprox(Vector3(1, 0, 0)));
     CHECK(query({1, 2, 0}, a, a, a).point == a);
@@ -104,8 +104,8 @@ TEST_CASE("triangles without area are segments or points") {
     CHECK(query({5, 1, 0}, a, Vector3(1, 0, 0), b).point == b);
 }
 
-TEST_CASE("a needle's closest point is not lost in rounding") {
-    // Height 1e-12 over a base of 1: the area formula alone is noise here.
+TEST_CASE("closest point on a triangle: needles are handled without loss of accuracy") {
+    // Height 1e-12 over a base of 1: the formula for interior points has no correct digits here.
     const Vector3 x(1, 1, 1), y(2, 1, 1), z(1.5, 1 + 1e-12, 1);
     for (int i = 1; i < 50; ++i) {
         const double s = i / 50.0;
@@ -115,7 +115,7 @@ TEST_CASE("a needle's closest point is not lost in rounding") {
     }
 }
 
-TEST_CASE("the tree finds what a search over all faces finds") {
+TEST_CASE("BVH: closest() agrees with brute force") {
     for (const std::size_t faces : {1u, 2u, 5u, 17u, 1000u}) {
         const Soup soup(faces, 7);
         const Bvh tree(soup.positions, soup.triangles);
@@ -135,12 +135,12 @@ TEST_CASE("the tree finds what a search over all faces finds") {
     }
 }
 
-TEST_CASE("of faces at the same distance the tree takes the first") {
+TEST_CASE("BVH: among equally close faces, closest() returns the one with the smallest index") {
     const Index n = 12;
     faqem::TriangleMesh mesh = faqem::test::grid(n);
-    // A second sheet over the first: every face is there twice.
-    const std::vector<Triangle> sheet = mesh.triangles;
-    mesh.triangles.insert(mesh.triangles.end(), sheet.begin(), sheet.end());
+    // Every face is duplicated.
+    const std::vector<Triangle> copies = mesh.triangles;
+    mesh.triangles.insert(mesh.triangles.end(), copies.begin(), copies.end());
     const Bvh tree(mesh.positions, mesh.triangles);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         Index first = 0;
@@ -155,7 +155,7 @@ TEST_CASE("of faces at the same distance the tree takes the first") {
     }
 }
 
-TEST_CASE("a filter hides faces from the tree") {
+TEST_CASE("BVH: closest_if() ignores faces that the filter rejects") {
     const Soup soup(400, 3);
     const Bvh tree(soup.positions, soup.triangles);
     const Vec3 p = {0.5, 0.4, 0.6};
@@ -172,16 +172,16 @@ TEST_CASE("a filter hides faces from the tree") {
     CHECK(tree.closest_if(p, [](Index) { return false; }).face == no_index);
 }
 
-TEST_CASE("a search that is refused too often ends with the best so far") {
+TEST_CASE("BVH: closest_if() stops after the maximum number of rejections") {
     const Soup soup(400, 3);
     const Bvh tree(soup.positions, soup.triangles);
     const Vec3 p = {0.5, 0.4, 0.6};
     constexpr double anywhere = std::numeric_limits<double>::infinity();
-    for (std::size_t most = 0; most < 40; ++most) {
-        std::size_t asked = 0;
-        const auto never = [&](Index) { return ++asked, false; };
-        CHECK(tree.closest_if(p, never, anywhere, most).face == no_index);
-        CHECK(asked == most);
+    for (std::size_t max_rejections = 0; max_rejections < 40; ++max_rejections) {
+        std::size_t calls = 0;
+        const auto reject_all = [&](Index) { return ++calls, false; };
+        CHECK(tree.closest_if(p, reject_all, anywhere, max_rejections).face == no_index);
+        CHECK(calls == max_rejections);
     }
     const Index nearest = tree.closest(p).face;
     const auto all_but_nearest = [&](Index f) { return f != nearest; };
@@ -189,7 +189,7 @@ TEST_CASE("a search that is refused too often ends with the best so far") {
           tree.closest_if(p, all_but_nearest).distance_squared);
 }
 
-TEST_CASE("the largest distance asked for is inclusive") {
+TEST_CASE("BVH: the maximum distance of closest() is inclusive") {
     const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
     const std::vector<Triangle> triangles = {{0, 1, 2}};
     const Bvh tree(positions, triangles);
@@ -197,7 +197,7 @@ TEST_CASE("the largest distance asked for is inclusive") {
     CHECK(tree.closest({1, 0.5, 3}, 8.999).face == no_index);
 }
 
-TEST_CASE("all faces within a distance are visited, once") {
+TEST_CASE("BVH: visit_within() visits each face within the distance once") {
     const Soup soup(500, 5);
     const Bvh tree(soup.positions, soup.triangles);
     const Vec3 p = {0.5, 0.5, 0.5};
@@ -209,7 +209,7 @@ TEST_CASE("all faces within a distance are visited, once") {
     for (Index f = 0; f < 500; ++f) CHECK(visits[f] == (soup.on(f, p).distance_squared <= 0.04 ? 1 : 0));
 }
 
-TEST_CASE("a ray meets what is before it, and tells the side it comes from") {
+TEST_CASE("BVH: any_hit() finds triangles in front of the ray and reports the side that is hit") {
     const std::vector<Vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 2, 0}};
     const std::vector<Triangle> triangles = {{0, 1, 2}};
     const Bvh tree(positions, triangles);
@@ -231,7 +231,7 @@ TEST_CASE("a ray meets what is before it, and tells the side it comes from") {
     CHECK_FALSE(Bvh().any_hit({0, 0, 0}, {0, 0, 1}, seen));
 }
 
-TEST_CASE("a ray meets what a search over all faces meets") {
+TEST_CASE("BVH: any_hit() agrees with brute force") {
     for (const std::size_t faces : {1u, 5u, 17u, 1000u}) {
         const Soup soup(faces, 7);
         const Bvh tree(soup.positions, soup.triangles);
@@ -244,7 +244,7 @@ TEST_CASE("a ray meets what a search over all faces meets") {
             if (i % 3 == 0) direction = i % 2 ? Vector3(0, 0, -1) : Vector3(0, 1, 0);
             std::vector<int> expected(faces, 0), found(faces, 0);
             for (Index f = 0; f < faces; ++f) {
-                // The point on the plane has barycentric coordinates of one sign.
+                // The intersection with the plane is inside if it is on the inner side of all three edges.
                 const auto corner = [&](std::size_t k) {
                     return faqem::engine::to_eigen(soup.positions[soup.triangles[f][k]]);
                 };
@@ -271,17 +271,17 @@ TEST_CASE("a ray meets what a search over all faces meets") {
     }
 }
 
-TEST_CASE("trees over nothing and over dropped faces answer that there is nothing") {
+TEST_CASE("BVH: trees without faces and of removed faces only are empty") {
     CHECK(Bvh(std::span<const Vec3>(), {}).closest({0, 0, 0}).face == no_index);
     const std::vector<Triangle> dropped = {{no_index, no_index, no_index}};
     CHECK(Bvh(std::span<const Vec3>(), dropped).empty());
 }
 
-TEST_CASE("coincident and exponentially spaced faces give a tree of bounded depth") {
+TEST_CASE("BVH: coincident and exponentially spaced faces give a tree of bounded depth") {
     Soup soup(0, 0);
     const std::vector<Vec3> corner = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int i = 0; i < 3000; ++i) {
-        // 2^-i down to the smallest denormal, and from there on a thousand coincident faces.
+        // Sizes 2^-i down to the smallest subnormal number; all further faces are coincident.
         const double scale = std::ldexp(1.0, -std::min(i, 1074));
         const auto first = static_cast<Index>(soup.positions.size());
         for (const Vec3& p : corner) soup.positions.push_back({scale * p[0], scale * p[1], scale * p[2]});
@@ -294,7 +294,7 @@ TEST_CASE("coincident and exponentially spaced faces give a tree of bounded dept
     CHECK(tree.closest({-1, -1, -1}).face < 3000);
 }
 
-TEST_CASE("a tree over nearly the whole range of doubles finds the face that a point is on") {
+TEST_CASE("BVH: coordinates over nearly the whole range of doubles are supported") {
     const double far = 1.7e308, side = 1e300;
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -311,7 +311,7 @@ TEST_CASE("a tree over nearly the whole range of doubles finds the face that a p
     }
 }
 
-TEST_CASE("a tree whose triangles have moved answers as a new one would") {
+TEST_CASE("BVH: a refitted tree gives the same distances as a new one") {
     Soup soup(500, 5);
     std::vector<Vector3> positions;
     for (const Vec3& p : soup.positions) positions.push_back(faqem::engine::to_eigen(p));
@@ -321,10 +321,10 @@ TEST_CASE("a tree whose triangles have moved answers as a new one would") {
         soup.positions[v] = faqem::engine::to_array(positions[v]);
     }
     tree.refit(positions, soup.triangles);
-    const Bvh anew(positions, soup.triangles);
+    const Bvh rebuilt(positions, soup.triangles);
     for (std::size_t v = 0; v < positions.size(); v += 7) {
         const Vec3 p = faqem::engine::to_array(0.9 * positions[v] + Vector3(0.1, 0, 0));
-        CHECK(tree.closest(p).distance_squared == Approx(anew.closest(p).distance_squared).margin(1e-30));
+        CHECK(tree.closest(p).distance_squared == Approx(rebuilt.closest(p).distance_squared).margin(1e-30));
         const auto near = static_cast<Index>(soup.triangles.size() - 1 - v / 3);
         const auto [a0, b0, c0] = soup.triangles[near];
         CHECK(tree.closest_with_hint(p, near, positions[a0], positions[b0], positions[c0]).distance_squared ==

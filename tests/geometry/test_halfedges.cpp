@@ -7,7 +7,7 @@
 using namespace faqem;
 using detail::Halfedge;
 
-TEST_CASE("sides: those on one edge lie together, and know where they begin and which way they go") {
+TEST_CASE("half-edges: those on one edge are contiguous, with their first corner and direction") {
     //  3---2
     //  | / |
     //  0---1
@@ -29,7 +29,7 @@ TEST_CASE("sides: those on one edge lie together, and know where they begin and 
                        {1, edge(0, 1)}, {2, edge(0, 2)}, {1, edge(0, 3)}, {1, edge(1, 2)}, {1, edge(2, 3)}});
 }
 
-TEST_CASE("sides: faces on an edge come by number, missing triangles and equal ends are left out") {
+TEST_CASE("half-edges: sorted by face within an edge, without removed triangles and degenerate edges") {
     const std::vector<Triangle> triangles = {{4, 5, 6}, {no_index, no_index, no_index}, {5, 4, 7}, {8, 8, 9}};
     const std::vector<Halfedge> halfedges = detail::sorted_halfedges(triangles);
     REQUIRE(halfedges.size() == 8);
@@ -40,7 +40,7 @@ TEST_CASE("sides: faces on an edge come by number, missing triangles and equal e
     CHECK(detail::sorted_halfedges({}).empty());
 }
 
-TEST_CASE("sides: two on an edge carry a surface on, and of more those that are two of one surface") {
+TEST_CASE("half-edges: on a manifold edge both are connected, otherwise pairs of the same surface") {
     using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
     const auto pairs = [](const std::vector<std::uint64_t>& surfaces) {
         Pairs result;

@@ -15,7 +15,7 @@ constexpr std::uint64_t n = 2000;
 
 }  // namespace
 
-TEST_CASE("samples lie where their barycentrics say") {
+TEST_CASE("random samples: positions agree with the barycentric coordinates") {
     const TriangleMesh mesh = test::icosphere(1);
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -31,8 +31,8 @@ TEST_CASE("samples lie where their barycentrics say") {
     }
 }
 
-TEST_CASE("each slice of the area has one sample, so that faces are hit in proportion to it") {
-    // Two triangles, the second of three times the area.
+TEST_CASE("random samples: stratified by area, so that the samples of a face are proportional to its area") {
+    // Two triangles, the second with three times the area of the first.
     const TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 1}, {0, 0, 1}, {0, 1, 1}},
                                          {{0, 1, 2}, {4, 3, 5}});
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
@@ -41,15 +41,15 @@ TEST_CASE("each slice of the area has one sample, so that faces are hit in propo
     CHECK(first == n / 4);
 }
 
-TEST_CASE("samples depend on their number and the seed alone") {
+TEST_CASE("random samples: determined by index and seed") {
     const TriangleMesh mesh = test::cube();
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
-    std::set<Vec3> places;
+    std::set<Vec3> positions;
     for (std::uint64_t i = 0; i < 100; ++i) {
         const Vec3 p = detail::sample(surface, i, 100, 1).point;
         CHECK(p == detail::sample(surface, i, 100, 1).point);
         CHECK(p != detail::sample(surface, i, 100, 2).point);
-        places.insert(p);
+        positions.insert(p);
     }
-    CHECK(places.size() == 100);
+    CHECK(positions.size() == 100);
 }

@@ -9,7 +9,7 @@ using namespace faqem;
 using detail::Surface;
 using engine::Vector3;
 
-TEST_CASE("a surface leaves out faces without area, and unused and repeated positions") {
+TEST_CASE("surface: degenerate faces and unreferenced and duplicate positions are left out") {
     TriangleMesh mesh = test::both(test::quad(), test::quad());
     mesh.positions.push_back({9, 9, 9});
     mesh.triangles.push_back({0, 0, 1});
@@ -22,8 +22,8 @@ TEST_CASE("a surface leaves out faces without area, and unused and repeated posi
     CHECK_THROWS_AS(detail::extract_nonempty_surface(TriangleMesh().view(), "mesh"), InputError);
 }
 
-TEST_CASE("at an edge the best of the normals on both sides counts, off it the face's own") {
-    // The edge of a cube: nearest to a point beyond it are a face of the top and one of the front.
+TEST_CASE("surface: max_normal_cosine() considers both faces at an edge, and one face elsewhere") {
+    // A point beyond an edge of the cube is equally close to a top face and a front face.
     const TriangleMesh cube = test::cube();
     const Surface surface = detail::extract_nonempty_surface(cube.view(), "cube");
     const detail::Bvh tree(surface.positions, surface.triangles);
@@ -37,7 +37,7 @@ TEST_CASE("at an edge the best of the normals on both sides counts, off it the f
     CHECK(cosine({0.4, 0.3, 2}, {0, -1, 0}) == 0);
 }
 
-TEST_CASE("coherent queries find what the tree finds") {
+TEST_CASE("surface: CoherentQuery agrees with the BVH") {
     const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.05, 4);
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
     const detail::Bvh tree(surface.positions, surface.triangles);

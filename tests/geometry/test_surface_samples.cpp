@@ -10,17 +10,17 @@ using engine::Vector3;
 
 namespace {
 
-// c       Two triangles in the plane z = 0, and one that is none:
-// | \     abc has three times the area of bde.
+// c       Two triangles in the plane z = 0, and a removed one between them.
+// | \     The area of abc is three times that of bde.
 // |   \ /e
 // a----b--d
-const std::vector<Vector3> places = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {5, 0, 0}, {4, 1, 0}};
+const std::vector<Vector3> positions = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {5, 0, 0}, {4, 1, 0}};
 const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {1, 3, 4}};
 
 }  // namespace
 
-TEST_CASE("spots: points are spread by area, in the order of the faces") {
-    const std::vector<SurfaceSample> samples = detail::area_uniform_samples({places, faces}, 400);
+TEST_CASE("surface samples: distributed uniformly by area and sorted by face") {
+    const std::vector<SurfaceSample> samples = detail::area_uniform_samples({positions, faces}, 400);
     REQUIRE(samples.size() == 400);
     CHECK(std::count_if(samples.begin(), samples.end(), [](const SurfaceSample& s) { return s.face == 0; }) ==
           300);
@@ -31,32 +31,32 @@ TEST_CASE("spots: points are spread by area, in the order of the faces") {
         CHECK(sample.face != 1);
         CHECK(std::min({sample.barycentric[0], sample.barycentric[1], sample.barycentric[2]}) >= 0);
         CHECK(sample.barycentric[0] + sample.barycentric[1] + sample.barycentric[2] == Approx(1));
-        if (sample.face == 0) mean += sample.position(places, faces) / 300;
+        if (sample.face == 0) mean += sample.position(positions, faces) / 300;
     }
     CHECK((mean - Vector3(1, 2.0 / 3, 0)).norm() < 0.01);
 }
 
-TEST_CASE("spots: without area there are none") {
+TEST_CASE("surface samples: none without area") {
     const std::vector<Triangle> flat = {{0, 1, 3}};
-    CHECK(detail::area_uniform_samples({places, flat}, 10).empty());
-    CHECK(detail::area_uniform_samples({places, {}}, 10).empty());
+    CHECK(detail::area_uniform_samples({positions, flat}, 10).empty());
+    CHECK(detail::area_uniform_samples({positions, {}}, 10).empty());
 }
 
-TEST_CASE("spots: every corner once, every middle of an edge once for each face") {
+TEST_CASE("surface samples: each vertex once, each edge midpoint once per face") {
     const std::vector<SurfaceSample> samples = detail::vertex_and_midpoint_samples(faces);
     CHECK(samples.size() == 5 + 6);
     const auto at = [&](const Vector3& p) {
         return std::count_if(samples.begin(), samples.end(), [&](const SurfaceSample& s) {
-            return (s.position(places, faces) - p).norm() < 1e-15;
+            return (s.position(positions, faces) - p).norm() < 1e-15;
         });
     };
-    for (const Vector3& p : places) CHECK(at(p) == 1);
+    for (const Vector3& p : positions) CHECK(at(p) == 1);
     CHECK(at({1.5, 1, 0}) == 1);
     CHECK(at({4.5, 0.5, 0}) == 1);
 }
 
-TEST_CASE("spots: vertices have the mean normal of their faces, and those of no face are left out") {
-    // A vertical face of the same area beside abc, along ab.
+TEST_CASE("surface samples: vertices have the mean normal of their faces, unreferenced ones are left out") {
+    // A vertical face of the same area as abc, adjacent to it along ab.
     const std::vector<Vector3> corner = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {9, 9, 9}, {0, 0, 2}};
     const std::vector<Triangle> both = {{0, 1, 2}, {1, 0, 4}};
     const auto points = detail::oriented_vertices({corner, both});

@@ -11,9 +11,9 @@ std::vector<Index> list(const VertexFaces& around, Index v) { return {around[v].
 
 }  // namespace
 
-TEST_CASE("faces around vertices come in their order, and those that are none do not") {
+TEST_CASE("vertex faces: listed in increasing order, without removed faces") {
     //  3---2
-    //  | / |    and vertex 4 on its own
+    //  | / |    vertex 4 is unreferenced
     //  0---1
     const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {0, 2, 3}};
     const VertexFaces around = detail::make_vertex_faces(5, faces);

@@ -15,7 +15,7 @@ using namespace faqem;
 
 namespace {
 
-// The unit square, corner 1 joined to corner 0 at (1/2, 0, 0): face 1 is left.
+// The unit square after the collapse of corners 0 and 1 into (1/2, 0, 0): face 1 is left.
 CollapseHistory small() {
     CollapseHistory h;
     h.positions = test::quad().positions;
@@ -29,7 +29,7 @@ CollapseHistory small() {
     return h;
 }
 
-// One of everything, a deleted part included.
+// A history with at least one element in each array, including a deleted component.
 CollapseHistory with_deleted_part() {
     CollapseHistory h = small();
     h.positions.insert(h.positions.end(), {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}});
@@ -40,8 +40,8 @@ CollapseHistory with_deleted_part() {
     return h;
 }
 
-// The unit square with its diagonal swapped.
-CollapseHistory swapped() {
+// The unit square with its diagonal flipped.
+CollapseHistory flipped() {
     CollapseHistory h;
     h.positions = test::quad().positions;
     h.triangles = test::quad().triangles;
@@ -63,7 +63,7 @@ CollapseHistory read(const std::string& text) {
     return read_history(in);
 }
 
-std::string complaint(const std::function<void()>& act) {
+std::string error_message(const std::function<void()>& act) {
     try {
         act();
     } catch (const InputError& error) {
@@ -72,13 +72,13 @@ std::string complaint(const std::function<void()>& act) {
     return "accepted";
 }
 
-// What validate() says of the small history changed by `change`; read_history() must say the same.
+// The error message of validate() for a modified history; checks that read_history() gives the same.
 std::string changed(const std::function<void(CollapseHistory&)>& change) {
     CollapseHistory h = with_deleted_part();
     change(h);
-    const std::string said = complaint([&] { validate(h); });
-    CHECK(complaint([&] { read(bytes(h)); }) == said);
-    return said;
+    const std::string message = error_message([&] { validate(h); });
+    CHECK(error_message([&] { read(bytes(h)); }) == message);
+    return message;
 }
 
 bool same(const TriangleMesh& a, const TriangleMesh& b) {
@@ -87,7 +87,7 @@ bool same(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-TEST_CASE("a history says where its versions are and which faces a collapse touched") {
+TEST_CASE("history: positions of versions and faces of patches") {
     const CollapseHistory h = small();
     CHECK(h.position(2) == Vec3{1, 1, 0});
     CHECK(h.position(4) == Vec3{0.5, 0, 0});
@@ -96,14 +96,14 @@ TEST_CASE("a history says where its versions are and which faces a collapse touc
     CHECK(CollapseHistory().empty());
 }
 
-TEST_CASE("replay makes the small mesh") {
+TEST_CASE("history: replay reconstructs the simplified mesh") {
     const TriangleMesh mesh = replay(small());
     CHECK(mesh.positions == std::vector<Vec3>{{0.5, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(mesh.face_groups == std::vector<Index>{4});
 }
 
-TEST_CASE("what was written is read again, byte for byte") {
+TEST_CASE("history: writing and reading restores the same bytes") {
     for (const CollapseHistory& h : {small(), with_deleted_part(), CollapseHistory()}) {
         const std::string text = bytes(h);
         const CollapseHistory again = read(text);
@@ -116,42 +116,44 @@ TEST_CASE("what was written is read again, byte for byte") {
     }
 }
 
-TEST_CASE("a history cut off anywhere is refused, with the section") {
+TEST_CASE("history: a truncated file is an error that names the section") {
     const std::string text = bytes(with_deleted_part());
     for (std::size_t size = 0; size < text.size(); ++size) {
-        const std::string said = complaint([&] { read(text.substr(0, size)); });
-        if (said.find("history: ") != 0 || said.find("ends too early") == std::string::npos)
-            FAIL("cut at " << size << ": " << said);
+        const std::string message = error_message([&] { read(text.substr(0, size)); });
+        if (message.find("history: ") != 0 || message.find("ends too early") == std::string::npos)
+            FAIL("truncated to " << size << " bytes: " << message);
     }
-    CHECK(complaint([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
-    CHECK(complaint([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
-    CHECK(complaint([&] { read(text.substr(0, text.size() - 1)); }) == "history: kept_faces: ends too early");
+    CHECK(error_message([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
+    CHECK(error_message([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
+    CHECK(error_message([&] { read(text.substr(0, text.size() - 1)); }) ==
+          "history: kept_faces: ends too early");
 }
 
-TEST_CASE("a file of another kind is refused") {
-    CHECK(complaint([] { read("glTF............"); }) ==
-          "history: header: not a collapse history of this version");
+TEST_CASE("history: a file of another format is an error") {
+    CHECK(error_message([] { read("glTF............"); }) ==
+          "history: header: not a collapse history, or of an unsupported version");
 }
 
-TEST_CASE("a count that lies costs no memory") {
-    // Each count in turn becomes 2^60 and 2^64 - 1: memory for that would throw bad_alloc or length_error.
+TEST_CASE("history: an invalid element count does not allocate memory") {
+    // Each count in turn is set to 2^60 and 2^64 - 1; allocating that much would throw bad_alloc or
+    // length_error.
     const std::string text = bytes(with_deleted_part());
     const std::uint64_t elements[] = {24, 12, 4, 4, 4, 24, 8, 4, 24, 8, 4, 4, 4};
     std::size_t at = 8;
     for (const std::uint64_t size : elements) {
         std::uint64_t count = 0;
         std::memcpy(&count, &text[at], sizeof count);
-        for (const std::uint64_t lie : {std::uint64_t{1} << 60, ~std::uint64_t{0}, count + 1}) {
+        for (const std::uint64_t invalid : {std::uint64_t{1} << 60, ~std::uint64_t{0}, count + 1}) {
             std::string forged = text;
-            std::memcpy(&forged[at], &lie, sizeof lie);
-            CHECK(complaint([&] { read(forged); }) != "accepted");
+            std::memcpy(&forged[at], &invalid, sizeof invalid);
+            CHECK(error_message([&] { read(forged); }) != "accepted");
         }
         at += 8 + count * size;
     }
     CHECK(at == text.size());
 }
 
-TEST_CASE("where the kept vertices went is written and read, or refused where the number is wrong") {
+TEST_CASE("history: kept positions are written and read, and a wrong number of them is an error") {
     CollapseHistory history = with_deleted_part();
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         history.kept_positions.push_back({1.0 + i, 2, 3});
@@ -161,12 +163,12 @@ TEST_CASE("where the kept vertices went is written and read, or refused where th
     CHECK(again.kept_positions == history.kept_positions);
     CHECK(replay(again).positions == history.kept_positions);
     history.kept_positions.pop_back();
-    CHECK(complaint([&] { validate(history); }) ==
+    CHECK(error_message([&] { validate(history); }) ==
           "history: kept_positions: needs one entry per kept version or none");
 }
 
-TEST_CASE("a flip is written, read and replayed") {
-    CollapseHistory history = swapped();
+TEST_CASE("history: edge flips are written, read and replayed") {
+    CollapseHistory history = flipped();
     const TriangleMesh mesh = replay(read(bytes(history)));
     //  3---2        3---2
     //  | / |   ->   | \ |
@@ -178,36 +180,37 @@ TEST_CASE("a flip is written, read and replayed") {
     CHECK(replay(history).triangles == std::vector<Triangle>{{3, 0, 2}, {1, 2, 0}});
 }
 
-TEST_CASE("a flip needs two faces with one edge in common") {
-    CollapseHistory history = swapped();
+TEST_CASE("history: an edge flip needs two kept faces with a common edge") {
+    CollapseHistory history = flipped();
     history.patch_faces = {0, 0};
-    CHECK(complaint([&] { validate(history); }) ==
-          "history: patch_begin[0]: a flip of faces that share no edge");
+    CHECK(error_message([&] { validate(history); }) ==
+          "history: patch_begin[0]: faces of an edge flip must be kept and share an edge");
     history.patch_faces = {0};
     history.patch_begin = {0, 1};
-    CHECK(complaint([&] { validate(history); }) == "history: patch_begin[0]: a flip has two faces");
+    CHECK(error_message([&] { validate(history); }) ==
+          "history: patch_begin[0]: an edge flip must have two faces");
     history = small();  // face 0 is not kept
     history.patch_faces.insert(history.patch_faces.end(), {0, 1});
     history.patch_begin.push_back(4);
-    CHECK(complaint([&] { validate(history); }) ==
-          "history: patch_begin[1]: a flip of faces that share no edge");
+    CHECK(error_message([&] { validate(history); }) ==
+          "history: patch_begin[1]: faces of an edge flip must be kept and share an edge");
 }
 
-TEST_CASE("columns of different length are refused, empty ones too") {
+TEST_CASE("history: arrays of different lengths are an error, also empty ones") {
     const std::string text = bytes(with_deleted_part());
     // From the end: kept_faces 1, kept_versions 3, deleted faces 1, their times 1.
     const std::size_t times = text.size() - (8 + 4) - (8 + 12) - (8 + 4) - (8 + 8);
     std::string forged = text;
     forged.erase(times + 8, 8);
     forged[times] = 0;
-    CHECK(complaint([&] { read(forged); }) == "history: deleted_faces: columns of different length");
+    CHECK(error_message([&] { read(forged); }) == "history: deleted_faces: arrays have different lengths");
     forged = text;
     forged.erase(times + 24, 4);
     forged[times + 16] = 0;
-    CHECK(complaint([&] { read(forged); }) == "history: deleted_faces: columns of different length");
+    CHECK(error_message([&] { read(forged); }) == "history: deleted_faces: arrays have different lengths");
 }
 
-TEST_CASE("lying indices are refused, and the first of them named") {
+TEST_CASE("history: invalid indices are errors that name the first invalid element") {
     using H = CollapseHistory;
     CHECK(changed([](H&) {}) == "accepted");
     CHECK(changed([](H& h) { h.triangles[1][2] = 7; }) == "history: triangles[1]: vertex index out of range");
@@ -215,53 +218,59 @@ TEST_CASE("lying indices are refused, and the first of them named") {
           "history: triangles[1]: vertex index out of range");
     CHECK(changed([](H& h) { h.face_groups.pop_back(); }) ==
           "history: face_groups: needs one entry per face or none");
-    CHECK(changed([](H& h) { h.collapses[0].second = 7; }) == "history: collapses[0]: version not made yet");
+    CHECK(changed([](H& h) { h.collapses[0].second = 7; }) ==
+          "history: collapses[0]: version does not exist yet");
     CHECK(changed([](H& h) { h.collapses[0].first = no_index; }) ==
-          "history: collapses[0]: version not made yet");
+          "history: collapses[0]: version does not exist yet");
     CHECK(changed([](H& h) { h.collapses[0].second = 0; }) ==
-          "history: collapses[0]: version collapsed twice");
+          "history: collapses[0]: version was already merged");
     CHECK(changed([](H& h) {
               h.collapses.push_back({1, 2, {}});
               h.patch_begin.push_back(2);
-          }) == "history: collapses[1]: version collapsed twice");
+          }) == "history: collapses[1]: version was already merged");
     for (const std::vector<std::uint64_t>& bad :
          {std::vector<std::uint64_t>{}, {0}, {0, 1}, {1, 2}, {0, 3}, {0, 2, 1}, {0, ~0ull}}) {
         CHECK(changed([&](H& h) { h.patch_begin = bad; }) ==
-              "history: patch_begin: must rise from 0 to the number of patch faces");
+              "history: patch_begin: must increase from 0 to the number of patch faces");
     }
     CHECK(changed([](H& h) {
               h.collapses.push_back({2, 3, {}});
               h.patch_begin = {0, 3, 2};
-          }) == "history: patch_begin: must rise from 0 to the number of patch faces");
-    CHECK(changed([](H& h) { h.patch_faces[1] = 3; }) == "history: patch_faces[1]: no such face");
-    CHECK(changed([](H& h) { h.deleted_faces[0].face = 3; }) == "history: deleted_faces[0]: out of range");
-    CHECK(changed([](H& h) { h.deleted_faces[0].time = 2; }) == "history: deleted_faces[0]: out of range");
-    CHECK(changed([](H& h) { h.kept_versions[1] = 8; }) == "history: kept_versions[1]: not a living version");
-    CHECK(changed([](H& h) { h.kept_versions[1] = 0; }) == "history: kept_versions[1]: not a living version");
-    CHECK(changed([](H& h) { h.kept_faces[0] = 3; }) == "history: kept_faces[0]: no such face");
+          }) == "history: patch_begin: must increase from 0 to the number of patch faces");
+    CHECK(changed([](H& h) { h.patch_faces[1] = 3; }) == "history: patch_faces[1]: face does not exist");
+    CHECK(changed([](H& h) { h.deleted_faces[0].face = 3; }) ==
+          "history: deleted_faces[0]: time or face index out of range");
+    CHECK(changed([](H& h) { h.deleted_faces[0].time = 2; }) ==
+          "history: deleted_faces[0]: time or face index out of range");
+    CHECK(changed([](H& h) { h.kept_versions[1] = 8; }) ==
+          "history: kept_versions[1]: version does not exist or was merged");
+    CHECK(changed([](H& h) { h.kept_versions[1] = 0; }) ==
+          "history: kept_versions[1]: version does not exist or was merged");
+    CHECK(changed([](H& h) { h.kept_faces[0] = 3; }) == "history: kept_faces[0]: face does not exist");
     CHECK(changed([](H& h) { h.kept_faces[0] = 2; }) ==
-          "history: kept_faces[0]: has a vertex that was not kept");
-    CHECK(changed([](H& h) { h.triangles[0].fill(no_index); }) == "history: patch_faces[0]: no such face");
+          "history: kept_faces[0]: refers to a vertex that is not kept");
+    CHECK(changed([](H& h) { h.triangles[0].fill(no_index); }) ==
+          "history: patch_faces[0]: face does not exist");
 }
 
-TEST_CASE("positions that are not finite are refused, wherever they are") {
+TEST_CASE("history: positions that are not finite are errors in all arrays") {
     using H = CollapseHistory;
     const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
     CHECK(changed([&](H& h) { h.positions[1][2] = infinite; }) ==
-          "history: positions[1]: a position that is not finite");
+          "history: positions[1]: position is not finite");
     CHECK(changed([&](H& h) { h.collapses[0].position[0] = nan; }) ==
-          "history: collapses[0]: a position that is not finite");
+          "history: collapses[0]: position is not finite");
     CHECK(changed([&](H& h) {
               h.kept_positions.assign(h.kept_versions.size(), {0, -infinite, 0});
-          }) == "history: kept_positions[0]: a position that is not finite");
+          }) == "history: kept_positions[0]: position is not finite");
 }
 
-TEST_CASE("a history without faces may not refer to any") {
+TEST_CASE("history: an empty history must not have elements that refer to others") {
     using H = CollapseHistory;
     const auto empty_but = [](const std::function<void(H&)>& change) {
         H h;
         change(h);
-        return complaint([&] { validate(h); });
+        return error_message([&] { validate(h); });
     };
     CHECK(empty_but([](H&) {}) == "accepted");
     CHECK(empty_but([](H& h) { h.kept_versions = {5}; }) != "accepted");
@@ -271,7 +280,7 @@ TEST_CASE("a history without faces may not refer to any") {
     CHECK(empty_but([](H& h) { h.deleted_faces = {{0, 0}}; }) != "accepted");
 }
 
-TEST_CASE("random damage to any byte is refused or harmless") {
+TEST_CASE("history: random byte errors give an InputError or a valid mesh") {
     const auto result = simplify(test::shaken(test::icosphere(1), 0.05, 1).view(),
                                  {.target = ratio(0.4), .preset = Preset::qem, .history = Recording::on});
     const std::string text = bytes(result.history);
@@ -293,7 +302,7 @@ TEST_CASE("random damage to any byte is refused or harmless") {
     CHECK(refused > 100);
 }
 
-TEST_CASE("the history of a run replays to its result and survives a file") {
+TEST_CASE("history: the history of a run replays to its result, also after writing and reading") {
     const TriangleMesh sphere = test::shaken(test::icosphere(2), 0.03, 1);
     TriangleMesh parts = test::both(test::grid(5), test::moved(test::cylinder(9, 3, 2), {7, 0, 0}));
     parts = test::both(parts, test::moved(test::scaled(test::tetrahedron(), 1e-3), {0, 0, 3}));
@@ -317,7 +326,7 @@ TEST_CASE("the history of a run replays to its result and survives a file") {
     }
 }
 
-TEST_CASE("a stream that fails is a WriteError") {
+TEST_CASE("history: a failing stream is a WriteError") {
     std::ostringstream out;
     out.setstate(std::ios::badbit);
     CHECK_THROWS_AS(write(small(), out), WriteError);

@@ -57,7 +57,7 @@ void check_same(const SimplifyResult& a, const SimplifyResult& b) {
     CHECK(bytes(a.history) == bytes(b.history));
 }
 
-std::string complaint(const std::string& text) {
+std::string error_message(const std::string& text) {
     try {
         read(text);
     } catch (const InputError& error) {
@@ -68,7 +68,7 @@ std::string complaint(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a stored chain gives every level as its run did") {
+TEST_CASE("truncate: a stored chain restores every level of its run") {
     const TriangleMesh mesh = lump();
     for (const Preset preset : all_presets) {
         const auto levels = levels_of(mesh, preset);
@@ -83,7 +83,7 @@ TEST_CASE("a stored chain gives every level as its run did") {
     }
 }
 
-TEST_CASE("a cut where the order does not depend on the target is a run of its own") {
+TEST_CASE("truncate: equals a separate run if the order of collapses does not depend on the target") {
     TriangleMesh mesh = test::both(lump(), test::moved(test::grid(12), {5, 0, 0}));
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) mesh.face_groups.push_back(f % 7 == 0);
     for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
@@ -98,18 +98,18 @@ TEST_CASE("a cut where the order does not depend on the target is a run of its o
     }
 }
 
-TEST_CASE("between levels a cut has no more faces than asked for and is valid") {
+TEST_CASE("truncate: between levels, the history is valid and has at most the requested face count") {
     const ChainHistory chain = chain_of(levels_of(lump(), Preset::best));
     for (const std::uint64_t faces : {1279, 900, 303, 123}) {
-        const CollapseHistory cut = truncate_to_faces(chain, faces);
-        validate(cut);
-        CHECK(cut.kept_faces.size() <= faces);
-        CHECK(cut.kept_faces.size() + 2 > faces);
-        CHECK(cut.kept_positions.empty());
+        const CollapseHistory truncated = truncate_to_faces(chain, faces);
+        validate(truncated);
+        CHECK(truncated.kept_faces.size() <= faces);
+        CHECK(truncated.kept_faces.size() + 2 > faces);
+        CHECK(truncated.kept_positions.empty());
     }
 }
 
-TEST_CASE("a cut above the original is the original, and one below the last level that level") {
+TEST_CASE("truncate: counts above the original give the original, counts below the last level that level") {
     const TriangleMesh mesh = lump();
     const ChainHistory chain = chain_of(levels_of(mesh, Preset::balanced));
     const TriangleMesh all = restore(truncate_to_faces(chain, 1'000'000)).mesh;
@@ -118,7 +118,7 @@ TEST_CASE("a cut above the original is the original, and one below the last leve
     CHECK(bytes(truncate_to_faces(chain, 4)) == bytes(chain.last));
 }
 
-TEST_CASE("faces that were deleted are gone in a cut") {
+TEST_CASE("truncate: deleted faces are not kept") {
     const TriangleMesh mesh =
         test::both(lump(), test::moved(test::scaled(test::tetrahedron(), 0.1), {3, 0, 0}));
     Options options;
@@ -132,7 +132,7 @@ TEST_CASE("faces that were deleted are gone in a cut") {
     CHECK(truncate_to_faces(chain, 1'000'000).kept_faces.size() == 1280);
 }
 
-TEST_CASE("parts are cut together to a level, and between levels in proportion") {
+TEST_CASE("truncate: several parts are truncated to the same level, and in proportion between levels") {
     const TriangleMesh large = lump(), small = test::icosphere(2);
     const auto a = levels_of(large, Preset::balanced);
     Options options;
@@ -140,10 +140,10 @@ TEST_CASE("parts are cut together to a level, and between levels in proportion")
     const auto b = simplify_levels(small.view(), {ratio(0.5), ratio(0.25), ratio(0.1)}, options);
     const std::vector<ChainHistory> parts = {chain_of(a), chain_of(b)};
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto cuts =
+        const auto truncated =
             truncate_to_faces(parts, a[i].result.report.faces_out + b[i].result.report.faces_out);
-        CHECK(bytes(cuts[0]) == bytes(a[i].result.history));
-        CHECK(bytes(cuts[1]) == bytes(b[i].result.history));
+        CHECK(bytes(truncated[0]) == bytes(a[i].result.history));
+        CHECK(bytes(truncated[1]) == bytes(b[i].result.history));
     }
     const auto between = truncate_to_faces(parts, 600);
     const std::size_t faces[] = {between[0].kept_faces.size(), between[1].kept_faces.size()};
@@ -156,7 +156,7 @@ TEST_CASE("parts are cut together to a level, and between levels in proportion")
     CHECK_THROWS_AS(truncate_to_faces(std::vector<ChainHistory>{parts[0], chain_of(one)}, 100), InputError);
 }
 
-TEST_CASE("histories of other runs are not joined") {
+TEST_CASE("truncate: joining histories of different runs is an error") {
     const auto a = levels_of(lump(), Preset::qem), b = levels_of(lump(), Preset::paper);
     const std::vector<CollapseHistory> mixed = {a[0].result.history, b[1].result.history},
                                        reversed = {a[1].result.history, a[0].result.history};
@@ -165,7 +165,7 @@ TEST_CASE("histories of other runs are not joined") {
     CHECK_THROWS_AS(join({}), InputError);
 }
 
-TEST_CASE("one history alone is a chain of one level") {
+TEST_CASE("truncate: a single history is read as a chain of one level") {
     const auto levels = levels_of(lump(), Preset::best);
     const ChainHistory chain = read(bytes(levels[1].result.history));
     CHECK(chain.level_count() == 1);
@@ -173,22 +173,22 @@ TEST_CASE("one history alone is a chain of one level") {
     CHECK(read(bytes(join(std::vector<CollapseHistory>(3)))).level_count() == 3);
 }
 
-TEST_CASE("a stored chain that is cut off or forged is refused") {
+TEST_CASE("truncate: truncated and invalid files are errors") {
     const ChainHistory chain = chain_of(levels_of(lump(), Preset::balanced));
     const std::string text = bytes(chain);
-    for (std::size_t n = 0; n < text.size(); n += 1997) CHECK(complaint(text.substr(0, n)) != "accepted");
-    CHECK(complaint("FAQEML02" + text.substr(8)) ==
-          "history: header: not a collapse history of this version");
+    for (std::size_t n = 0; n < text.size(); n += 1997) CHECK(error_message(text.substr(0, n)) != "accepted");
+    CHECK(error_message("FAQEML02" + text.substr(8)) ==
+          "history: header: not a collapse history, or of an unsupported version");
     ChainHistory forged = chain;
     std::swap(forged.before[0], forged.before[1]);
-    CHECK(complaint(bytes(forged)).find("history: level 1: goes not as far") == 0);
+    CHECK(error_message(bytes(forged)).find("history: level 1: must not end before") == 0);
     forged = chain;
     forged.before[0].collapses = 1'000'000;
-    CHECK(complaint(bytes(forged)).find("history: level 0: ") == 0);
+    CHECK(error_message(bytes(forged)).find("history: level 0: ") == 0);
     forged = chain;
     forged.before[1].kept_versions[0] = chain.last.collapses[0].first;
-    CHECK(complaint(bytes(forged)) == "history: kept_versions[0]: not a living version");
+    CHECK(error_message(bytes(forged)) == "history: kept_versions[0]: version does not exist or was merged");
     forged = chain;
     forged.before[1].flips.push_back({0, 1});
-    CHECK(complaint(bytes(forged)).find("history: patch_begin") == 0);
+    CHECK(error_message(bytes(forged)).find("history: patch_begin") == 0);
 }

@@ -35,7 +35,7 @@ void check_same(const SimplifyResult& a, const SimplifyResult& b) {
 
 }  // namespace
 
-TEST_CASE("one level alone is what simplify gives") {
+TEST_CASE("levels: a single level equals the result of simplify()") {
     const TriangleMesh mesh = lump();
     for (const Preset preset : all_presets) {
         Options options = with(preset, Recording::on);
@@ -46,7 +46,7 @@ TEST_CASE("one level alone is what simplify gives") {
     }
 }
 
-TEST_CASE("with memory a level is the same as a run of its own") {
+TEST_CASE("levels: with accumulated quadrics, each level equals a separate run") {
     const TriangleMesh mesh = lump();
     for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
         Options options = with(preset, Recording::on);
@@ -60,20 +60,20 @@ TEST_CASE("with memory a level is the same as a run of its own") {
     }
 }
 
-TEST_CASE("every level reaches its count, and its errors ascend and hold") {
+TEST_CASE("levels: each level reaches its face count, and errors are valid bounds and do not decrease") {
     const TriangleMesh mesh = lump();
     const std::vector<Level> wanted = {ratio(0.5), ratio(0.25), ratio(0.1), faces(100), faces(20)};
     for (const Preset preset : {Preset::fast, Preset::balanced, Preset::best, Preset::qem}) {
         const auto levels = simplify_levels(mesh.view(), wanted, with(preset));
         REQUIRE(levels.size() == wanted.size());
-        const std::size_t most[] = {2560, 1280, 512, 100, 20};
+        const std::size_t face_counts[] = {2560, 1280, 512, 100, 20};
         double last = 0;
         for (std::size_t i = 0; i < levels.size(); ++i) {
             const SimplifyResult& result = levels[i].result;
             CHECK(result.report.stop == StopReason::reached_target);
-            CHECK(result.report.target_faces == most[i]);
-            CHECK(result.mesh.triangles.size() <= most[i]);
-            CHECK(result.mesh.triangles.size() + 2 > most[i]);
+            CHECK(result.report.target_faces == face_counts[i]);
+            CHECK(result.mesh.triangles.size() <= face_counts[i]);
+            CHECK(result.mesh.triangles.size() + 2 > face_counts[i]);
             CHECK(result.report.faces_in == mesh.triangles.size());
             CHECK(result.report.faces_out == result.mesh.triangles.size());
             CHECK(levels[i].error >= last);
@@ -85,7 +85,7 @@ TEST_CASE("every level reaches its count, and its errors ascend and hold") {
     }
 }
 
-TEST_CASE("a level's history leads back to the original and makes its mesh") {
+TEST_CASE("levels: the history of each level starts at the original and replays to its mesh") {
     const TriangleMesh mesh = lump();
     for (const Preset preset : {Preset::balanced, Preset::best, Preset::qem}) {
         const auto levels =
@@ -108,8 +108,8 @@ TEST_CASE("a level's history leads back to the original and makes its mesh") {
     }
 }
 
-TEST_CASE("levels do not depend on history, threads or the levels after them") {
-    const TriangleMesh mesh = lump(6);  // 40962 vertices: blocks
+TEST_CASE("levels: results do not depend on recording, number of threads or later levels") {
+    const TriangleMesh mesh = lump(6);  // 40962 vertices: simplified in blocks
     const auto all = simplify_levels(mesh.view(), {ratio(0.5), ratio(0.1)}, with(Preset::balanced));
     Options other = with(Preset::balanced, Recording::on);
     other.threads = 1;
@@ -125,22 +125,22 @@ TEST_CASE("levels do not depend on history, threads or the levels after them") {
     }
 }
 
-TEST_CASE("moving the vertices of a level leaves the next one alone") {
+TEST_CASE("levels: vertex fitting of one level does not affect the next one") {
     const TriangleMesh mesh = lump();
     const std::vector<Level> wanted = {ratio(0.3), ratio(0.1), ratio(0.02)};
-    const auto still = simplify_levels(mesh.view(), wanted, with(Preset::balanced));
-    const auto moved = simplify_levels(mesh.view(), wanted, with(Preset::best, Recording::on));
+    const auto unfitted = simplify_levels(mesh.view(), wanted, with(Preset::balanced));
+    const auto fitted = simplify_levels(mesh.view(), wanted, with(Preset::best, Recording::on));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        CHECK(moved[i].result.report.vertices_fitted > 0);
-        CHECK(moved[i].result.face_origin == still[i].result.face_origin);
-        for (std::size_t v = 0; v < still[i].result.mesh.positions.size(); ++v) {
-            const Index version = moved[i].result.history.kept_versions[v];
-            CHECK(moved[i].result.history.position(version) == still[i].result.mesh.positions[v]);
+        CHECK(fitted[i].result.report.vertices_fitted > 0);
+        CHECK(fitted[i].result.face_origin == unfitted[i].result.face_origin);
+        for (std::size_t v = 0; v < unfitted[i].result.mesh.positions.size(); ++v) {
+            const Index version = fitted[i].result.history.kept_versions[v];
+            CHECK(fitted[i].result.history.position(version) == unfitted[i].result.mesh.positions[v]);
         }
     }
 }
 
-TEST_CASE("what an engine carries goes on from level to level") {
+TEST_CASE("levels: attributes, groups and vertex weights are kept in all levels") {
     TriangleMesh mesh = lump();
     mesh.attributes.width = 2;
     for (const Triangle& t : mesh.triangles) {
@@ -170,7 +170,7 @@ TEST_CASE("what an engine carries goes on from level to level") {
     }
 }
 
-TEST_CASE("locked vertices stay through all levels") {
+TEST_CASE("levels: locked vertices are kept in all levels") {
     const TriangleMesh mesh = lump();
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
     for (std::size_t v = 0; v < 10; ++v) locks[50 * v] = 1;
@@ -184,7 +184,7 @@ TEST_CASE("locked vertices stay through all levels") {
     }
 }
 
-TEST_CASE("a level may be a distance, between counts") {
+TEST_CASE("levels: distances and face counts may be mixed") {
     const TriangleMesh mesh = lump();
     const std::vector<Level> wanted = {ratio(0.5), model_units(0.03), faces(60), of_diagonal(0.1)};
     const auto levels = simplify_levels(mesh.view(), wanted, with(Preset::fast));
@@ -206,7 +206,7 @@ TEST_CASE("a level may be a distance, between counts") {
     CHECK(first[0].result.mesh.positions == simplify(mesh.view(), options).mesh.positions);
 }
 
-TEST_CASE("a level that the one before it has passed gives that mesh again") {
+TEST_CASE("levels: a level finer than the previous one repeats its mesh") {
     const TriangleMesh mesh = lump(3);
     const auto levels =
         simplify_levels(mesh.view(), {faces(100), model_units(1e-6), faces(100)}, with(Preset::balanced));
@@ -219,7 +219,7 @@ TEST_CASE("a level that the one before it has passed gives that mesh again") {
     CHECK_FALSE(levels[1].result.report.warnings.empty());
 }
 
-TEST_CASE("levels at ratio 1 lose nothing, and nothing in gives nothing out") {
+TEST_CASE("levels: ratio 1 keeps all faces, and an empty mesh gives empty levels") {
     const TriangleMesh mesh = lump(2);
     const auto levels = simplify_levels(mesh.view(), {ratio(1), ratio(0.5)});
     CHECK(levels[0].result.mesh.positions == mesh.positions);
@@ -232,7 +232,7 @@ TEST_CASE("levels at ratio 1 lose nothing, and nothing in gives nothing out") {
     }
 }
 
-TEST_CASE("levels out of range or order throw and say which") {
+TEST_CASE("levels: values out of range or order are errors that name the level") {
     const TriangleMesh mesh = test::icosphere(2);
     const auto message = [&](const std::vector<Level>& levels, const Options& options = {}) {
         try {
@@ -240,7 +240,7 @@ TEST_CASE("levels out of range or order throw and say which") {
         } catch (const OptionError& error) {
             return std::string(error.what());
         }
-        return std::string("nothing");
+        return std::string("no error");
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(message({ratio(0.5), ratio(0.6)}).find("level 1") != std::string::npos);
@@ -261,13 +261,12 @@ TEST_CASE("levels out of range or order throw and say which") {
     CHECK(message({ratio(0.5)}, options).find("max_error") != std::string::npos);
 }
 
-TEST_CASE("progress of a chain rises to the end, and cancelling ends the chain") {
+TEST_CASE("levels: progress increases to 1, and cancellation ends the chain") {
     const TriangleMesh mesh = lump();
     for (const Preset preset : {Preset::balanced, Preset::qem}) {
         const std::vector<Level> wanted = {ratio(0.5), of_diagonal(0.02), faces(20)};
         Options options = with(preset);
-        options.threads =
-            1;  // who waits for other threads asks every few milliseconds, as often as that takes
+        options.threads = 1;  // with more, the number of callback calls depends on the time spent waiting
         double last = 0;
         std::size_t calls = 0;
         options.progress = [&](Phase, double done) {

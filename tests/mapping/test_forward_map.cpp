@@ -15,7 +15,7 @@ using namespace faqem::test;
 
 namespace {
 
-// Two layers of n x n squares, `thick` apart, that share their rim; the upper faces first.
+// Two layers of n x n squares at distance `thick` that share their boundary; the upper faces first.
 TriangleMesh thin_wall(Index n, double thick) {
     TriangleMesh wall = grid(n);
     const Index shift = static_cast<Index>(wall.positions.size());
@@ -42,7 +42,6 @@ SimplifyResult simplified(const TriangleMesh& mesh, Options options) {
     return simplify(mesh.view(), options);
 }
 
-// By a look at all faces.
 double brute_force_distance(const Vec3& from, const TriangleMesh& to) {
     double nearest = std::numeric_limits<double>::infinity();
     const auto at = [&](Index v) { return engine::to_eigen(to.positions[v]); };
@@ -55,7 +54,7 @@ double brute_force_distance(const Vec3& from, const TriangleMesh& to) {
 
 }  // namespace
 
-TEST_CASE("without collapses every point stays on its face") {
+TEST_CASE("forward map: without collapses, each point is mapped to itself") {
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
     const CollapseHistory history = hand.finish();
     const ForwardMap map(history);
@@ -70,7 +69,7 @@ TEST_CASE("without collapses every point stays on its face") {
     }
 }
 
-TEST_CASE("vertices follow the collapses to the vertex they ended in") {
+TEST_CASE("forward map: vertex_map() gives the vertex that each vertex was collapsed into") {
     std::vector<Vec3> positions;
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
@@ -79,11 +78,11 @@ TEST_CASE("vertices follow the collapses to the vertex they ended in") {
     hand.collapse(hand.collapse(4, 5, {1.5, 1, 0}), 7, {1.25, 1.5, 0});
     const CollapseHistory history = hand.finish();
     REQUIRE(history.kept_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});
-    // 8 lost both its faces
+    // Both faces of vertex 8 were removed.
     CHECK(vertex_map(history) == std::vector<Index>{0, 1, 2, 3, 5, 5, 4, 5, no_index});
 }
 
-TEST_CASE("a point of a flat sheet stays where it is, if the sheet covers it") {
+TEST_CASE("forward map: points of a plane with locked boundary keep their positions") {
     const TriangleMesh mesh = grid(12);
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
@@ -104,7 +103,7 @@ TEST_CASE("a point of a flat sheet stays where it is, if the sheet covers it") {
     }
 }
 
-TEST_CASE("on a smooth surface nothing of the small mesh is nearer than what is found") {
+TEST_CASE("forward map: on a smooth surface, the result is the closest point in 99% of all cases") {
     const TriangleMesh mesh = shaken(torus(48, 24), 0.004, 7);
     for (const Preset preset : {Preset::qem, Preset::balanced, Preset::best}) {
         CAPTURE(name(preset));
@@ -124,7 +123,7 @@ TEST_CASE("on a smooth surface nothing of the small mesh is nearer than what is 
     }
 }
 
-TEST_CASE("the other side of a thin wall is not taken for this one") {
+TEST_CASE("forward map: points are not mapped to the other side of a thin wall") {
     const Index n = 24;
     const TriangleMesh mesh = thin_wall(n, 0.001);
     const SimplifyResult small = simplified(mesh, {.target = ratio(0.1), .preset = Preset::fast});
@@ -137,7 +136,7 @@ TEST_CASE("the other side of a thin wall is not taken for this one") {
     }
 }
 
-TEST_CASE("there and back again is about where it was") {
+TEST_CASE("forward map: the composition with SurfaceMap is close to the identity") {
     const TriangleMesh mesh = icosphere(3);
     const SimplifyResult small = simplified(mesh, {.target = ratio(0.2)});
     const SurfaceMap back(small.history, Mapping::projection);
@@ -150,8 +149,8 @@ TEST_CASE("there and back again is about where it was") {
     }
 }
 
-TEST_CASE("what was dropped or deleted has no place, and says so") {
-    // A double of the first face; and a small part that is pruned.
+TEST_CASE("forward map: points of removed faces have no corresponding point") {
+    // A duplicate of the first face, and a small component that is pruned.
     TriangleMesh mesh = grid(4);
     mesh.triangles.push_back(mesh.triangles[0]);
     const Index v = static_cast<Index>(mesh.positions.size());

@@ -19,23 +19,23 @@ double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// A flat grid whose inner vertices were swallowed by neighbours, in a random order that turned no face over.
-CollapseHistory swallowed_grid(Index n) {
-    std::vector<Vec3> places;  // of versions
+// A flat grid whose inner vertices were collapsed into neighbours, in a random order that inverts no face.
+CollapseHistory collapsed_grid(Index n) {
+    std::vector<Vec3> positions;  // of versions
     for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) places.push_back({double(i), double(j), 0});
+        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
     }
     const std::vector<Triangle> faces = grid_faces(n, [n](Index i, Index j) { return (n + 1) * j + i; });
-    HandHistory hand(places, faces);
+    HandHistory hand(positions, faces);
     const auto inner = [&](Index v) {
-        return places[v][0] > 0 && places[v][0] < n && places[v][1] > 0 && places[v][1] < n;
+        return positions[v][0] > 0 && positions[v][0] < n && positions[v][1] > 0 && positions[v][1] < n;
     };
-    const auto turns_none_over = [&](Index gone, Index into) {
+    const auto inverts_no_face = [&](Index from, Index to) {
         for (Index f = 0; f < faces.size(); ++f) {
             Triangle t = hand.corners(f);
-            std::replace(t.begin(), t.end(), gone, into);
+            std::replace(t.begin(), t.end(), from, to);
             if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-            if (!(twice_area(places[t[0]], places[t[1]], places[t[2]]) > 0)) return false;
+            if (!(twice_area(positions[t[0]], positions[t[1]], positions[t[2]]) > 0)) return false;
         }
         return true;
     };
@@ -43,18 +43,18 @@ CollapseHistory swallowed_grid(Index n) {
     for (int tries = 0; tries < 4000; ++tries) {
         random = random * 1664525u + 1013904223u;
         const Triangle t = hand.corners((random >> 8) % faces.size());
-        const Index gone = t[(random >> 4) % 3], into = t[((random >> 4) + 1) % 3];
-        if (gone == into || !inner(gone) || !turns_none_over(gone, into)) continue;
-        const Vec3 place = places[into];
-        hand.collapse(gone, into, place);
-        places.push_back(place);
+        const Index from = t[(random >> 4) % 3], to = t[((random >> 4) + 1) % 3];
+        if (from == to || !inner(from) || !inverts_no_face(from, to)) continue;
+        const Vec3 position = positions[to];
+        hand.collapse(from, to, position);
+        positions.push_back(position);
     }
     return hand.finish();
 }
 
 }  // namespace
 
-TEST_CASE("samples stay in their material group") {
+TEST_CASE("successive projection: points are mapped to their material group") {
     std::vector<Vec3> positions;
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 4; ++i) positions.push_back({double(i), double(j), 0});
@@ -63,7 +63,7 @@ TEST_CASE("samples stay in their material group") {
     std::vector<Index> groups;
     for (Index f = 0; f < faces.size(); ++f) groups.push_back(f % 6 < 2 ? 7 : no_index);  // left column
     HandHistory hand(positions, faces, groups);
-    hand.collapse(5, 6, {1.9, 1, 0});  // pulls the border into the other group
+    hand.collapse(5, 6, {1.9, 1, 0});  // moves the group boundary into the other group
     const CollapseHistory history = hand.finish();
     const SurfaceMap map(history, Mapping::projection);
     for (Index f = 0; f < history.kept_faces.size(); ++f) {
@@ -73,16 +73,17 @@ TEST_CASE("samples stay in their material group") {
     }
 }
 
-// Seen from above; h = (P, B, Q) is folded over f, so that it alone looks up.
+// Seen from above. The face h = (P, B, Q) is folded over f, so that it is the only one with an upward normal.
 //
-//        E            g = (E, B, A), f = (A, B, P) look down. (P, Q) becomes D, then (D, E) becomes C at E's
-//       / \           place: f = (A, B, C) now looks up. Its samples lie in g, which looks down and was never
-//      / g \          touched before: the walk ends there, on the wrong side.
-//     A-----B
-//      \ f / \.       The answer must be h.
-//       \ /  Q
+//        E         The normals of g = (E, B, A) and f = (A, B, P) are downward. (P, Q) is collapsed into D,
+//        then
+//       / \        (D, E) into C at the position of E, so that the normal of f = (A, B, C) is upward.
+//      / g \       Its points lie in g, whose normal is downward and which no earlier collapse has changed:
+//     A-----B      the walk ends there, on a face of opposite orientation.
+//      \ f / \.
+//       \ /  Q     The result must be h.
 //        P
-TEST_CASE("a walk that ends on the wrong side falls back to the closest face that looks the right way") {
+TEST_CASE("successive projection: if the walk ends on an opposite face, the closest accepted face is used") {
     const Index a = 0, b = 1, p = 2, q = 3, e = 4;
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}, {0.4, -0.2, 0}, {0.5, 1, 0}},
                      {{a, b, p}, {e, b, a}, {p, b, q}});
@@ -97,7 +98,7 @@ TEST_CASE("a walk that ends on the wrong side falls back to the closest face tha
     CHECK(map.map(1, {0.4, 0.3, 0.3}).face == 1);
 }
 
-TEST_CASE("a face that was turned over has no right side and says so") {
+TEST_CASE("successive projection: points of an inverted face are marked as inexact") {
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {0, 3, 1}});
     hand.collapse(2, 3, {0.5, -1, 0});
     const CollapseHistory history = hand.finish();
@@ -106,8 +107,8 @@ TEST_CASE("a face that was turned over has no right side and says so") {
     CHECK(hit.face < 2);
 }
 
-// Two plates at one place, wound alike, that share their vertices since they were welded.
-TEST_CASE("samples stay on their plate where two share all vertices") {
+// Two coincident plates of the same orientation that share their vertices after welding.
+TEST_CASE("successive projection: points are mapped to their plate if two plates share all vertices") {
     constexpr Index n = 4, layer = (n + 1) * (n + 1);
     std::vector<Vec3> positions;
     for (Index j = 0; j <= n; ++j) {
@@ -136,9 +137,9 @@ TEST_CASE("samples stay on their plate where two share all vertices") {
     }
 }
 
-// A row of vertices between two others is swallowed by its first one: the two faces that are left were in a
-// patch for each of them, more than a walk may look at.
-TEST_CASE("walks that get too long end at the closest point of their sheet") {
+// A row of vertices is collapsed into the first one. The two remaining faces are in the patches of all these
+// collapses, which are more than a walk may visit.
+TEST_CASE("successive projection: walks that are too long fall back to the surface patch's closest point") {
     constexpr Index n = 1500;
     std::vector<Vec3> positions = {{0, 1, 0}, {0, -1, 0}};
     for (Index i = 0; i <= n; ++i) positions.push_back({double(i) / n, 0, 0});
@@ -148,9 +149,9 @@ TEST_CASE("walks that get too long end at the closest point of their sheet") {
         faces.push_back({i + 1, i, 1});
     }
     double bump = 0, waves = 20;
-    SECTION("in a plane") {}
-    SECTION("on a bent sheet") { bump = 0.01; }
-    SECTION("far below a hill") { bump = 2, waves = 3; }
+    SECTION("plane") {}
+    SECTION("slightly curved surface") { bump = 0.01; }
+    SECTION("strongly curved surface") { bump = 2, waves = 3; }
     for (Vec3& p : positions) p[2] = bump * std::sin(waves * p[0]);
     HandHistory hand(positions, faces);
     Index last = 2;
@@ -159,29 +160,29 @@ TEST_CASE("walks that get too long end at the closest point of their sheet") {
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() == 2);
     const SurfaceMap map(history, Mapping::projection);
-    std::size_t given_up = 0;
+    std::size_t aborted = 0;
     for (Index f = 0; f < small.triangles.size(); ++f) {
         for (const Vec3& w : spread(12)) {
             const SurfacePoint q = map.map(f, w);
-            given_up += q.step == MapStep::closest;
+            aborted += q.step == MapStep::closest;
             const Vec3 p = small_point(small, f, w);
             if (p[1] != 0) CHECK(q.face % 2 == history.kept_faces[f] % 2);
             CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
         }
     }
-    CHECK((given_up > 0) == (bump > 0.1));  // close by, no walk is needed
+    CHECK((aborted > 0) == (bump > 0.1));  // no walk is needed near the original
 }
 
-// Three faces on each edge: no two of them had it to themselves, but those of the sheet continue each other.
-TEST_CASE("samples stay on a sheet with a fin on every edge, and on their fin") {
+// Three faces on each edge, also before welding; those of the plane continue each other.
+TEST_CASE("successive projection: points stay on a plane with a fin on every edge, and on their fin") {
     constexpr Index n = 6;
     std::vector<Vec3> positions;
     for (Index j = 0; j <= n; ++j) {
         for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
     }
     std::vector<Triangle> faces = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
-    const Index sheet = static_cast<Index>(faces.size());
-    for (Index f = 0; f < sheet; f += 2) {  // every inner edge has one of these on one side
+    const Index plane_faces = static_cast<Index>(faces.size());
+    for (Index f = 0; f < plane_faces; f += 2) {  // each inner edge belongs to exactly one of these faces
         for (std::size_t c = 0; c < 3; ++c) {
             const Index a = faces[f][c], b = faces[f][(c + 1) % 3];
             const Vec3 &p = positions[a], &q = positions[b];
@@ -203,10 +204,10 @@ TEST_CASE("samples stay on a sheet with a fin on every edge, and on their fin") 
             const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
             before = map.map_near(f, w, before);
             for (const SurfacePoint& q : {before, map.map(f, w)}) {
-                if (original >= sheet) {
+                if (original >= plane_faces) {
                     CHECK(q.face == original);
                 } else {
-                    CHECK(q.face < sheet);
+                    CHECK(q.face < plane_faces);
                     CHECK(q.step == MapStep::history);
                     CHECK(distance(original_point(history, q), small_point(small, f, w)) < 1e-12);
                 }
@@ -215,9 +216,9 @@ TEST_CASE("samples stay on a sheet with a fin on every edge, and on their fin") 
     }
 }
 
-// On flat ground most original faces in a small face have no corner that collapsed into one of its corners.
-TEST_CASE("samples that start from their neighbour's answer find where they are on flat ground") {
-    const CollapseHistory history = swallowed_grid(12);
+// In flat regions, most original faces within a simplified face are no preimage faces.
+TEST_CASE("successive projection: map_near() is exact in flat regions") {
+    const CollapseHistory history = collapsed_grid(12);
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() < 60);
     const SurfaceMap map(history, Mapping::projection);

@@ -29,7 +29,7 @@ CollapseHistory grid_with_two_collapses() {
     return hand.finish();
 }
 
-// Two layers of (n + 1)^2 vertices, z = +h and -h, that share their rim (z = 0): a pillow. Top faces first.
+// Two layers of (n + 1)^2 vertices, z = +h and -h, that share their rim (z = 0). Top faces first.
 struct Pillow {
     Index n = 0;
     std::vector<Vec3> positions;
@@ -55,8 +55,8 @@ Pillow pillow(Index n, double h) {
     return p;
 }
 
-// Collapses every other rim vertex and every other inner vertex into its left neighbour; the new places lie
-// beyond the other layer.
+// Collapses every other rim vertex and every other inner vertex into its left neighbour. The new positions
+// are beyond the other layer.
 CollapseHistory squeezed_pillow(const Pillow& p, const std::set<Index>& reversed) {
     std::vector<Triangle> faces = p.faces;
     for (Index f : reversed) std::swap(faces[f][1], faces[f][2]);
@@ -78,7 +78,7 @@ CollapseHistory squeezed_pillow(const Pillow& p, const std::set<Index>& reversed
 
 }  // namespace
 
-TEST_CASE("without collapses every point maps to itself") {
+TEST_CASE("surface map: without collapses, each point is mapped to itself") {
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
     const CollapseHistory history = hand.finish();
     const SurfaceMap map(history, Mapping::projection);
@@ -92,7 +92,7 @@ TEST_CASE("without collapses every point maps to itself") {
     }
 }
 
-TEST_CASE("in a plane, projection finds the very same point") {
+TEST_CASE("surface map: in a plane, projection is exact") {
     const CollapseHistory history = grid_with_two_collapses();
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() == 4);
@@ -118,7 +118,7 @@ TEST_CASE("in a plane, projection finds the very same point") {
     CHECK(area == Approx(2.75));
 }
 
-TEST_CASE("points of faces whose edge was swapped are found where they are") {
+TEST_CASE("surface map: points of faces with a flipped edge are mapped exactly") {
     //  3---2        3---2
     //  | / |   ->   | \ |
     //  0---1        0---1
@@ -140,7 +140,7 @@ TEST_CASE("points of faces whose edge was swapped are found where they are") {
     }
 }
 
-TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
+TEST_CASE("surface map: lineage follows the rule of the FA-QEM paper") {
     const CollapseHistory history = grid_with_two_collapses();
     const TriangleMesh small = small_mesh(history);
     const SurfaceMap map(history, Mapping::lineage);
@@ -151,10 +151,10 @@ TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
             const Triangle& t = history.triangles[p.face];
             std::size_t corner = 0;
             while (p.barycentric[corner] != 1) REQUIRE(++corner < 3);
-            for (Index g = 0; g < p.face; ++g) {  // the smallest face there
+            for (Index g = 0; g < p.face; ++g) {  // the smallest face at the vertex
                 for (Index v : history.triangles[g]) CHECK(v != t[corner]);
             }
-            // By hand: the closest small corner; where it is 10, go to 9 or 7, and from 9 to 4 or 5.
+            // Expected: the closest corner of the simplified face; 10 leads to 9 or 7, and 9 to 4 or 5.
             const Vec3 p0 = small_point(small, f, w);
             Index best = small.triangles[f][0];
             for (Index v : small.triangles[f]) {
@@ -173,11 +173,11 @@ TEST_CASE("lineage ends at the vertex the paper's rule leads to") {
     }
 }
 
-TEST_CASE("samples of one side of a thin plate never map to the other") {
+TEST_CASE("surface map: points are not mapped to the other side of a thin plate") {
     const Pillow p = pillow(6, 1e-3);
     std::set<Index> reversed;
-    SECTION("wound alike") {}
-    SECTION("every fourth face wound wrongly") {
+    SECTION("consistent orientation") {}
+    SECTION("every fourth face with reversed orientation") {
         for (Index f = 0; f < p.faces.size(); f += 4) reversed.insert(f);
     }
     const CollapseHistory history = squeezed_pillow(p, reversed);
@@ -194,9 +194,9 @@ TEST_CASE("samples of one side of a thin plate never map to the other") {
     }
 }
 
-// A step across a grid with some roughness: where the small face cuts the corner of the step, upper, lower
-// and upright faces are about as close.
-TEST_CASE("projection ends at the closest face around that looks the right way") {
+// A step across a rough grid. Where a simplified face cuts the corner of the step, upper, lower and vertical
+// faces are about equally close.
+TEST_CASE("surface map: projection gives the closest preimage face of the same orientation") {
     constexpr Index n = 8;
     const auto vertex = [](Index i, Index j) { return (n + 1) * j + i; };
     std::vector<Vec3> positions;
@@ -255,7 +255,7 @@ TEST_CASE("projection ends at the closest face around that looks the right way")
     }
 }
 
-TEST_CASE("closest finds what brute force finds, on whichever side that is") {
+TEST_CASE("surface map: closest agrees with brute force, on either side") {
     const Pillow p = pillow(6, 0.05);
     const CollapseHistory history = squeezed_pillow(p, {});
     const TriangleMesh small = small_mesh(history);
@@ -267,7 +267,7 @@ TEST_CASE("closest finds what brute force finds, on whichever side that is") {
             const Vec3 p0 = small_point(small, f, w);
             double least = 1e300;
             for (const Triangle& t : p.faces) {
-                // Fine enough: the grid's faces are 1 wide.
+                // Samples at a distance of 1 / 40, which is sufficient for the tolerance below.
                 for (const Vec3& v : spread(40)) {
                     least = std::min(
                         least, distance(p0, mix(v, p.positions[t[0]], p.positions[t[1]], p.positions[t[2]])));
@@ -286,7 +286,7 @@ TEST_CASE("closest finds what brute force finds, on whichever side that is") {
     CHECK(other_side > 0);
 }
 
-TEST_CASE("several threads get the same answers") {
+TEST_CASE("surface map: concurrent calls give the same results") {
     const CollapseHistory history = squeezed_pillow(pillow(8, 1e-3), {});
     const SurfaceMap map(history, Mapping::projection);
     const auto all = [&] {

@@ -23,36 +23,37 @@ SurfacePatches around_an_edge(const std::vector<double>& angles, std::span<const
 
 }  // namespace
 
-TEST_CASE("two faces on an edge are one surface_patch at any angle") {
+TEST_CASE("surface patches: two faces on an edge are one patch at any angle") {
     CHECK(around_an_edge({0, 180}).surface_patch == std::vector<Index>{0, 0});
     CHECK(around_an_edge({0, 5}).surface_patch == std::vector<Index>{0, 0});
 }
 
-TEST_CASE("a surface_patch goes on under a fin, and two that cross stay two") {
+TEST_CASE("surface patches: a fin does not divide a surface, and crossing surfaces are two patches") {
     CHECK(around_an_edge({0, 90, 180}).surface_patch == std::vector<Index>{0, 1, 0});
     CHECK(around_an_edge({0, 70, 165}).surface_patch == std::vector<Index>{0, 1, 0});
     CHECK(around_an_edge({0, 90, 180, 270}).surface_patch == std::vector<Index>{0, 1, 0, 1});
 }
 
-TEST_CASE("where it is not clear which face continues which, all are sheets of their own") {
+TEST_CASE("surface patches: if the continuation is ambiguous, all faces are separate patches") {
     CHECK(around_an_edge({0, 3, 180}).surface_patch ==
           std::vector<Index>{0, 1, 2});  // a thin wall that ends in a fin
     CHECK(around_an_edge({0, 120, 240}).surface_patch == std::vector<Index>{0, 1, 2});
     CHECK(around_an_edge({0, 0, 180, 180}).surface_patch == std::vector<Index>{0, 1, 2, 3});
 }
 
-TEST_CASE("faces that had an edge to themselves before vertices were joined stay one surface_patch") {
+TEST_CASE("surface patches: faces that were the only two on an edge before welding are one patch") {
     const std::vector<Triangle> unwelded = {{0, 1, 2}, {3, 4, 5}, {0, 1, 6}, {3, 4, 7}};
     CHECK(around_an_edge({0, 0, 180, 180}, unwelded).surface_patch == std::vector<Index>{0, 1, 0, 1});
     CHECK(around_an_edge({0, 180, 90, 270}, unwelded).surface_patch == std::vector<Index>{0, 1, 0, 1});
 }
 
-TEST_CASE("every surface_patch knows its faces, and which are wound against most of it") {
-    const SurfacePatches sheets =
-        around_an_edge({0, 90, 180});  // wound alike around the edge: against each other
-    REQUIRE(sheets.begin.size() == 3);
-    CHECK(std::vector<Index>(sheets.of(0).begin(), sheets.of(0).end()) == std::vector<Index>{0, 2});
-    CHECK(std::vector<Index>(sheets.of(1).begin(), sheets.of(1).end()) == std::vector<Index>{1});
-    CHECK(sheets.sign[0] == -sheets.sign[2]);
-    CHECK(sheets.sign[1] == 1);
+TEST_CASE("surface patches: faces and relative orientations of each patch") {
+    // All half-edges on the edge have the same direction, so that the two faces of patch 0 have opposite
+    // orientations.
+    const SurfacePatches patches = around_an_edge({0, 90, 180});
+    REQUIRE(patches.begin.size() == 3);
+    CHECK(std::vector<Index>(patches.of(0).begin(), patches.of(0).end()) == std::vector<Index>{0, 2});
+    CHECK(std::vector<Index>(patches.of(1).begin(), patches.of(1).end()) == std::vector<Index>{1});
+    CHECK(patches.sign[0] == -patches.sign[2]);
+    CHECK(patches.sign[1] == 1);
 }

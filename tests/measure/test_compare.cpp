@@ -19,7 +19,7 @@ bool same(const OneSided& a, const OneSided& b) {
 
 }  // namespace
 
-TEST_CASE("a mesh is at distance zero from itself") {
+TEST_CASE("compare: a mesh has distance zero to itself") {
     const TriangleMesh mesh = globe(20, 3);
     const Comparison c = compare(mesh.view(), mesh.view(), {.samples = 5000});
     CHECK(c.hausdorff < 1e-14);
@@ -28,7 +28,7 @@ TEST_CASE("a mesh is at distance zero from itself") {
     CHECK(c.diagonal == Approx(6 * std::sqrt(3.0)).epsilon(0.01));
 }
 
-TEST_CASE("two parallel squares are as far apart as they are") {
+TEST_CASE("compare: distances of two parallel squares are exact") {
     const TriangleMesh a = square(3, 2, 0), b = square(5, 2, 0.25);
     const Comparison c = compare(a.view(), b.view(), {.samples = 3000});
     CHECK(c.hausdorff == Approx(0.25));
@@ -39,9 +39,9 @@ TEST_CASE("two parallel squares are as far apart as they are") {
     CHECK(c.diagonal == Approx(std::sqrt(8.0)));
 }
 
-TEST_CASE("distances are one-sided where one mesh sticks out") {
-    // The big square overhangs by 1 on two sides: its far corner is sqrt(2) away; mean over its area of the
-    // distance to [0, 1]^2 is (2 * 1/2 + integral of r over the unit square) / 4.
+TEST_CASE("compare: one-sided distances differ if one mesh extends beyond the other") {
+    // The large square extends 1 beyond the small one on two sides: its far corner is sqrt(2) away, and the
+    // mean over its area of the distance to [0, 1]^2 is (2 * 1/2 + integral of r over the unit square) / 4.
     const TriangleMesh small = square(2, 1, 0), big = square(64, 2, 0);
     const Comparison c = compare(small.view(), big.view(), {.samples = 40000});
     CHECK(c.a_to_b.max < 1e-15);
@@ -52,9 +52,9 @@ TEST_CASE("distances are one-sided where one mesh sticks out") {
     CHECK(c.b_to_a.mean_squared == Approx((2.0 / 3 + 2.0 / 3) / 4).epsilon(1e-3));
 }
 
-TEST_CASE("the largest distance is found at a vertex no sample falls on") {
+TEST_CASE("compare: the maximum distance is found at a vertex without samples nearby") {
     TriangleMesh flat = square(1, 1, 0), spike = flat;
-    // A needle of hardly any area, three long.
+    // A needle of length 3 with a very small area.
     spike.positions.insert(spike.positions.end(), {{0.5, 0.5, 0}, {0.5 + 1e-9, 0.5, 0}, {0.5, 0.5, 3}});
     spike.triangles.push_back({4, 5, 6});
     const Comparison c = compare(flat.view(), spike.view(), {.samples = 100});
@@ -62,21 +62,21 @@ TEST_CASE("the largest distance is found at a vertex no sample falls on") {
     CHECK(c.b_to_a.max == Approx(3));
 }
 
-TEST_CASE("normals are compared with their sides") {
+TEST_CASE("compare: the normal deviation depends on the orientation") {
     const TriangleMesh a = square(4, 1, 0);
-    TriangleMesh turned = a;
-    for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
-    CHECK(compare(a.view(), turned.view(), {.samples = 500}).mean_normal_degrees == Approx(180));
+    TriangleMesh reversed = a;
+    for (Triangle& t : reversed.triangles) std::swap(t[1], t[2]);
+    CHECK(compare(a.view(), reversed.view(), {.samples = 500}).mean_normal_degrees == Approx(180));
 
-    // A roof of 30 degrees over the square, seen from inside the square's middle line.
+    // The square, inclined by 30 degrees.
     TriangleMesh slope = a;
     for (Vec3& p : slope.positions) p[2] = std::tan(test::pi / 6) * p[0];
     CHECK(compare(a.view(), slope.view(), {.samples = 500}).mean_normal_degrees == Approx(30).epsilon(1e-6));
 }
 
-TEST_CASE("where several faces are closest the smallest angle counts") {
-    // All of the small square is closest to the ridge (x = 0) of a tent: to faces that look up to the left
-    // and faces that look up to the right, by 60 degrees, or straight up by one thin face along the ridge.
+TEST_CASE("compare: the normal deviation is the smallest one among equally close faces") {
+    // All points of the small square are closest to the ridge (x = 0) of a tent. The normals of the faces at
+    // the ridge are inclined by 60 degrees to the left and to the right.
     const double s = std::sqrt(3.0);
     TriangleMesh tent;
     tent.positions = {{0, -1, 0}, {0, 9, 0}, {1, -1, -s}, {1, 9, -s}, {-1, -1, -s}, {-1, 9, -s}};
@@ -86,7 +86,7 @@ TEST_CASE("where several faces are closest the smallest angle counts") {
     CHECK(plain.b_to_a.mean_normal_degrees == Approx(60).epsilon(1e-3));
     TriangleMesh leaning = above;
     for (Vec3& p : leaning.positions) p = {p[0], p[1], 2 - 0.1 * p[0]};
-    // Leaning to the right by atan 0.1, it is nearer in angle to the right-hand faces, whatever their index.
+    // Inclined to the right by atan 0.1, it is closer in angle to the right-hand faces, whatever their index.
     const double lean = std::atan(0.1) * 180 / test::pi;
     CHECK(compare(tent.view(), leaning.view(), {.samples = 200}).b_to_a.mean_normal_degrees ==
           Approx(60 - lean).epsilon(1e-3));
@@ -96,7 +96,7 @@ TEST_CASE("where several faces are closest the smallest angle counts") {
           Approx(60 - lean).epsilon(1e-3));
 }
 
-TEST_CASE("concentric spheres are their radii's difference apart") {
+TEST_CASE("compare: the distance of concentric spheres is the difference of their radii") {
     const TriangleMesh a = globe(90, 1), b = globe(90, 1.1);
     const Comparison c = compare(a.view(), b.view(), {.samples = 20000});
     CHECK(c.hausdorff == Approx(0.1).epsilon(0.01));
@@ -104,9 +104,9 @@ TEST_CASE("concentric spheres are their radii's difference apart") {
     CHECK(c.b_to_a.mean == Approx(0.1).epsilon(0.01));
 }
 
-TEST_CASE("samples are uniform over the area") {
-    // Half the area is in two big faces at height 1, half in 20,000 small ones at height 0: the plane at 0 is
-    // 1/2 away on average and 1/2 in the mean square.
+TEST_CASE("compare: samples are uniform over the area") {
+    // Half of the area is in two large faces at height 1, half in 20,000 small ones at height 0: both the
+    // mean and the mean squared distance to the plane at height 0 are 1/2.
     TriangleMesh mesh = square(100, 1, 0);
     const auto first = static_cast<Index>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}});
@@ -119,7 +119,7 @@ TEST_CASE("samples are uniform over the area") {
     CHECK(c.a_to_b.mean_squared == Approx(0.5).epsilon(1e-3));
 }
 
-TEST_CASE("a comparison does not depend on the number of threads but on the seed") {
+TEST_CASE("compare: the result depends on the seed, but not on the number of threads") {
     const TriangleMesh a = globe(30, 1), b = globe(17, 1.05);
     const Comparison one = compare(a.view(), b.view(), {.samples = 20000, .threads = 1});
     for (const std::uint32_t threads : {2u, 3u, 8u}) {
@@ -132,7 +132,7 @@ TEST_CASE("a comparison does not depend on the number of threads but on the seed
     CHECK(one.chamfer == Approx(other.chamfer).epsilon(0.02));
 }
 
-TEST_CASE("comparing is symmetric up to sampling, and scales") {
+TEST_CASE("compare: the result is symmetric up to sampling, and scales with the meshes") {
     TriangleMesh a = globe(20, 1), b = globe(9, 1.02);
     const Comparison ab = compare(a.view(), b.view(), {.samples = 20000});
     const Comparison ba = compare(b.view(), a.view(), {.samples = 20000});
@@ -148,7 +148,7 @@ TEST_CASE("comparing is symmetric up to sampling, and scales") {
     CHECK(scaled.chamfer == 1024 * 1024 * ab.chamfer);
 }
 
-TEST_CASE("faces without area, not finite or out of range") {
+TEST_CASE("compare: degenerate and non-finite faces are skipped, invalid indices are errors") {
     TriangleMesh mesh = square(1, 1, 0);
     mesh.positions.push_back({0, 0, std::numeric_limits<double>::quiet_NaN()});
     mesh.positions.push_back({0, 0, std::numeric_limits<double>::infinity()});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// An egg: a sphere of rings x 2 rings quads, stretched and bent so that no two places are alike.
+/// A sphere of rings x 2 rings quads, stretched and bent so that it has no symmetries.
 TriangleMesh egg(Index rings) {
     TriangleMesh mesh = test::globe(rings, 1);
     for (auto& [x, y, z] : mesh.positions) {
@@ -32,8 +32,8 @@ bool same(const DistanceBound& a, const DistanceBound& b) {
 
 }  // namespace
 
-TEST_CASE("a distance is found inside faces where all vertices coincide") {
-    // A skew square by its one diagonal and by its other: farthest in the middle, from the plane
+TEST_CASE("hausdorff: a maximum in the interior of faces is found if all vertices coincide") {
+    // A skew quad, triangulated with either diagonal. The maximum distance is that of the middle to the plane
     // z = h (x + y).
     for (const double h : {1e-3, 0.1, 1.0}) {
         TriangleMesh a, b;
@@ -56,10 +56,9 @@ TEST_CASE("a distance is found inside faces where all vertices coincide") {
     }
 }
 
-TEST_CASE("a ridge far inside a big face is found from the flat side") {
-    // The plane's two faces reach far beyond a tent with its ridge at height 1 over a base of width 4: from
-    // the point under the ridge to a slope it is 2 / sqrt(5), but the plane's own rim is farther. With the
-    // tent on a floor as wide as the plane only the ridge is left.
+TEST_CASE("hausdorff: a maximum far inside a large face is found") {
+    // A tent with its ridge at height 1 over a base of width 4, on a floor as large as the plane. The maximum
+    // distance from the plane is that of the point below the ridge to a slope, 2 / sqrt(5).
     TriangleMesh plane, tent;
     plane.positions = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}};
     plane.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -70,7 +69,7 @@ TEST_CASE("a ridge far inside a big face is found from the flat side") {
         tent.triangles.push_back({i, i + 6, i + 5});
     }
     const Comparison c = compare(plane.view(), tent.view(), {.samples = 1, .tolerance = 1e-3});
-    // Next to the ridge's foot the slopes are nearest, at x = 2 - s: s / sqrt(5).
+    // The distance from the point x = 2 - s of the plane to the slope is s / sqrt(5), largest for s = 2.
     const double exact = 2 / std::sqrt(5.0);
     CHECK(c.a_to_b.max <= exact * (1 + 1e-12));
     CHECK(c.a_to_b.max_bound >= exact * (1 - 1e-12));
@@ -79,7 +78,7 @@ TEST_CASE("a ridge far inside a big face is found from the flat side") {
     CHECK(c.b_to_a.max_bound == Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("offset squares have a bound as tight as asked for") {
+TEST_CASE("hausdorff: the bound of offset squares is within the tolerance") {
     const TriangleMesh a = square(3, 2, 0), b = square(5, 2, 0.25);
     for (const double tolerance : {0.1, 0.01, 0.001}) {
         const DistanceBound d = hausdorff(a.view(), b.view(), {.tolerance = tolerance});
@@ -89,7 +88,7 @@ TEST_CASE("offset squares have a bound as tight as asked for") {
     }
 }
 
-TEST_CASE("value and bound enclose what dense samples show") {
+TEST_CASE("hausdorff: value and bound agree with dense sampling") {
     const TriangleMesh fine = egg(13), coarse = egg(7);
     const double there = test::sampled_distance(fine, coarse, 6),
                  back = test::sampled_distance(coarse, fine, 12);
@@ -106,11 +105,11 @@ TEST_CASE("value and bound enclose what dense samples show") {
     CHECK(d.bound <= d.value * 1.01 + 1e-8);
 }
 
-TEST_CASE("identical meshes and other triangulations of them are at distance zero at once") {
+TEST_CASE("hausdorff: identical surfaces have distance zero, also if triangulated differently") {
     const TriangleMesh mesh = egg(20);
-    TriangleMesh turned = mesh;
-    std::reverse(turned.triangles.begin(), turned.triangles.end());
-    const DistanceBound d = hausdorff(mesh.view(), turned.view());
+    TriangleMesh reordered = mesh;
+    std::reverse(reordered.triangles.begin(), reordered.triangles.end());
+    const DistanceBound d = hausdorff(mesh.view(), reordered.view());
     CHECK(d.value < 1e-14);
     CHECK(d.bound < 1e-8);
     CHECK(d.pieces == 0);
@@ -120,7 +119,7 @@ TEST_CASE("identical meshes and other triangulations of them are at distance zer
     CHECK(flat.bound < 1e-8);
 }
 
-TEST_CASE("a bound does not depend on the number of threads") {
+TEST_CASE("hausdorff: the result does not depend on the number of threads") {
     const TriangleMesh a = egg(30), b = egg(17);
     const HausdorffOptions one{.tolerance = 0.002, .threads = 1};
     const DistanceBound expected = hausdorff(a.view(), b.view(), one);
@@ -132,7 +131,7 @@ TEST_CASE("a bound does not depend on the number of threads") {
     }
 }
 
-TEST_CASE("where the work is capped the bound is wider and still one") {
+TEST_CASE("hausdorff: with limited work, the bounds are wider but valid") {
     const TriangleMesh a = egg(30), b = egg(17);
     const DistanceBound full = hausdorff(a.view(), b.view(), {.tolerance = 1e-3});
     DistanceBound last = hausdorff(a.view(), b.view(), {.tolerance = 1e-3, .max_pieces = 0});
@@ -157,7 +156,7 @@ TEST_CASE("where the work is capped the bound is wider and still one") {
     CHECK(c.hausdorff_bound < infinity);
 }
 
-TEST_CASE("meshes are within a distance or they are not") {
+TEST_CASE("hausdorff: within() compares with a distance, and stop_above and stop_below end the search") {
     const TriangleMesh a = egg(30), b = egg(17);
     const DistanceBound d = hausdorff(a.view(), b.view(), {.tolerance = 1e-3});
     CHECK(within(a.view(), b.view(), d.bound * 1.001) == Within::yes);
@@ -176,7 +175,7 @@ TEST_CASE("meshes are within a distance or they are not") {
     CHECK(content.pieces < d.pieces);
 }
 
-TEST_CASE("a tolerance that is no number is refused, faces far apart are not") {
+TEST_CASE("hausdorff: invalid tolerances and empty meshes are errors, very distant meshes are not") {
     const TriangleMesh a = square(1, 1, 0);
     CHECK_THROWS_AS(hausdorff(a.view(), a.view(), {.tolerance = -1}), OptionError);
     CHECK_THROWS_AS(hausdorff(a.view(), a.view(), {.tolerance = std::nan("")}), OptionError);

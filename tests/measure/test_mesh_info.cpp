@@ -20,7 +20,7 @@ MeshInfo info_of(const std::vector<Vec3>& positions, const std::vector<Triangle>
 
 }  // namespace
 
-TEST_CASE("info counts a closed cube") {
+TEST_CASE("info: a closed cube") {
     const MeshInfo cube = info_of(cube_positions, cube_triangles);
     CHECK(cube.faces == 12);
     CHECK(cube.vertices == 8);
@@ -35,7 +35,7 @@ TEST_CASE("info counts a closed cube") {
     CHECK(cube.box_max == Vec3{2, 2, 2});
 }
 
-TEST_CASE("info sees through vertices split by attributes, and ignores unused ones") {
+TEST_CASE("info: vertices at equal positions are welded, unreferenced ones are ignored") {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
     for (const Triangle& t : cube_triangles) {
@@ -52,8 +52,8 @@ TEST_CASE("info sees through vertices split by attributes, and ignores unused on
     CHECK(soup.box_max == Vec3{2, 2, 2});
 }
 
-TEST_CASE("info finds borders, fins, parts and faces without three corners") {
-    // Three triangles on the edge 0-1, one apart that touches nothing, two degenerate ones.
+TEST_CASE("info: boundary edges, non-manifold edges, components and degenerate faces are counted") {
+    // Three triangles on the edge 0-1, one separate triangle, two degenerate ones.
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1},
                                          {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {1, 0, 0}};
     const MeshInfo mesh =
@@ -67,8 +67,8 @@ TEST_CASE("info finds borders, fins, parts and faces without three corners") {
     CHECK(mesh.euler == 8 - 10 + 4);
 }
 
-TEST_CASE("components are found whatever the order of the faces") {
-    // A strip whose vertices are numbered so that every face joins two larger trees.
+TEST_CASE("info: the number of components does not depend on the order of the faces") {
+    // A strip whose faces are ordered so that each one connects two larger components.
     std::vector<Vec3> positions;
     for (int i = 0; i < 64; ++i) positions.push_back({double(i), double(i % 2), 0});
     std::vector<Triangle> triangles;
@@ -79,7 +79,7 @@ TEST_CASE("components are found whatever the order of the faces") {
     CHECK(info_of(positions, {{9, 5, 1}, {8, 4, 0}, {9, 7, 8}}).components == 1);
 }
 
-TEST_CASE("info of nothing is zero") {
+TEST_CASE("info: an empty mesh gives zeros") {
     const MeshInfo nothing = info_of({}, {});
     CHECK(nothing.faces == 0);
     CHECK(nothing.vertices == 0);
@@ -87,7 +87,7 @@ TEST_CASE("info of nothing is zero") {
     CHECK(info_of({{1, 1, 1}}, {{0, 0, 0}}).degenerate_faces == 1);
 }
 
-TEST_CASE("info does not trip over NaN and rejects bad indices") {
+TEST_CASE("info: NaN positions are handled, indices out of range are errors") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const MeshInfo mesh = info_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, nan, 0}, {nan, nan, 0}},
                                   {{0, 1, 2}, {0, 3, 2}, {1, 4, 0}});

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t size = 64;
 
-/// The scene as seen from +z, fitted into the picture.
+/// Renders the asset from +z, or rotated about y by `azimuth`, so that it fits into the image.
 Frame picture(const faqem::Asset& asset, Shading shading = Shading::unlit, double azimuth = 0,
               Edges edges = Edges::hidden) {
     const Scene scene = make_scene(asset);
@@ -20,7 +20,7 @@ Frame picture(const faqem::Asset& asset, Shading shading = Shading::unlit, doubl
     return render(scene, camera, size, shading, edges);
 }
 
-/// At shares of the width and height from the upper left.
+/// Pixel at fractions of the width and height from the upper left.
 Vector4f at(const Frame& frame, double x, double y) {
     return frame.pixels[static_cast<std::size_t>(y * frame.size) * frame.size +
                         static_cast<std::size_t>(x * frame.size)];
@@ -32,7 +32,7 @@ bool near(const Vector4f& a, const Vector4f& b, float tolerance = 0.02f) {
 
 const Vector4f red(1, 0, 0, 1), blue(0, 0, 1, 1), nothing(0, 0, 0, 0);
 
-/// A square of two faces at a depth, without texture.
+/// An untextured square of two faces at the given z.
 faqem::Asset square(double z, const faqem::Vec4f& colour, faqem::AlphaMode mode = faqem::AlphaMode::opaque) {
     faqem::Asset asset = tool_test::sheet(1, 0);
     for (faqem::Vec3& p : asset.parts[0].positions) p[2] = z;
@@ -53,27 +53,27 @@ faqem::Asset joined(faqem::Asset a, const faqem::Asset& b) {
 
 }  // namespace
 
-TEST_CASE("a textured square shows its picture the right way round") {
+TEST_CASE("a textured square shows its texture upright, and mirrored from behind") {
     const Frame frame = picture(tool_test::sheet(4, 0));
     CHECK(near(at(frame, 0.25, 0.5), red));
     CHECK(near(at(frame, 0.75, 0.5), blue));
     CHECK(near(at(frame, 0.02, 0.02), nothing));
-    // From behind left and right change places; backs are drawn.
+    // From behind, left and right are swapped, and back faces are drawn.
     const Frame behind = picture(tool_test::sheet(4, 0), Shading::unlit, 3.14159265358979);
     CHECK(near(at(behind, 0.25, 0.5), blue));
 }
 
-TEST_CASE("v points down") {
+TEST_CASE("texture coordinate v points down") {
     faqem::Asset asset = tool_test::sheet(1, 0);
-    for (faqem::Vec2f& uv : asset.parts[0].uvs[0]) uv = {uv[1], uv[0]};  // the picture on its side
+    for (faqem::Vec2f& uv : asset.parts[0].uvs[0]) uv = {uv[1], uv[0]};  // transposed
     const Frame frame = picture(asset);
     // u = 1 - height: the left, red half of the image is at the top.
     CHECK(near(at(frame, 0.5, 0.25), red));
     CHECK(near(at(frame, 0.5, 0.75), blue));
 }
 
-TEST_CASE("texture coordinates are interpolated in space, not on the screen") {
-    // Far on the right: the middle of the square is nearer to the far edge in the picture.
+TEST_CASE("texture coordinates are interpolated with perspective correction") {
+    // The right edge of the square is farther away, so its centre is projected closer to that edge.
     faqem::Asset asset = tool_test::sheet(1, 0);
     for (faqem::Vec3& p : asset.parts[0].positions) p = {p[0], p[1], -3 * p[0]};
     const Scene scene = make_scene(asset);
@@ -86,13 +86,13 @@ TEST_CASE("texture coordinates are interpolated in space, not on the screen") {
     CHECK(near(at(frame, 0.53, 0.5), blue));
 }
 
-TEST_CASE("the nearer face hides the farther one, whatever their order") {
+TEST_CASE("the nearer face hides the farther one in either draw order") {
     const faqem::Asset front = square(0.5, {1, 0, 0, 1}), back = square(-0.5, {0, 0, 1, 1});
     CHECK(near(at(picture(joined(front, back)), 0.5, 0.5), red));
     CHECK(near(at(picture(joined(back, front)), 0.5, 0.5), red));
 }
 
-TEST_CASE("blended faces let what is behind through, masked ones all or nothing") {
+TEST_CASE("blended faces are composited and masked faces are either opaque or discarded") {
     const faqem::Asset back = square(-0.5, {0, 0, 1, 1});
     const faqem::Asset glass = square(0.5, {1, 0, 0, 0.25f}, faqem::AlphaMode::blend);
     const Vector4f mixed(0.25f, 0, 0.75f, 1);
@@ -105,26 +105,26 @@ TEST_CASE("blended faces let what is behind through, masked ones all or nothing"
         near(at(picture(joined(square(0.5, {1, 0, 0, 0.6f}, faqem::AlphaMode::mask), back)), 0.5, 0.5), red));
 }
 
-TEST_CASE("vertex colours and the base colour are factors") {
+TEST_CASE("vertex colours and the base colour factor are multiplied") {
     faqem::Asset asset = square(0, {1, 0.5f, 0.25f, 1});
     asset.parts[0].colors.assign(4, {0.5f, 0.5f, 1, 1});
     CHECK(near(at(picture(asset), 0.5, 0.5), Vector4f(0.5f, 0.25f, 0.25f, 1)));
 }
 
-TEST_CASE("light falls on both sides, and edges are drawn where asked for") {
+TEST_CASE("both sides are lit, and edges are drawn only if enabled") {
     const faqem::Asset asset = square(0, {0.5f, 0.5f, 0.5f, 1});
     for (const double azimuth : {0.0, 3.14159265358979}) {
         const Vector4f c = at(picture(asset, Shading::lit, azimuth), 0.4, 0.5);
         CHECK(c[0] > 0.3f);
         CHECK(c[3] == 1);
     }
-    // The diagonal goes from the lower left to the upper right.
+    // The diagonal edge is from the lower left to the upper right.
     const Frame wires = picture(asset, Shading::unlit, 0, Edges::drawn);
     CHECK(at(wires, 0.5, 0.5)[0] < 0.45f);
     CHECK(near(at(wires, 0.35, 0.3), Vector4f(0.5f, 0.5f, 0.5f, 1)));
 }
 
-TEST_CASE("an image that cannot be decoded is white, with a warning") {
+TEST_CASE("an image that cannot be decoded is drawn white with a warning") {
     faqem::Asset asset = tool_test::sheet(1, 0);
     asset.images[0].encoded.resize(20);
     const Scene scene = make_scene(asset);
@@ -132,7 +132,7 @@ TEST_CASE("an image that cannot be decoded is white, with a warning") {
     CHECK(near(at(picture(asset), 0.25, 0.5), Vector4f(1, 1, 1, 1)));
 }
 
-TEST_CASE("a scene without faces has no bounds") {
+TEST_CASE("a scene without faces has no bounding box") {
     Vector3 low, high;
     CHECK(!bounding_box(make_scene(faqem::Asset{}), low, high));
     CHECK(bounding_box(make_scene(tool_test::sheet(1, 0)), low, high));
@@ -140,7 +140,7 @@ TEST_CASE("a scene without faces has no bounds") {
     CHECK(high == Vector3(1, 1, 0));
 }
 
-TEST_CASE("the render command draws a sheet of rows and columns") {
+TEST_CASE("the render command writes a sheet with a row per model and a column per view") {
     const tool_test::Folder folder;
     faqem::save(tool_test::sheet(6), folder / "a.glb");
     faqem::save(square(0, {0, 1, 0, 1}), folder / "b.glb");
@@ -160,5 +160,5 @@ TEST_CASE("the render command draws a sheet of rows and columns") {
     CHECK(pixel(12, 20)[2] < 60);
     CHECK(pixel(20, 60)[1] > 200);  // green below
     CHECK(pixel(20, 60)[0] < 60);
-    CHECK(pixel(0, 0)[0] == pixel(0, 0)[1]);  // grey ground
+    CHECK(pixel(0, 0)[0] == pixel(0, 0)[1]);  // grey background
 }

@@ -10,7 +10,7 @@ using faqem::Wrap;
 
 namespace {
 
-/// Grey texels in a row.
+/// A texture of one row of grey texels.
 Texture row(const std::vector<int>& greys, ColorSpace color_space = ColorSpace::linear) {
     faqem::Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(greys.size());
@@ -29,14 +29,14 @@ double grey(const Texture& texture, double u, Wrap wrap = Wrap::repeat, double l
 
 }  // namespace
 
-TEST_CASE("texels are hit at their centres and mixed between them") {
+TEST_CASE("texels are interpolated linearly between their centres") {
     const Texture texture = row({0, 100, 200, 40});
     CHECK(grey(texture, 0.375) == Approx(100));
     CHECK(grey(texture, 0.5) == Approx(150));
     CHECK(grey(texture, 0.4375) == Approx(125));
 }
 
-TEST_CASE("textures go on outside as their wrap mode says") {
+TEST_CASE("texture coordinates outside the unit square follow the wrap mode") {
     const Texture texture = row({0, 100, 200, 40});
     CHECK(grey(texture, 1.375) == Approx(100));
     CHECK(grey(texture, -0.125) == Approx(40));
@@ -49,7 +49,7 @@ TEST_CASE("textures go on outside as their wrap mode says") {
     for (const double far : {1e300, -1e300, std::nan(""), HUGE_VAL}) CHECK(std::isfinite(grey(texture, far)));
 }
 
-TEST_CASE("nearest takes the texel the place is in") {
+TEST_CASE("nearest filtering returns the texel that contains the coordinate") {
     const Texture texture = row({0, 100, 200, 40});
     TextureRef use;
     use.filter = faqem::Filter::nearest;
@@ -57,17 +57,17 @@ TEST_CASE("nearest takes the texel the place is in") {
     CHECK(255 * sample(texture, use, {0.49, 0.5}, 0)[0] == Approx(100));
 }
 
-TEST_CASE("colours are mixed in linear light, data as they are") {
+TEST_CASE("sRGB textures are filtered in linear light and data textures without conversion") {
     const Texture colours = row({0, 255}, ColorSpace::srgb);
     CHECK(sample(colours, TextureRef{}, {0.5, 0.5}, 0)[0] == Approx(0.5));
     CHECK(sample(row({188, 188}, ColorSpace::srgb), TextureRef{}, {0.5, 0.5}, 0)[0] ==
           Approx(0.503).epsilon(0.01));
-    // The level above holds their mean: half the light is 188 of 255.
+    // The next mip level is the average in linear light: the sRGB value of 0.5 is 188.
     CHECK(int(colours.levels.at(1).rgba[0]) == 188);
     CHECK(int(row({0, 255}).levels.at(1).rgba[0]) == 128);
 }
 
-TEST_CASE("coarser levels are means of finer ones and are mixed between") {
+TEST_CASE("mip levels are averages of the finer level and are interpolated") {
     const Texture texture = row({0, 100, 200, 40});
     REQUIRE(texture.levels.size() == 3);
     CHECK(grey(texture, 0.25, Wrap::clamp, 1) == Approx(50));
@@ -76,12 +76,12 @@ TEST_CASE("coarser levels are means of finer ones and are mixed between") {
     CHECK(grey(texture, 0.25, Wrap::clamp, 1.5) == Approx(67.5));
 }
 
-TEST_CASE("a texture transform scales, turns against the sense of v, and moves") {
+TEST_CASE("a texture transform scales, rotates and translates as in KHR_texture_transform") {
     TextureRef use;
     use.scale = {2, 3};
     use.rotation = static_cast<float>(3.14159265358979 / 2);
     use.offset = {0.25f, 0.5f};
-    // By a quarter turn u goes to -v, which is up in the picture, and v to u.
+    // A rotation by 90 degrees maps u to -v, which points up in the image, and v to u.
     CHECK(transform_uv(use, {1, 0}).isApprox(Vector2d(0.25, 0.5 - 2), 1e-6));
     CHECK(transform_uv(use, {0, 1}).isApprox(Vector2d(0.25 + 3, 0.5), 1e-6));
 }

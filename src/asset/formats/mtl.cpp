@@ -19,7 +19,7 @@
 namespace faqem::detail {
 namespace {
 
-/// Words of one statement after its keyword.
+/// Iterates over the words of a statement after its keyword.
 class Words {
 public:
     explicit Words(std::string_view text) : text_(text) {}
@@ -45,7 +45,8 @@ std::optional<float> as_number(std::string_view word) {
     return value;
 }
 
-/// Up to three numbers, of which the first two count. The file name after them may look like a number.
+/// Reads up to three numbers and stores the first two. The last word is never read, since it is the file
+/// name, which may look like a number.
 void read_pair(Words& words, Vec2f& pair) {
     for (std::size_t i = 0; i < 3 && !words.is_last(); ++i) {
         const std::optional<float> value = as_number(words.peek());
@@ -78,7 +79,7 @@ MtlTexture read_texture(const std::string& statement) {
     }
 }
 
-/// Reads the statements of one library.
+/// Parser of a material library.
 class MtlReader {
 public:
     MtlReader(std::span<const std::uint8_t> text, const std::string& name, std::vector<std::string>& warnings)
@@ -91,7 +92,7 @@ public:
         }
         finish_material();
         for (const auto& [key, count] : unused_)
-            warn(key + " is not used (" + pluralized(count, "statement") + ")");
+            warn(key + " is not supported (" + pluralized(count, "statement") + ")");
         return std::move(materials_);
     }
 
@@ -144,7 +145,7 @@ private:
     double unit_number() {
         const double value = in_.number<double>();
         if (value >= 0 && value <= 1) return value;
-        warn("line " + std::to_string(in_.line()) + ": a number outside 0..1 is clamped");
+        warn("line " + std::to_string(in_.line()) + ": a number outside [0, 1] was clamped");
         return value <= 0 ? 0 : 1;
     }
 
@@ -153,10 +154,10 @@ private:
         return unit_number();
     }
 
-    /// One number means grey.
+    /// Reads an RGB colour. A single number is a grey value.
     std::optional<Vec3> color() {
         if (in_.accept_word("spectral") || in_.accept_word("xyz")) {
-            warn("line " + std::to_string(in_.line()) + ": only RGB colours are read");
+            warn("line " + std::to_string(in_.line()) + ": only RGB colours are supported");
             return std::nullopt;
         }
         Vec3 rgb;
@@ -170,7 +171,7 @@ private:
         MtlMaterial& material = materials_.back();
         const auto is_black = [](const Vec3& c) { return c == Vec3{0, 0, 0}; };
         if (diffuse_ && is_black(*diffuse_) && !material.color.file.empty()) {
-            warn("material '" + material.name + "': Kd 0 0 0 beside a map_Kd is taken as 1 1 1");
+            warn("material '" + material.name + "': Kd 0 0 0 with a map_Kd is read as 1 1 1");
             diffuse_.reset();
         }
         if (emission_ && is_black(*emission_) && !material.emissive.file.empty()) emission_.reset();
@@ -197,12 +198,13 @@ private:
     std::vector<std::string>& warnings_;
     std::vector<MtlMaterial> materials_;
     std::map<std::string, std::uint64_t> unused_;
-    // Of the current material.
+    // Values of the current material.
     std::optional<Vec3> diffuse_, emission_;
     std::optional<double> opacity_, transparency_, exponent_, roughness_;
 };
 
-/// The image of a texture statement, read unless the asset has it already.
+/// Returns the index of an image, which is read unless the asset already has it; no_index with a warning if
+/// it cannot be read.
 Index add_image(Asset& asset, const MtlMaterial& material, const std::string& name,
                 const std::filesystem::path& folder) {
     try {
@@ -231,7 +233,7 @@ TextureRef add_texture(Asset& asset, const MtlMaterial& material, const MtlTextu
     ref.image = add_image(asset, material, texture.file, folder);
     ref.wrap_u = ref.wrap_v = texture.wrap;
     ref.scale = texture.scale;
-    // MTL: v' = o + s * v with v pointing up; with v = 1 - w this is w' = (1 - s - o) + s * w.
+    // MTL defines v' = o + s * v with v pointing up. With v = 1 - w this becomes w' = (1 - s - o) + s * w.
     ref.offset = {texture.offset[0], 1 - texture.scale[1] - texture.offset[1]};
     return ref;
 }
@@ -253,7 +255,7 @@ Index add_material(Asset& asset, const MtlMaterial& source, const std::filesyste
             material.alpha_mode = AlphaMode::blend;
         else
             asset.warnings.push_back("material '" + source.name +
-                                     "': map_d is read only where it is the map_Kd");
+                                     "': map_d is supported only if it is the same image as map_Kd");
     }
     asset.materials.push_back(std::move(material));
     return static_cast<Index>(asset.materials.size() - 1);

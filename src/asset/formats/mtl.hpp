@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// OBJ material libraries.
+/// Reading of OBJ material libraries (MTL files).
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace faqem::detail {
 
 /// A texture statement (`map_Kd` ...) as written.
 struct MtlTexture {
-    std::string file;                       ///< as written; empty: none
+    std::string file;                       ///< as written; empty: no texture
     Vec2f offset = {0, 0}, scale = {1, 1};  ///< -o and -s, v pointing up
     Wrap wrap = Wrap::repeat;               ///< -clamp
 };
@@ -23,27 +23,34 @@ struct MtlTexture {
 /// A material of a library. Texture files are relative to the folder of the library.
 struct MtlMaterial {
     std::string name;
-    std::filesystem::path folder;  ///< of the library, relative to the OBJ file
-    Material values;               ///< all but the textures
+    std::filesystem::path folder;  ///< folder of the library, relative to the folder of the OBJ file
+    Material values;               ///< everything except the textures
     MtlTexture color, alpha, emissive, normal;
 };
 
-/// Parses a library. Its conventions become those of Material: Kd and Ke are display values (sRGB) and are
-/// made linear; Kd 0 0 0 with a map_Kd means white, as several exporters write it (warning); d, or 1 - Tr, is
-/// the alpha of the base colour and makes it blend; Pr and Pm are roughness and metallic; without them
-/// metallic is 0 and roughness (2 / (Ns + 2))^(1/4), 1 without Ns. map_Kd, map_Ke, norm, and a map_d of the
-/// same image as map_Kd are textures; -o, -s and -clamp are used, the other options skipped. Ka, map_Ka, Ks,
-/// Ni, Tf, illum and sharpness have no place in the material and are skipped; other statements are skipped
-/// with a counted warning. Source of the Ns formula: Karis, "Specular BRDF reference", 2013, with alpha =
-/// roughness^2.
-/// \param name  for messages
-/// \throws InputError  a number is not one, or a statement comes before the first newmtl
+/// Parses a material library and converts its values to the conventions of Material.
+///
+/// - Kd and Ke are sRGB values and are converted to linear. Kd 0 0 0 with a map_Kd is read as white, with a
+///   warning, since several exporters write it so.
+/// - d, or 1 - Tr, is the alpha of the base colour; below 1, the alpha mode is blend.
+/// - Pr is the roughness; without it, roughness = (2 / (Ns + 2))^(1/4), or 1 without Ns. The formula follows
+///   Karis, "Specular BRDF reference", 2013, with alpha = roughness^2.
+/// - Pm is the metallic factor; the default is 0.
+/// - map_Kd, map_Ke and norm are textures, and map_d if it is the same image as map_Kd. Of the options, -o,
+///   -s and -clamp are used; the others are ignored.
+/// - Ka, map_Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored. Other
+///   statements, and statements before the first newmtl, are ignored with a counted warning.
+/// \param text      borrowed
+/// \param name      path of the library, for messages
+/// \param warnings  receives the warnings
+/// \return the materials in the order of the file
+/// \throws InputError  with the line, if a number is invalid
 FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
                                                std::vector<std::string>& warnings);
 
-/// Adds a material and the images it uses to the asset. An image already there is shared. An image that is
-/// missing or lies outside the folder is a warning: the material keeps its colour.
-/// \param folder  of the OBJ file, in which everything must lie
+/// Adds a material and its images to the asset. Images that the asset already has are shared. An image that
+/// is missing or outside the folder is a warning, and the material has no such texture.
+/// \param folder  folder of the OBJ file; images must be in it or below it
 /// \return index into asset.materials
 Index add_material(Asset& asset, const MtlMaterial& material, const std::filesystem::path& folder);
 

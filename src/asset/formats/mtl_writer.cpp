@@ -12,6 +12,7 @@
 namespace faqem::detail {
 namespace {
 
+/// Writes materials to the text of a library and collects their images.
 class MtlWriter {
 public:
     MtlWriter(const Asset& asset, const std::string& stem) : asset_(asset), stem_(stem) {}
@@ -103,8 +104,9 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
     const Loss kinds[] = {
         {"metallic-roughness textures", [](const Material& m) { return bool(m.metallic_roughness_texture); }},
         {"occlusion textures", [](const Material& m) { return bool(m.occlusion_texture); }},
-        {"a scale of normal maps", [](const Material& m) { return m.normal_texture && m.normal_scale != 1; }},
-        {"alpha cutoffs: masks become blending",
+        {"the scale of normal maps",
+         [](const Material& m) { return m.normal_texture && m.normal_scale != 1; }},
+        {"alpha cutoffs: alpha masks become alpha blending",
          [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
         {"unlit materials", [](const Material& m) { return m.unlit; }},
         {"double-sided materials", [](const Material& m) { return m.double_sided; }},

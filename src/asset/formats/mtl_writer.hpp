@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Materials to an OBJ material library.
+/// Conversion of materials to an OBJ material library (MTL file).
 
 #include <string>
 #include <vector>
@@ -9,31 +9,32 @@
 
 namespace faqem::detail {
 
-/// An image to be written beside the library.
+/// An image to be written to the folder of the library.
 struct MtlImage {
-    std::string name;        ///< of the file
-    Index image = no_index;  ///< into Asset::images
+    std::string name;        ///< file name
+    Index image = no_index;  ///< index into Asset::images
 };
 
-/// A library and what belongs to it.
+/// A material library and its images.
 struct MtlLibrary {
     std::string text;
-    std::vector<std::string> names;  ///< of the materials, unique, in the order given
+    std::vector<std::string> names;  ///< unique names of the materials, in the given order
     std::vector<MtlImage> images;
 };
 
-/// The texture whose UV set and transform the OBJ file's only UVs are made for: that of the base colour, or
-/// the first other one there is. May have no image.
+/// The texture whose UV set and UV transform are used for the only UV set of the OBJ file: the base colour
+/// texture if it is set, else the emissive texture if it is set, else the normal texture, set or not.
 const TextureRef& leading_texture(const Material& material);
 
-/// Writes materials: the reverse of read_mtl(), with Pr and Pm for roughness and metallic.
-/// \param used    into asset.materials, or no_index for the default material
-/// \param stem    image i is called `stem`_i with the ending of its type
-/// \param losses  receives what a library cannot hold
+/// Converts materials to a library: the inverse of read_mtl(), with Pr for roughness and Pm for metallic.
+/// \param used    indices into asset.materials; no_index is the default material
+/// \param stem    image i gets the file name `stem`_i with the extension of its type
+/// \param losses  receives what a library cannot hold, one sentence each
 MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,
                     std::vector<std::string>& losses);
 
-/// A name that fits in one statement: no control characters, no blanks at the ends, not empty.
+/// Makes a name valid for a statement: control characters are replaced, blanks at both ends and trailing
+/// backslashes are removed. Returns `fallback` if nothing is left.
 std::string sanitized_name(const std::string& name, const std::string& fallback);
 
 }  // namespace faqem::detail

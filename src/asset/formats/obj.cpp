@@ -18,25 +18,26 @@
 namespace faqem::detail {
 namespace {
 
-/// What a corner refers to: position, UV, normal; no_index where absent.
+/// Indices of the position, UV and normal of a face corner; no_index if absent.
 using ObjCorner = std::array<Index, 3>;
 
 constexpr std::array<const char*, 3> corner_index_names = {"position", "texture coordinate", "normal"};
 
-/// The statements of an OBJ file as written, indices from 0.
+/// The statements of an OBJ file as written, with indices starting at 0.
 struct ObjStatements {
     std::vector<Vec3> positions;
     std::vector<Vec3f> colors;  // empty, or one per position
     std::vector<Vec2f> uvs;
     std::vector<Vec3f> normals;
     std::vector<ObjCorner> corners;
-    std::vector<std::uint32_t> sizes;  // corners of each face
-    std::vector<Index> face_material;  // into material_names
+    std::vector<std::uint32_t> sizes;  // number of corners of each face
+    std::vector<Index> face_material;  // indices into material_names
     std::vector<std::string> material_names;
     std::vector<std::string> libraries;
     std::string object;
 };
 
+/// Parser of an OBJ file.
 class ObjParser {
 public:
     ObjParser(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
@@ -81,7 +82,8 @@ private:
             if (count == n.size()) in_.fail("v has more than 7 numbers");
             n[count++] = in_.number<double>();
         }
-        if (count < 3 || count == 5) in_.fail("v has " + std::to_string(count) + " numbers, not 3, 4 or 6");
+        if (count < 3 || count == 5)
+            in_.fail("v has " + std::to_string(count) + " numbers; expected 3, 4, 6 or 7");
         weights_ += (count == 4 && n[3] != 1) || count == 7;
         out_.positions.push_back({n[0], n[1], n[2]});
         if (count >= 6 && out_.colors.empty()) out_.colors.resize(out_.positions.size() - 1, {1, 1, 1});
@@ -117,19 +119,21 @@ private:
         const std::size_t first = out_.corners.size();
         while (!in_.at_line_end()) out_.corners.push_back(corner());
         const std::size_t count = out_.corners.size() - first;
-        if (count > max_index_count)  // the message is not made for every face
+        if (count > max_index_count)  // avoids building the message for every face
             check_index_count(count, in_.file(), "line " + std::to_string(in_.line()) + ": corner");
         out_.sizes.push_back(static_cast<std::uint32_t>(count));
         out_.face_material.push_back(material_);
     }
 
-    /// v, v/t, v//n or v/t/n. `v/` and `v/t/`, which some exporters write, count as without.
+    /// Parses v, v/t, v//n or v/t/n. Some exporters write `v/` and `v/t/`, where the index after the last
+    /// slash counts as absent.
     ObjCorner corner() {
         ObjCorner corner = {no_index, no_index, no_index};
         corner[0] = index(0);
         for (std::size_t kind = 1; kind < 3 && in_.accept('/'); ++kind)
             if (!in_.at_word_end() && !in_.remaining().starts_with('/')) corner[kind] = index(kind);
-        if (!in_.at_word_end()) in_.fail(TextScanner::quoted(in_.word()) + " does not belong in a corner");
+        if (!in_.at_word_end())
+            in_.fail(TextScanner::quoted(in_.word()) + " is not part of a valid face corner");
         return corner;
     }
 
@@ -141,7 +145,7 @@ private:
         std::int64_t number = 0;
         if (!in_.accept_integer(number)) in_.fail(TextScanner::quoted(in_.word()) + " is not an index");
         if (number == 0)
-            in_.fail(std::string("index 0 of a ") + corner_index_names[kind] + ": they are numbered from 1");
+            in_.fail(std::string("index 0 of a ") + corner_index_names[kind] + ": indices start at 1");
         const std::size_t count = count_of(kind);
         if (number < 0) {
             if (number < -static_cast<std::int64_t>(count)) out_of_range(kind, number, count, in_.line());
@@ -149,7 +153,7 @@ private:
         }
         if (number > static_cast<std::int64_t>(max_index_count))
             out_of_range(kind, number, count, in_.line());
-        // What comes later in the file may be referred to: known only at its end.
+        // Elements later in the file may be referenced; this is checked at the end of the file.
         if (static_cast<std::size_t>(number) > count && number > highest_[kind].number)
             highest_[kind] = {number, in_.line()};
         return static_cast<Index>(number - 1);
@@ -183,13 +187,13 @@ private:
     void add_warnings() {
         if (lines_and_points_)
             warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
-                                " not read: only faces are");
+                                " ignored: only faces are supported");
         if (unknown_)
-            warnings_.push_back(pluralized(unknown_, "unknown statement") + " not read, first " +
+            warnings_.push_back(pluralized(unknown_, "unknown statement") + " ignored, first " +
                                 first_unknown_);
         if (weights_)
             warnings_.push_back(pluralized(weights_, "position") +
-                                " with a weight or alpha, which is not read");
+                                " with a weight or alpha, which is ignored");
     }
 
     struct ForwardReference {
@@ -202,12 +206,13 @@ private:
     ObjStatements out_;
     std::map<std::string, Index> material_indices_;
     Index material_ = no_index;
-    std::array<ForwardReference, 3> highest_;  // of the references forward
+    std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
     std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
     std::string first_unknown_;
 };
 
-/// Numbers the different corners: position i, as its first corner uses it, is vertex i; others come after.
+/// Assigns vertices to distinct corners. Vertex i is position i with the UV and normal of its first corner;
+/// other combinations get vertices after these, in the order of the corners.
 class CornerVertices {
 public:
     explicit CornerVertices(std::size_t positions)
@@ -224,14 +229,14 @@ public:
     }
 
     std::uint64_t count() const { return first_.size() + extra_.values().size(); }
-    /// The corner that vertex v stands for.
+    /// Indices of the position, UV and normal of vertex v.
     ObjCorner corner(std::size_t v) const {
         if (v >= first_.size()) return extra_.values()[v - first_.size()];
         return {static_cast<Index>(v), first_[v][0], first_[v][1]};
     }
 
 private:
-    std::vector<std::array<Index, 2>> first_;  // UV and normal of each position's first corner
+    std::vector<std::array<Index, 2>> first_;  // UV and normal of the first corner at each position
     std::vector<std::uint8_t> seen_;
     UniqueValues<ObjCorner> extra_;
 };
@@ -257,7 +262,8 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     }
 }
 
-/// Names of one mtllib statement: the whole rest of the line where there is such a file, else word by word.
+/// File names of one mtllib statement. The rest of the line is one name if such a file exists; otherwise it
+/// is split after each `.mtl`.
 std::vector<std::string> library_names(const std::string& rest, const std::filesystem::path& folder) {
     try {
         resolve_inside(folder, rest, ReferenceSyntax::file_name);
@@ -272,7 +278,7 @@ std::vector<std::string> library_names(const std::string& rest, const std::files
     }
 }
 
-/// All materials of the libraries by name; a later one of the same name counts.
+/// Reads all material libraries. If a name is defined repeatedly, the last definition is used.
 std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
                                                   const std::filesystem::path& folder,
                                                   std::vector<std::string>& warnings) {
@@ -288,7 +294,7 @@ std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
                 found = resolve_inside(folder, name, ReferenceSyntax::file_name);
                 text = read_file(found);
             } catch (const InputError& error) {
-                warnings.push_back(std::string("material library left out: ") + error.what());
+                warnings.push_back(std::string("material library ignored: ") + error.what());
                 continue;
             }
             const auto root = std::filesystem::canonical(folder.empty() ? "." : folder);
@@ -301,7 +307,7 @@ std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
     return materials;
 }
 
-/// Materials in the order in which faces use them first.
+/// Adds the used materials in the order of their first use by a face.
 void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem::path& folder) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
     const auto libraries = read_libraries(in, folder, asset.warnings);
@@ -315,13 +321,13 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem:
             unknown.values.name = name;
             unknown.values.metallic = 0;
             if (known == libraries.end())
-                asset.warnings.push_back("material '" + name + "' is in no library that could be read");
+                asset.warnings.push_back("material '" + name + "' is not defined in any readable library");
             added[m] = add_material(asset, known == libraries.end() ? unknown : known->second, folder);
         }
         m = added[m];
     }
     if (!libraries.empty() && asset.materials.empty()) {
-        asset.warnings.push_back("material libraries are named, but no face uses a material (usemtl)");
+        asset.warnings.push_back("material libraries are referenced, but no face uses a material (usemtl)");
     }
 }
 
@@ -348,7 +354,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     TriangulatedPolygons split = triangulate_polygons(polygons, part.positions);
     if (split.too_few_corners)
         asset.warnings.push_back(pluralized(split.too_few_corners, "face") +
-                                 " of fewer than three corners left out");
+                                 " with fewer than three corners left out");
     part.triangles = std::move(split.triangles);
     check_index_count(part.triangles.size(), file.string(), "triangle");
     part.face_material.reserve(part.triangles.size());

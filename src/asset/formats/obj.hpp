@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Wavefront OBJ.
+/// Reading and writing of Wavefront OBJ files.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,25 +12,34 @@
 
 namespace faqem::detail {
 
-/// Reads an OBJ file as one part, so that no crack opens between its objects; the first object names it.
-/// Vertex i of the part is `v` number i with the vt and vn of its first corner; corners of `v` i with another
-/// vt or vn get vertices after all those, in the order of the faces. Polygons are split by triangulate().
-/// Colours after a position are display values (sRGB) in 0..1 and are made linear; vertices without are
-/// white. UVs: v' = 1 - v. Materials: see read_mtl(); one the libraries lack, or a missing library, is a
-/// warning. Lines, points and unknown statements are skipped with a counted warning; so are faces of fewer
-/// than three corners.
-/// \throws ReadError  the file cannot be read
-/// \throws InputError  with the line: not a number, index 0 or out of range, mixed corner forms; or no faces
+/// Reads an OBJ file.
+///
+/// All objects are read as one part, so that no cracks open between them; the part has the name of the first
+/// object. Vertex i of the part is position i (`v`) with the vt and vn of its first corner. Corners of
+/// position i with another vt or vn get additional vertices after all positions, in the order of the faces.
+/// Polygons are split by triangulate(). Colours after a position are sRGB values in [0, 1] and are converted
+/// to linear; vertices without a colour are white. UVs are converted by v' = 1 - v. See read_mtl() for
+/// materials; a missing library or material is a warning. Lines, points, unknown statements and faces with
+/// fewer than three corners are skipped with a counted warning.
+/// \param file  path of the file; material libraries and images are searched in its folder
+/// \return an asset with one part, and warnings
+/// \throws ReadError   if the file cannot be read
+/// \throws InputError  with the line, if a number or an index is invalid; or if there are no faces
 Asset read_obj(const std::filesystem::path& file);
 
-/// The same for bytes in memory. \param file  for messages; its folder is searched for libraries and images
+/// Same as above, for the bytes of a file in memory.
+/// \param text  borrowed
+/// \param file  path for messages; material libraries and images are searched in its folder
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file);
 
-/// Writes NAME.obj, and where it has materials NAME.mtl and images NAME_0.png ..., the OBJ file last. The
-/// scene is flattened to world space. Positions are written as float where all are floats, else as double;
-/// equal positions, UVs and normals share a line.
+/// Writes an asset as NAME.obj, and as NAME.mtl and NAME_0.png ... if it has materials and images. The OBJ
+/// file is written last. The scene is flattened to world space. Positions are written in float precision if
+/// all are representable as float, else in double precision. Equal positions, UVs and normals share a line.
+/// \param asset      the asset
+/// \param file       path of the OBJ file
+/// \param overwrite  whether existing files may be replaced
 /// \return what OBJ cannot hold, one sentence each
-/// \throws WriteError
+/// \throws WriteError  if a file cannot be written or exists and must not be replaced
 std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::path& file,
                                    Overwrite overwrite);
 

@@ -16,15 +16,15 @@
 namespace faqem::detail {
 namespace {
 
-/// Materials of the faces in the order in which they are used first, as a place among them for each material.
+/// The materials used by the faces, in the order of their first use, and the inverse mapping.
 struct UsedMaterials {
-    std::vector<Index> materials;  // into Asset::materials, or no_index
-    std::vector<Index> slot;       // of each of Asset::materials and, last, of no_index
+    std::vector<Index> materials;  // indices into Asset::materials, or no_index
+    std::vector<Index> slot;  // index into `materials` by asset material; the last element is for no_index
 
     Index slot_of(Index material) const { return material == no_index ? slot.back() : slot[material]; }
 };
 
-/// Nothing where no face has a material.
+/// Collects the materials used by the faces; empty if no face has a material.
 UsedMaterials used_materials(const Part& part, std::size_t count) {
     UsedMaterials used;
     used.slot.assign(count + 1, no_index);
@@ -38,12 +38,12 @@ UsedMaterials used_materials(const Part& part, std::size_t count) {
     return used;
 }
 
-/// The numbers of a v, vt or vn line.
+/// The values of a v, vt or vn line.
 template <std::size_t N>
 using LineValues = std::array<double, N>;
 
-/// Numbers the lines of the file as the corners of the faces come to need them, so that a file written, read
-/// and written again is the same.
+/// Numbers the v, vt and vn lines in the order in which face corners use them, so that writing, reading and
+/// writing again reproduces the file.
 class VertexLines {
 public:
     VertexLines(const Asset& asset, const Part& part)
@@ -59,7 +59,7 @@ public:
         if (!part.normals.empty()) normals_.reserve(part.positions.size());
     }
 
-    /// 1-based numbers of v, vt and vn for a corner; 0 where there is none.
+    /// 1-based line numbers of v, vt and vn of a corner; 0 if absent.
     std::array<std::uint64_t, 3> corner(Index vertex, Index material) {
         std::array<std::uint64_t, 3> numbers = {std::uint64_t{position(vertex)} + 1, 0, 0};
         if (!part_.uvs.empty()) {
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    /// As the leading texture of the face's material sees it, with v pointing up.
+    /// UV of a vertex, transformed for the leading texture of the material, with v pointing up.
     Vec2f uv(Index vertex, Index material) const {
         static const TextureRef none;
         const TextureRef& ref = material == no_index ? none : leading_texture(asset_.materials[material]);
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    /// Of the vertex as the last material saw it.
+    /// Line number of the UV of a vertex for the material that used it last.
     struct CachedUv {
         Index material = no_index, number = no_index;
     };
@@ -137,7 +137,7 @@ private:
     const Asset& asset_;
     const Part& part_;
     std::vector<CachedUv> uv_line_;
-    std::vector<Index> position_line_, normal_line_;  // numbers by vertex, no_index: none yet
+    std::vector<Index> position_line_, normal_line_;  // line numbers by vertex; no_index: not assigned yet
     UniqueValues<LineValues<6>> positions_;
     UniqueValues<Vec2f> uvs_;
     UniqueValues<Vec3f> normals_;

@@ -15,7 +15,7 @@
 namespace faqem::detail {
 namespace {
 
-/// Which attributes the keyword announces.
+/// Vertex attributes declared by the keyword, for example STCNOFF.
 struct Keyword {
     bool uvs = false, colors = false, normals = false;
 };
@@ -24,7 +24,7 @@ Keyword read_keyword(TextScanner& in) {
     Keyword keyword;
     in.skip_to_content();
     const std::string_view rest = in.remaining();
-    if (rest.empty()) in.fail("is empty");
+    if (rest.empty()) in.fail("the file is empty");
     if ((rest[0] >= '0' && rest[0] <= '9' && rest.substr(0, 2) != "4O" && rest.substr(0, 2) != "4n"))
         return keyword;
     std::string_view word = in.word();
@@ -40,13 +40,14 @@ Keyword read_keyword(TextScanner& in) {
     const bool other_dimension = take("4nOFF") || take("4OFF") || take("nOFF");
     if (other_dimension)
         throw UnsupportedError(in.file(), "line " + std::to_string(in.line()),
-                               "'" + std::string(whole) + "': only OFF in three dimensions is read");
+                               "'" + std::string(whole) + "': only three-dimensional OFF is supported");
     if (word != "OFF") in.fail("is not an OFF file: " + TextScanner::quoted(whole));
     if (in.accept_word("BINARY"))
-        throw UnsupportedError(in.file(), "line " + std::to_string(in.line()), "binary OFF is not read");
+        throw UnsupportedError(in.file(), "line " + std::to_string(in.line()), "binary OFF is not supported");
     return keyword;
 }
 
+/// Parser of an OFF file.
 class OffReader {
 public:
     OffReader(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
@@ -57,7 +58,7 @@ public:
         const std::uint64_t vertices = count("vertices"), faces = count("faces");
         if (!in_.at_line_end()) in_.number<std::uint64_t>();
         in_.finish_line();
-        // A vertex takes six bytes at least, a face two.
+        // A vertex takes at least six bytes, a face at least two.
         const std::uint64_t bytes = in_.remaining().size() + 1;
         if (vertices > bytes / 6 || faces > (bytes - 6 * vertices) / 2)
             in_.fail("the file is too short for " + pluralized(vertices, "vertex") + " and " +
@@ -66,7 +67,7 @@ public:
         for (std::size_t v = 0; v < vertices; ++v) read_vertex(v);
         for (std::uint64_t f = 0; f < faces; ++f) read_face(vertices);
         if (in_.skip_to_content())
-            warnings_.push_back(pluralized(in_.remaining().size(), "byte") + " after the last face not read");
+            warnings_.push_back(pluralized(in_.remaining().size(), "byte") + " after the last face ignored");
         finish();
         return std::move(part_);
     }
@@ -99,7 +100,7 @@ private:
         in_.finish_line();
     }
 
-    /// Three or four numbers: floats in 0..1, or integers up to 255 where none has a decimal point.
+    /// Reads three or four components: integers in [0, 255], or floats in [0, 1] if one has a decimal point.
     void read_color(Vec4f& color) {
         std::array<double, 4> rgba = {0, 0, 0, 1};
         bool integers = true;
@@ -110,14 +111,15 @@ private:
             const std::string_view word = before.substr(0, before.size() - in_.remaining().size());
             integers &= word.find_first_of(".eE") == std::string_view::npos;
         }
-        if (size < 3) in_.fail("a colour has three or four numbers");
+        if (size < 3) in_.fail("a colour must have three or four components");
         for (std::size_t k = 0; k < size; ++k) rgba[k] /= integers ? 255 : 1;
         if (size == 3) rgba[3] = 1;
         for (std::size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(linear_from_srgb(rgba[k]));
         color[3] = static_cast<float>(rgba[3]);
     }
 
-    /// True where the colour must end: at the end of the line, or at the two UVs before it.
+    /// Whether the colour ends here: at the end of the line or, if the file has UVs, before its last two
+    /// words.
     bool at_color_end() {
         if (!keyword_.uvs) return in_.at_line_end();
         TextScanner ahead = in_;
@@ -148,11 +150,11 @@ private:
     }
 
     void finish() {
-        if (face_colors_) warnings_.push_back("colours of " + pluralized(face_colors_, "face") + " not read");
+        if (face_colors_) warnings_.push_back("colours of " + pluralized(face_colors_, "face") + " ignored");
         TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
         if (split.too_few_corners)
             warnings_.push_back(pluralized(split.too_few_corners, "face") +
-                                " of fewer than three corners left out");
+                                " with fewer than three corners left out");
         check_index_count(split.triangles.size(), in_.file(), "triangles");
         part_.triangles = std::move(split.triangles);
         part_.face_material.assign(part_.triangles.size(), no_index);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// OFF, the Object File Format of Geomview.
+/// Reading of OFF files (Object File Format of Geomview).
 
 #include <cstdint>
 #include <filesystem>
@@ -10,19 +10,24 @@
 
 namespace faqem::detail {
 
-/// Reads ASCII OFF, STOFF, COFF, NOFF and their combinations (ST, then C, then N) as one part. The keyword
-/// may be missing, the counts may stand on its line, the number of edges may be missing, and comments (`#`)
-/// may stand anywhere. Vertex lines hold x y z, then the normal (N), then the colour (C; integers 0..255 or
-/// floats 0..1, three or four, sRGB made linear), then s t (ST; v' = 1 - v). Colours after a face are skipped
-/// with a warning, polygons split by triangulate(), faces of fewer than three corners left out with a
-/// warning.
-/// \throws ReadError  the file cannot be read
-/// \throws InputError  with the line; or no faces
-/// \throws UnsupportedError  4OFF, nOFF, binary
+/// Reads an ASCII OFF file as one part: OFF, STOFF, COFF, NOFF and their combinations (ST, then C, then N).
+///
+/// The keyword and the number of edges may be missing, the counts may be on the line of the keyword, and
+/// comments (`#`) may be anywhere. A vertex line holds x y z, then the normal (N), then the colour (C: three
+/// or four integers in [0, 255] or floats in [0, 1]; sRGB, converted to linear), then s t (ST; v' = 1 - v).
+/// Face colours are ignored with a warning. Polygons are split by triangulate(). Faces with fewer than three
+/// corners are left out with a warning.
 /// Source: Geomview manual, "OFF Files".
+/// \param file  path of the file
+/// \return an asset with one part, and warnings
+/// \throws ReadError         if the file cannot be read
+/// \throws InputError        with the line, if the file is invalid; or if there are no faces
+/// \throws UnsupportedError  4OFF, nOFF or binary OFF
 Asset read_off(const std::filesystem::path& file);
 
-/// The same for bytes in memory. \param file  for messages
+/// Same as above, for the bytes of a file in memory.
+/// \param text  borrowed
+/// \param file  path for messages
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

@@ -34,13 +34,13 @@ TypeRange range_of(PlyType type) {
 
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
-/// Values of an ASCII file; a row is a line.
+/// Reads the values of an ASCII file, where each row is a line.
 class AsciiData {
 public:
     AsciiData(std::span<const std::uint8_t> data, const std::string& file, std::uint64_t lines)
         : in_(data, file, Continuation::no, lines) {}
 
-    /// Rows of `values` values that the bytes left can hold.
+    /// Maximum number of rows of `values` values that the remaining bytes can hold.
     std::uint64_t max_row_count(std::uint64_t values, std::uint64_t) const {
         return (in_.remaining().size() + 1) / 2 / values;
     }
@@ -58,7 +58,7 @@ public:
         const auto value = static_cast<double>(in_.number<std::int64_t>());
         const TypeRange range = range_of(type);
         if (value < range.low || value > range.high)
-            in_.fail("a number does not fit the type of its property");
+            in_.fail("a value does not fit the type of its property");
         return value;
     }
 
@@ -66,7 +66,7 @@ private:
     TextScanner in_;
 };
 
-/// Values of a binary file.
+/// Reads the values of a binary file. Same interface as AsciiData.
 class BinaryData {
 public:
     BinaryData(std::span<const std::uint8_t> data, const std::string& file, PlyFormat format)
@@ -108,7 +108,7 @@ public:
 private:
     template <class T>
     T take() {
-        if (remaining_bytes() < sizeof(T)) fail("the file ends here");
+        if (remaining_bytes() < sizeof(T)) fail("unexpected end of the file");
         std::array<std::uint8_t, sizeof(T)> bytes;
         std::memcpy(bytes.data(), at_, sizeof(T));
         at_ += sizeof(T);
@@ -122,7 +122,7 @@ private:
     bool swap_;
 };
 
-// What a vertex property means. Properties of other names go to `skipped`.
+// Meaning of a vertex property. Properties with other names are `skipped`.
 enum VertexProperty : std::size_t {
     x,
     y,
@@ -161,6 +161,8 @@ VertexProperty vertex_property(const PlyProperty& property) {
     return skipped;
 }
 
+/// Converts the elements of a PLY file to a part.
+/// \tparam Data  AsciiData or BinaryData
 template <class Data>
 class PlyReader {
 public:
@@ -183,7 +185,7 @@ public:
         }
         if (data_.remaining_bytes())
             warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
-                                " after the last element not read");
+                                " after the last element ignored");
         finish_faces();
         return std::move(part_);
     }
@@ -201,7 +203,7 @@ private:
                                          [](const PlyElement& e) { return e.name == "vertex"; });
         if (vertex == header_.elements.end()) throw InputError(file_, "header", "no element vertex");
         vertex_count_ = vertex->count;
-        if (header_.has_texture_file) warnings_.push_back("the texture file of a comment is not read");
+        if (header_.has_texture_file) warnings_.push_back("the texture file named in a comment is ignored");
     }
 
     void check_row_count(const PlyElement& element) {
@@ -213,7 +215,7 @@ private:
                              "the file is too short for " + pluralized(element.count, "row"));
     }
 
-    /// Calls row() for each row; errors inside name it.
+    /// Calls row() for each row of an element. Adds the name and index of the row to error messages.
     template <class Row>
     void for_each_row(const PlyElement& element, Row&& row) {
         if (element.properties.empty()) return;
@@ -231,7 +233,7 @@ private:
 
     std::uint64_t list_size(const PlyProperty& property) {
         const double size = data_.value(property.count_type);
-        if (size < 0) data_.fail("a list of negative length");
+        if (size < 0) data_.fail("a list has a negative length");
         const auto count = static_cast<std::uint64_t>(size);
         if (count && count > data_.max_row_count(1, ply_type_size(property.type)))
             data_.fail("the file is too short for a list of " + std::to_string(count));
@@ -248,7 +250,7 @@ private:
 
     void read_vertices(const PlyElement& element) {
         std::vector<VertexProperty> slots;
-        std::array<double, vertex_property_count> scale = {};  // of colours, to 0..1; zero: no such property
+        std::array<double, vertex_property_count> scale = {};  // of colours to [0, 1]; 0: no such property
         for (const PlyProperty& p : element.properties) {
             slots.push_back(vertex_property(p));
             scale[slots.back()] = is_integer(p.type) ? 1 / range_of(p.type).high : 1;
@@ -256,7 +258,7 @@ private:
         const auto has = [&](std::initializer_list<VertexProperty> all) {
             return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
         };
-        if (!has({x, y, z})) throw InputError(file_, "element vertex", "lacks x, y or z");
+        if (!has({x, y, z})) throw InputError(file_, "element vertex", "must have the properties x, y and z");
         part_.positions.resize(element.count);
         if (has({nx, ny, nz})) part_.normals.resize(element.count);
         if (has({red, green, blue})) part_.colors.resize(element.count);
@@ -289,18 +291,19 @@ private:
         part_.colors[v] = {linear(red), linear(green), linear(blue), static_cast<float>(opacity)};
     }
 
-    /// Reads the index list of each row and gives it to `use`.
+    /// Calls use(indices) with the index list of each row of an element.
     template <class Use>
     void read_lists(const PlyElement& element, Use&& use) {
         const auto indices = std::find_if(
             element.properties.begin(), element.properties.end(),
             [](const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; });
         if (indices == element.properties.end() || !indices->is_list || !is_integer(indices->type))
-            throw InputError(file_, "element " + element.name, "lacks a list vertex_indices of integers");
+            throw InputError(file_, "element " + element.name,
+                             "must have an integer list property vertex_indices");
         for (const PlyProperty& p : element.properties)
             if (p.name == "texcoord" || p.name == "red")
                 warnings_.push_back("'" + p.name + "' of " + element.name +
-                                    " is not read: only that of vertices is");
+                                    " is ignored: only vertex properties are supported");
         std::vector<double> list;
         for_each_row(element, [&] {
             for (auto p = element.properties.begin(); p != element.properties.end(); ++p) {
@@ -327,8 +330,8 @@ private:
         polygons_.sizes.push_back(static_cast<std::uint32_t>(list.size()));
     }
 
-    /// Every second triangle of a strip is turned round. Triangles that only stitch strips together are left
-    /// out.
+    /// Adds the triangles of strips that are separated by -1. The winding of every second triangle is
+    /// reversed. Degenerate triangles, which only connect strips, are left out.
     void add_strip(const std::vector<double>& list) {
         std::size_t first = 0;
         for (std::size_t i = 0; i < list.size(); ++i) {
@@ -352,7 +355,7 @@ private:
         TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
         if (split.too_few_corners)
             warnings_.push_back(pluralized(split.too_few_corners, "face") +
-                                " of fewer than three corners left out");
+                                " with fewer than three corners left out");
         check_index_count(split.triangles.size(), file_, "triangle");
         part_.triangles = std::move(split.triangles);
         part_.face_material.assign(part_.triangles.size(), no_index);

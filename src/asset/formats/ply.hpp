@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// PLY, the Stanford polygon format.
+/// Reading and writing of PLY files (Stanford polygon format).
 
 #include <cstdint>
 #include <filesystem>
@@ -12,25 +12,37 @@
 
 namespace faqem::detail {
 
-/// Reads ASCII and binary PLY of both byte orders as one part.
-/// Of the element `vertex`: x y z; nx ny nz; red green blue [alpha] (also r g b a, diffuse_red ...), as
-/// integers over their whole range or as floats in 0..1, display values (sRGB) that are made linear, alpha
-/// linear; s t (also u v, texture_u texture_v), v' = 1 - v. Of `face`: the list vertex_indices or
-/// vertex_index, polygons split by triangulate(). Of `tristrips`: the same list with -1 between strips.
-/// Everything else is skipped; UVs and colours of faces with a warning. Faces of fewer than three corners are
-/// left out with a warning. Every count is checked against the size of the file before memory is taken.
-/// \throws ReadError    the file cannot be read
-/// \throws InputError   naming the element and its number (`face 17`), from 0, or the line of the header; or
-///                      no faces
+/// Reads an ASCII or binary PLY file of either byte order as one part.
+///
+/// Supported properties:
+/// - `vertex`: x y z; nx ny nz; red green blue [alpha] (also r g b a, diffuse_red ...), as integers over
+///   their full range or floats in [0, 1], where the colour is sRGB and converted to linear, and alpha is
+///   linear; s t (also u v, texture_u texture_v) with v' = 1 - v
+/// - `face`: the list vertex_indices or vertex_index; polygons are split by triangulate()
+/// - `tristrips`: the same list, with -1 between strips
+///
+/// Everything else is ignored, face UVs and face colours with a warning. Faces with fewer than three corners
+/// are left out with a warning. Counts are checked against the size of the file before memory is allocated.
+/// \param file  path of the file
+/// \return an asset with one part, and warnings
+/// \throws ReadError   if the file cannot be read
+/// \throws InputError  with the element and its index starting at 0 (`face 17`) or the line of the header, if
+///                     the file is invalid; or if there are no faces
 Asset read_ply(const std::filesystem::path& file);
 
-/// The same for bytes in memory. \param file  for messages
+/// Same as above, for the bytes of a file in memory.
+/// \param bytes  borrowed
+/// \param file   path for messages
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes binary little-endian PLY of the scene flattened to world space. Positions are floats where all are
-/// exactly floats, else doubles; colours are 8-bit sRGB; the first UV set is written as s t.
+/// Writes an asset as binary little-endian PLY. The scene is flattened to world space. Positions are floats
+/// if all of them are representable as float, otherwise doubles; colours are 8-bit sRGB; the first UV set is
+/// written as s t.
+/// \param asset      the asset
+/// \param file       path of the file
+/// \param overwrite  whether an existing file may be replaced
 /// \return what PLY cannot hold, one sentence each
-/// \throws WriteError
+/// \throws WriteError  if the file cannot be written or exists and must not be replaced
 std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::path& file,
                                    Overwrite overwrite);
 

@@ -39,7 +39,7 @@ PlyFormat read_format(TextScanner& in) {
     const std::string_view name = in.word();
     if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
         in.fail("unknown format " + TextScanner::quoted(name));
-    if (in.word() != "1.0") in.fail("only version 1.0 is known");
+    if (in.word() != "1.0") in.fail("only version 1.0 is supported");
     return name == "ascii"                  ? PlyFormat::ascii
            : name == "binary_little_endian" ? PlyFormat::little_endian
                                             : PlyFormat::big_endian;
@@ -55,7 +55,7 @@ PlyProperty read_property(TextScanner& in) {
     }
     property.type = read_type(in);
     property.name = in.word();
-    if (property.name.empty()) in.fail("a property without a name");
+    if (property.name.empty()) in.fail("a property has no name");
     return property;
 }
 
@@ -97,13 +97,13 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
         in.finish_line();
     }
     if (!has_format) in.fail("the header has no format");
-    // Exactly one line end, of the kind the first line has: the byte after it is data, whatever it looks
-    // like.
+    // Exactly one line end of the same kind as in the first line is skipped: the next byte belongs to the
+    // data, even if it is a line feed.
     const bool lone_cr = bytes.size() > 4 && bytes[3] == '\r' && bytes[4] != '\n';
     const std::string_view rest = in.remaining();
     const std::size_t end =
         rest.starts_with("\r\n") && !lone_cr ? 2 : rest.starts_with('\n') || rest.starts_with('\r');
-    if (end == 0) in.fail("end_header needs a line end");
+    if (end == 0) in.fail("end_header must be followed by a line end");
     header.size = bytes.size() - rest.size() + end;
     header.lines = in.line();
     return header;

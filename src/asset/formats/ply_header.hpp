@@ -14,14 +14,14 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a value in a binary file.
+/// Size of a value in a binary file, in bytes.
 std::size_t ply_type_size(PlyType type);
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float32;  ///< of the value, or of the items of the list
+    PlyType type = PlyType::float32;  ///< type of the value, or of the items of a list
     bool is_list = false;
-    PlyType count_type = PlyType::uint8;  ///< of the length of the list
+    PlyType count_type = PlyType::uint8;  ///< type of the length of a list
 };
 
 struct PlyElement {
@@ -33,13 +33,15 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    bool has_texture_file = false;  ///< a `comment TextureFile`, as some programs write it
-    std::size_t size = 0;           ///< bytes up to the data
-    std::uint64_t lines = 0;
+    bool has_texture_file = false;  ///< has a `comment TextureFile`, which some programs write
+    std::size_t size = 0;           ///< size of the header in bytes; the data follow
+    std::uint64_t lines = 0;        ///< number of lines of the header
 };
 
-/// \param file  for messages
-/// \throws InputError  with the line
+/// Reads the header of a PLY file.
+/// \param bytes  the whole file, borrowed
+/// \param file   path for messages
+/// \throws InputError  with the line, if the header is invalid
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
 
 }  // namespace faqem::detail

@@ -23,12 +23,12 @@ void put(Bytes& bytes, T value) {
     bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
-/// 0..1 in 255 steps.
+/// Quantises a value in [0, 1] to 8 bits.
 std::uint8_t quantized(double value) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// Which numbers a row holds.
+/// Properties of a vertex row.
 struct PlyVertexLayout {
     bool doubles = false, normals = false, colors = false, alpha = false, uvs = false;
 };

@@ -23,10 +23,10 @@ void reset(std::vector<Vector>& values, const Vector& neutral, const char* noun,
         v = neutral;
         ++count;
     }
-    if (count) warnings.push_back(pluralized(count, noun) + " not finite: set to " + what);
+    if (count) warnings.push_back(pluralized(count, noun) + " with non-finite values set to " + what);
 }
 
-/// Keeps the elements whose vertex has a new number.
+/// Removes the values of vertices whose new index is no_index.
 template <class Value>
 void compact(std::vector<Value>& values, const std::vector<Index>& renumbered) {
     if (values.empty()) return;
@@ -79,7 +79,7 @@ void check_index_count(std::uint64_t count, const std::string& file, const std::
     if (count > max_index_count)
         throw InputError(file, element,
                          "there are " + std::to_string(count) + ", more than the " +
-                             std::to_string(max_index_count) + " that 32-bit indices can tell apart");
+                             std::to_string(max_index_count) + " that 32-bit indices can address");
 }
 
 void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
@@ -88,9 +88,8 @@ void repair_non_finite(Part& part, const std::string& file, std::uint64_t droppe
     dropped += drop_vertices(part);
     const std::size_t vertices = before - part.positions.size();
     if (dropped || vertices)
-        warnings.push_back(pluralized(vertices, "vertex") +
-                           " with a position that is not finite: left out, and " +
-                           pluralized(dropped, "face") + " there");
+        warnings.push_back(pluralized(vertices, "vertex") + " with a non-finite position and " +
+                           pluralized(dropped, "adjacent face") + " left out");
     if (part.triangles.empty())
         throw InputError(file, "", dropped ? "no faces with finite positions" : "no faces");
     reset(part.normals, {0, 0, 0}, "normal", "zero", warnings);

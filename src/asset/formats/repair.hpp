@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rules for numbers no mesh can use, the same for every format.
+/// Repair of non-finite values and checks of element counts, common to all formats.
 
 #include <cstdint>
 #include <string>
@@ -10,20 +10,24 @@
 
 namespace faqem::detail {
 
-/// Most vertices, or faces, a part may have.
+/// Maximum number of vertices, and of faces, of a part.
 inline constexpr std::uint64_t max_index_count = no_index;
 
-/// `1 face`, `2 faces`.
+/// Formats a count with its noun: `1 face`, `2 faces`.
 std::string pluralized(std::uint64_t count, const std::string& noun);
 
-/// \throws InputError  when there are more than max_index_count
-/// \param element  what in the file is counted, e.g. `vertex`
+/// Checks that a number of elements can be addressed by 32-bit indices.
+/// \param file     path for messages
+/// \param element  name of the elements in the file, for example `vertex`
+/// \throws InputError  if count > max_index_count
 FAQEM_EXPORT void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
 
-/// Drops the faces at vertices with a non-finite position, and those vertices; resets other non-finite
-/// numbers (normal to zero, UV to zero, colour to white). Adds one counted warning for each kind.
-/// \param dropped  faces the reader has left out already for the same reason
-/// \throws InputError  `no faces` when none is left
+/// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values:
+/// normals and UVs to zero, colours to white. Adds one warning with a count for each kind of repair.
+/// \param file      path for messages
+/// \param dropped   number of faces that the reader has already left out for the same reason
+/// \param warnings  receives the warnings
+/// \throws InputError  if no faces are left
 void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
                        std::vector<std::string>& warnings);
 

@@ -25,7 +25,7 @@ std::uint32_t read_u32(const std::uint8_t* p) {
            static_cast<std::uint32_t>(p[2]) << 16 | static_cast<std::uint32_t>(p[3]) << 24;
 }
 
-/// Builds a part from facets, one vertex for each position.
+/// Builds a part from facets and merges vertices at equal positions.
 class Welder {
 public:
     void add(const std::array<Vec3, 3>& corners) {
@@ -55,8 +55,7 @@ private:
 Part read_binary(std::span<const std::uint8_t> bytes, const std::string& file,
                  std::vector<std::string>& warnings) {
     const std::string_view header(reinterpret_cast<const char*>(bytes.data()), 80);
-    if (header.find("COLOR=") != std::string_view::npos)
-        warnings.push_back("the colours of the facets are not read");
+    if (header.find("COLOR=") != std::string_view::npos) warnings.push_back("facet colours are ignored");
     const std::size_t count = (bytes.size() - header_size) / facet_size;
     Welder welder;
     for (std::size_t f = 0; f < count; ++f) {
@@ -72,7 +71,8 @@ Part read_binary(std::span<const std::uint8_t> bytes, const std::string& file,
     return welder.part(file);
 }
 
-/// Takes the next word of the file, which must be this in any case of letters.
+/// Reads the next word of the file, which must equal `expected`, ignoring case.
+/// \throws InputError  if it does not
 void expect(TextScanner& in, std::string_view expected) {
     in.skip_to_content();
     const std::string_view word = in.word();
@@ -80,11 +80,11 @@ void expect(TextScanner& in, std::string_view expected) {
         word.begin(), word.end(), expected.begin(), expected.end(),
         [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
     if (same) return;
-    if (word.empty()) in.fail("the file ends where " + TextScanner::quoted(expected) + " should come");
+    if (word.empty()) in.fail("the file ends where " + TextScanner::quoted(expected) + " is expected");
     in.fail(TextScanner::quoted(word) + " instead of " + TextScanner::quoted(expected));
 }
 
-/// True when the next word starts with this letter, in either case.
+/// Whether the next word starts with the given lower-case letter, ignoring case.
 bool next_starts_with(TextScanner& in, char letter) {
     in.skip_to_content();
     const std::string_view rest = in.remaining();
@@ -176,7 +176,7 @@ std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::pa
     for (const Vec3& p : flat.positions)
         for (const double x : p)
             if (!(std::abs(x) <= std::numeric_limits<float>::max()))
-                throw WriteError(file.string() + ": STL cannot hold a coordinate beyond 3.4e38");
+                throw WriteError(file.string() + ": STL cannot hold coordinates beyond 3.4e38");
     if (!is_float_representable(flat.positions))
         losses.push_back("STL cannot hold positions in double precision");
     if (!flat.normals.empty()) losses.push_back("STL cannot hold vertex normals");

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// STL.
+/// Reading and writing of STL files.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,20 +12,29 @@
 
 namespace faqem::detail {
 
-/// Reads an STL file as one part: binary if and only if its size is 84 + 50 n for the n of byte 80, else
-/// ASCII. Corners at equal positions share a vertex (-0 is 0), in the order in which they come first. The
-/// normals of the facets are not read, as the corners say the same; nor are colours in attribute bytes
-/// (warning where the header announces them).
-/// \throws ReadError  the file cannot be read
-/// \throws InputError  with the line; truncated; or no faces
+/// Reads an STL file as one part.
+///
+/// The file is binary if and only if its size is 84 + 50 n bytes, where n is the facet count at byte 80;
+/// otherwise it is read as ASCII. Corners at equal positions share a vertex (-0 equals 0); vertices are in
+/// the order of their first use. Facet normals are ignored, since they follow from the positions. Colours in
+/// the attribute bytes are ignored, with a warning if the header declares them.
+/// \param file  path of the file
+/// \return an asset with one part, and warnings
+/// \throws ReadError   if the file cannot be read
+/// \throws InputError  with the line, if the file is invalid; if it is truncated or has no faces
 Asset read_stl(const std::filesystem::path& file);
 
-/// The same for bytes in memory. \param file  for messages
+/// Same as above, for the bytes of a file in memory.
+/// \param bytes  borrowed
+/// \param file   path for messages
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes binary STL of the scene flattened to world space.
+/// Writes an asset as binary STL. The scene is flattened to world space.
+/// \param asset      the asset
+/// \param file       path of the file
+/// \param overwrite  whether an existing file may be replaced
 /// \return what STL cannot hold, one sentence each
-/// \throws WriteError
+/// \throws WriteError  if the file cannot be written, or a coordinate exceeds the range of float
 std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::path& file,
                                    Overwrite overwrite);
 

@@ -10,12 +10,13 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-/// Twice the signed area of abc: positive when counter-clockwise.
+/// Twice the signed area of the triangle abc; positive if it is counter-clockwise.
 double orient2d(const Point& a, const Point& b, const Point& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// The polygon seen along its Newell normal: counter-clockwise, within -1..1. Empty when it has no area.
+/// Projects the polygon along the dominant axis of its Newell normal, so that it is counter-clockwise. The
+/// coordinates are scaled to [-1, 1]. Returns an empty array if the polygon has no area.
 std::vector<Point> project(std::span<const Vec3> ring) {
     double extent = 0;
     for (const Vec3& p : ring)
@@ -47,7 +48,8 @@ std::vector<Point> project(std::span<const Vec3> ring) {
     return points;
 }
 
-/// All corners turn left, and the direction goes round once: x runs forth and back only one time each.
+/// Whether all corners are convex and the polygon has winding number 1. The latter holds if the edges reverse
+/// their direction along x at most twice.
 bool is_strictly_convex(const std::vector<Point>& points) {
     const std::size_t n = points.size();
     int reversals = 0;
@@ -65,7 +67,7 @@ bool is_strictly_convex(const std::vector<Point>& points) {
     return reversals <= 2;
 }
 
-/// The corners that do not turn left, in square cells: only they can be innermost in an ear.
+/// Uniform grid of the reflex and straight corners. Only these can lie inside a candidate ear.
 class ReflexCornerGrid {
 public:
     ReflexCornerGrid(const std::vector<Point>& points, std::span<const Index> corners) {
@@ -84,13 +86,13 @@ public:
         for (const Index i : corners) corners_[cursor[cell(points[i])]++] = i;
     }
 
-    /// True when `test` holds for a corner in the cells that a triangle touches.
+    /// Whether `test` holds for a corner in one of the cells that a triangle overlaps.
     template <class Test>
     bool any_of(const std::array<Point, 3>& triangle, Test&& test) const {
         const auto [low, high] = std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
         for (std::size_t y = cell_coordinate(low - margin, 1); y <= cell_coordinate(high + margin, 1); ++y) {
-            // Only the piece of the row inside the triangle: the box around a long thin one is mostly
-            // outside.
+            // Only the part of the row that the triangle overlaps: most of the bounding box of a long, thin
+            // triangle lies outside the triangle.
             const double height = (high_[1] - low_[1]) / static_cast<double>(resolution_);
             const double bottom = low_[1] + height * static_cast<double>(y);
             const auto [left, right] = x_range_between(triangle, bottom - margin, bottom + height + margin);
@@ -104,9 +106,9 @@ public:
     }
 
 private:
-    static constexpr double margin = 1e-12;  // far above rounding errors of coordinates within -1..1
+    static constexpr double margin = 1e-12;  // far above the rounding errors of coordinates in [-1, 1]
 
-    /// Range of x of the piece of a triangle with y from `bottom` to `top`.
+    /// Range in x of the part of a triangle with y in [bottom, top].
     static Point x_range_between(const std::array<Point, 3>& triangle, double bottom, double top) {
         Point range = {2, -2};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -136,6 +138,7 @@ private:
     std::vector<Index> corners_;
 };
 
+/// Ear clipping with a queue of candidate corners and a grid of reflex corners.
 class EarClipper {
 public:
     explicit EarClipper(const std::vector<Point>& points)
@@ -158,7 +161,7 @@ public:
                 clip(i, triangles);
             }
             if (remaining_ != before) continue;
-            // It crosses itself, or is thinner than the arithmetic resolves.
+            // No ear was found: the polygon intersects itself or is too thin for the precision of double.
             if (++forced > max_forced_clips) break;
             clip(start_corner_, triangles);
         }
@@ -189,7 +192,7 @@ private:
     bool is_ear(Index i) const {
         if (!is_convex_corner(i)) return false;
         const Point &a = points_[prev_[i]], &b = points_[i], &c = points_[next_[i]];
-        // A corner at the place of a, b or c is one end of a bridge to a hole and blocks nothing.
+        // A corner at the position of a, b or c is an end of a bridge to a hole and does not block the ear.
         return !grid_.any_of({a, b, c}, [&](Index r) {
             const Point& p = points_[r];
             return is_remaining(r) && p != a && p != b && p != c && orient2d(a, b, p) >= 0 &&
@@ -216,9 +219,9 @@ private:
     }
 
     const std::vector<Point>& points_;
-    std::vector<Index> next_, prev_;  // no_index: cut off
+    std::vector<Index> next_, prev_;  // ring of the remaining corners; next_ is no_index for clipped corners
     std::size_t remaining_;
-    Index start_corner_ = 0;  // a corner that is left
+    Index start_corner_ = 0;  // one of the remaining corners
     ReflexCornerGrid grid_;
 };
 
@@ -245,7 +248,7 @@ TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<co
     for (std::size_t p = 0; p < polygons.sizes.size(); ++p) {
         const std::span<const Index> corners(polygons.vertices.data() + first, polygons.sizes[p]);
         first += corners.size();
-        if (corners.size() == 3) {  // nearly all there are in large files
+        if (corners.size() == 3) {  // fast path: nearly all polygons of large files are triangles
             if (is_finite(positions[corners[0]]) && is_finite(positions[corners[1]]) &&
                 is_finite(positions[corners[2]])) {
                 split.triangles.push_back({corners[0], corners[1], corners[2]});

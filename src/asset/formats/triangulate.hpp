@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Polygons of a file to triangles.
+/// Triangulation of polygons.
 
 #include <cstdint>
 #include <span>
@@ -10,33 +10,34 @@
 
 namespace faqem::detail {
 
-/// Splits one polygon into size - 2 triangles that use all its corners and keep its winding. A convex polygon
-/// becomes a fan around corner 0; another is cut by ear clipping in the plane of its Newell normal, so that
-/// triangles stay inside and do not overlap, as long as the polygon's projection does not cross itself. A
-/// polygon that does is split all the same, without that promise.
-/// \param ring  positions of the corners in order; may be of any size and scale
-/// \param triangles  receives corner numbers, 0 .. ring.size() - 1
-/// Complexity: linear for convex polygons; about n log n for others, n^2 for the worst.
+/// Splits a polygon into size - 2 triangles that use all corners and keep the winding.
+///
+/// A convex polygon becomes a fan around corner 0. Other polygons are projected along the dominant axis of
+/// their Newell normal and split by ear clipping. The triangles lie inside the polygon and do not overlap if
+/// the projected polygon does not intersect itself; otherwise there is no such guarantee.
+/// Complexity: O(n) for convex polygons; about O(n log n) for others, O(n^2) in the worst case.
 /// Source: Meisters, "Polygons have ears", 1975.
+/// \param ring       positions of the corners in order; of any number and scale
+/// \param triangles  the triangles are appended, as corner indices in [0, ring.size())
 void triangulate(std::span<const Vec3> ring, std::vector<Triangle>& triangles);
 
 /// Polygons as a file lists them.
 struct Polygons {
-    std::vector<Index> vertices;       ///< corners of all polygons, one after the other
-    std::vector<std::uint32_t> sizes;  ///< corners of each polygon
+    std::vector<Index> vertices;       ///< vertices of the corners of all polygons, concatenated
+    std::vector<std::uint32_t> sizes;  ///< number of corners of each polygon
 };
 
-/// Triangles made of polygons, and what could not be.
+/// Result of triangulate_polygons().
 struct TriangulatedPolygons {
     std::vector<Triangle> triangles;
-    std::vector<Index> source_polygon;  ///< which polygon each triangle comes from
-    std::uint64_t too_few_corners = 0;  ///< polygons of fewer than three corners, left out
-    std::uint64_t non_finite = 0;       ///< polygons with a corner at infinity or NaN, left out
+    std::vector<Index> source_polygon;  ///< index of the polygon of each triangle
+    std::uint64_t too_few_corners = 0;  ///< number of polygons with fewer than three corners, left out
+    std::uint64_t non_finite = 0;       ///< number of polygons with a non-finite position, left out
 };
 
-/// Splits all polygons in their order.
-/// \param polygons   indices below positions.size()
-/// \param positions  of the vertices
+/// Triangulates all polygons in order.
+/// \param polygons   vertex indices less than positions.size()
+/// \param positions  positions of the vertices
 TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<const Vec3> positions);
 
 }  // namespace faqem::detail

@@ -10,9 +10,11 @@
 namespace faqem::detail {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "buffers are little-endian and copied as they are");
+static_assert(std::endian::native == std::endian::little,
+              "glTF buffers are little-endian and copied without conversion");
 
-/// The bytes of a view from `offset` on.
+/// The first byte of the view that `holder` (an accessor or a sparse member) refers to, offsets included.
+/// \param stride  in: the default stride; out: the stride of the view; may be null
 const std::uint8_t* view_bytes(const SourceDocument& source, const Json& holder, std::uint64_t* stride) {
     const Json& view = member(source.document, "bufferViews")[index_member(holder, "bufferView")];
     if (stride) *stride = unsigned_member(view, "byteStride", *stride);
@@ -27,7 +29,7 @@ T load(const std::uint8_t* bytes) {
     return value;
 }
 
-/// An unsigned integer of type u8, u16 or u32.
+/// Loads an unsigned integer of type u8, u16 or u32.
 std::uint32_t load_unsigned(const std::uint8_t* bytes, ComponentType type) {
     if (type == ComponentType::u8) return *bytes;
     return type == ComponentType::u16 ? load<std::uint16_t>(bytes) : load<std::uint32_t>(bytes);
@@ -202,7 +204,7 @@ void check_sparse(const SourceDocument& source, const std::string& file) {
         for (const std::uint32_t index : sparse_indices(source, sparse)) {
             if (index >= count)
                 throw InputError(file, where,
-                                 "holds " + std::to_string(index) + ", the accessor has " +
+                                 "contains index " + std::to_string(index) + ", the accessor has " +
                                      std::to_string(count) + " elements");
             if (index <= previous)
                 throw InputError(file, where,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Accessors: their layout, and their elements as numbers.
+/// Layout of glTF accessors, and reading of their elements.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace faqem::detail {
 
-/// glTF's numbers for component types.
+/// Component types with their glTF constants.
 enum class ComponentType : std::uint32_t {
     i8 = 5120,
     u8 = 5121,
@@ -21,33 +21,37 @@ enum class ComponentType : std::uint32_t {
     f32 = 5126
 };
 
-/// Bytes of a component; 0 if there is no such type.
+/// Size of a component in bytes; 0 if the type is unknown.
 std::uint32_t component_size(std::uint64_t type);
 
-/// Components of an accessor type ("VEC3"); 0 if there is no such type.
+/// Number of components of an accessor type such as "VEC3"; 0 if the type is unknown.
 std::uint32_t component_count(const std::string& type);
 
-/// Bytes of an element. Columns of matrices start at multiples of 4.
+/// Size of an element in bytes. Matrix columns are aligned to 4 bytes.
 std::uint32_t element_size(std::uint64_t component_type, const std::string& type);
 
-/// The elements of an accessor back to back, sparse replacements applied, all zero without a view.
+/// Reads the elements of an accessor as contiguous bytes, with sparse substitution applied. Elements are zero
+/// if the accessor has no buffer view.
 /// \pre validate_gltf() and check_sparse() passed
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index accessor);
 
-/// Elements with N components as numbers; normalised integers become [0, 1] or [-1, 1].
-/// \tparam T  float or double \tparam N  1 to 4; missing components are `fill`, excess ones are left out
+/// Reads the elements of an accessor as vectors. Normalised integers are converted to [0, 1] or [-1, 1].
+/// \tparam T  float or double
+/// \tparam N  number of components, 1 to 4; missing components are set to `fill`, excess ones are dropped
+/// \pre as for dense_bytes()
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index accessor, T fill = 0);
 
-/// A SCALAR accessor of unsigned integers.
+/// Reads a SCALAR accessor of unsigned integers. \pre as for dense_bytes()
 std::vector<Index> read_indices(const SourceDocument& source, Index accessor);
 
-/// A VEC4 accessor of unsigned bytes or shorts.
+/// Reads a VEC4 accessor of unsigned bytes or shorts. \pre as for dense_bytes()
 std::vector<std::array<std::uint16_t, 4>> read_joints(const SourceDocument& source, Index accessor);
 
-/// Checks the indices of every sparse accessor: increasing and less than its count. Needs the buffers, so it
-/// is apart from validate_gltf().
-/// \throws InputError
+/// Checks that the indices of each sparse accessor are strictly increasing and less than its count. This
+/// needs the buffers and is therefore separate from validate_gltf().
+/// \param file  path for messages
+/// \throws InputError  if they are not
 void check_sparse(const SourceDocument& source, const std::string& file);
 
 }  // namespace faqem::detail

@@ -9,12 +9,12 @@
 namespace faqem::detail {
 namespace {
 
-constexpr double unit_tolerance = 5e-4;    // closer to 1, a length is left as it is
-constexpr double weight_tolerance = 2e-7;  // what glTF 2.0, section 3.7.3.3, asks for with one joint
+constexpr double unit_tolerance = 5e-4;    // vectors whose length is within this of 1 are kept
+constexpr double weight_tolerance = 2e-7;  // required by glTF 2.0, section 3.7.3.3, for one joint
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Makes the first three components a unit vector. \return false if they have no direction
+/// Normalises the first three components. Returns false if their length is zero or not finite.
 template <std::size_t N>
 bool make_unit(std::array<float, N>& v) {
     const Vec3 d = {v[0], v[1], v[2]};
@@ -33,7 +33,7 @@ void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data)
         for (std::size_t i = 0; i < 3; ++i) q[i] = static_cast<float>(p[i] - origin[i]);
         if (!std::isfinite(q[0]) || !std::isfinite(q[1]) || !std::isfinite(q[2]))
             throw WriteError("part '" + part.name + "', vertex " + std::to_string(v) +
-                             ": its position is too large for glTF");
+                             ": the position is too large for glTF, which stores floats");
         data.positions.push_back(q);
     }
     for (std::size_t c = 0; c < data.corners.size(); c += 3) {
@@ -47,7 +47,7 @@ void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data)
     }
 }
 
-/// Sums of the normals of the adjacent faces, weighted by area.
+/// For each vertex, the area-weighted sum of the normals of the adjacent faces.
 std::vector<Vec3> face_normal_sums(const PrimitiveData& data) {
     std::vector<Vec3> sums(data.vertices.size(), Vec3{});
     for (std::size_t c = 0; c + 2 < data.corners.size(); c += 3) {
@@ -82,7 +82,7 @@ void gather_normals(const Part& part, PrimitiveData& data) {
     }
 }
 
-/// Tangents are all or nothing: where one is missing, readers make them all (MikkTSpace).
+/// Gathers the tangents. If one of them is invalid, all are left out, and readers compute them (MikkTSpace).
 void gather_tangents(const Part& part, PrimitiveData& data) {
     if (part.tangents.empty() || data.normals.empty()) return;
     data.tangents = gather(part.tangents, data.vertices);
@@ -95,7 +95,8 @@ void gather_tangents(const Part& part, PrimitiveData& data) {
     }
 }
 
-/// Adds the weight of a joint that is named twice to its first mention; joints without weight become 0.
+/// Makes the influences of a vertex valid: weights of duplicate joints are added to the first one, joints
+/// with zero weight are set to 0, and the weights are normalised to the sum 1.
 void clean_influences(std::array<std::uint16_t, 4>& joints, Vec4f& weights) {
     for (std::size_t i = 0; i < 4; ++i) {
         if (!(weights[i] > 0) || !std::isfinite(weights[i])) weights[i] = 0;
@@ -126,7 +127,7 @@ void gather_influences(const Part& part, PrimitiveData& data) {
 }  // namespace
 
 Vec3 local_origin(const std::vector<Part>& parts) {
-    constexpr double max_offset_ratio = 8;  // half sizes: three of a float's 24 bits
+    constexpr double max_offset_ratio = 8;  // in half extents; costs 3 of the 24 significant bits of a float
     Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, origin = {};
     for (const Part& part : parts) {
         for (const Vec3& p : part.positions) {
@@ -142,7 +143,7 @@ Vec3 local_origin(const std::vector<Part>& parts) {
     const double unit = std::exp2(std::floor(std::log2(half_extent)));
     for (std::size_t i = 0; i < 3; ++i) {
         const double centre = low[i] / 2 + high[i] / 2;
-        // What is too large for a float is an error, as it would be without a node.
+        // A centre outside the range of float is not moved: the position is reported as an error later.
         if (!(std::abs(centre) > max_offset_ratio * half_extent) ||
             !(std::abs(centre) <= std::numeric_limits<float>::max()))
             continue;
@@ -174,7 +175,7 @@ PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces
     gather_influences(part, data);
     if (!part.colors.empty()) {
         data.colors = gather(part.colors, data.vertices);
-        // White is what a primitive without colours has.
+        // A primitive without colours is white.
         if (std::all_of(data.colors.begin(), data.colors.end(), [](const Vec4f& c) {
                 return c == Vec4f{1, 1, 1, 1};
             }))

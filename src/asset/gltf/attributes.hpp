@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The vertex attributes of one output primitive, made valid: unit normals, tangents with a sign, weights
-/// that sum up to 1. Values that are right already keep their bits.
+/// Vertex attributes of an output primitive, made valid: unit normals, tangents with the sign 1 or -1,
+/// weights that sum to 1. Valid values are kept bit for bit.
 
 #include <cstdint>
 #include <string>
@@ -11,30 +11,33 @@
 
 namespace faqem::detail {
 
-/// Vertices of one primitive. Arrays are empty where the primitive goes without the attribute.
+/// Vertices and corners of a primitive. An array is empty if the primitive does not have the attribute.
 struct PrimitiveData {
-    std::vector<Index> vertices;  ///< the part's vertices used, ascending
-    std::vector<Index> corners;   ///< three per triangle, into `vertices`
+    std::vector<Index> vertices;  ///< used vertices of the part, ascending
+    std::vector<Index> corners;   ///< indices into `vertices`, three per triangle
     std::vector<Vec3f> positions, normals;
     std::vector<Vec4f> tangents, colors, weights;
     std::vector<std::array<std::uint16_t, 4>> joints;
     std::size_t degenerate_faces =
-        0;  ///< triangles of which two corners are at one place as floats, and were not
+        0;  ///< triangles of which two distinct corner positions are equal after rounding to float
 };
 
-/// Where positions are best counted from: glTF holds them as floats, which far from the origin are coarse. The
-/// same for all parts, so that what they share stays at one place; a multiple of a power of two of about their
-/// size, and 0 along axes on which that is near enough.
+/// Chooses an origin for the positions of all parts, because the precision of floats, which glTF stores, is
+/// low far away from 0. The origin is common to all parts, so that positions they share stay equal. Each
+/// coordinate is 0 if the bounding box is close enough to 0 on that axis, otherwise a multiple of a power of
+/// two of about the size of the bounding box.
 Vec3 local_origin(const std::vector<Part>& parts);
 
-/// Gathers the triangles `faces` of a part. Zero normals are replaced by ones made from the faces.
-/// \param origin   what is taken from the positions
-/// \param scratch  one no_index per vertex of the part; is left like that
-/// \throws WriteError  a position is too large for a float
+/// Gathers the vertices and corners of some faces of a part. Zero normals are replaced by the area-weighted
+/// mean of the adjacent face normals.
+/// \param faces    indices of triangles of the part
+/// \param origin   subtracted from the positions
+/// \param scratch  one no_index per vertex of the part; restored on return
+/// \throws WriteError  if a position exceeds the range of float
 PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
                                std::vector<Index>& scratch);
 
-/// values[vertices[i]] for all i.
+/// Returns values[vertices[i]] for all i.
 template <class T>
 std::vector<T> gather(const std::vector<T>& values, const std::vector<Index>& vertices) {
     std::vector<T> result;

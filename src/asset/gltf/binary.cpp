@@ -39,7 +39,7 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
                                       AccessorUse use) {
     const std::uint64_t size =
         element_size(unsigned_member(description, "componentType", 0), string_member(description, "type"));
-    // Only vertex views have a stride, and it must be a multiple of 4.
+    // Only views of vertex attributes have a stride, which must be a multiple of 4.
     const std::uint64_t stride = use == AccessorUse::vertices ? (size + 3) / 4 * 4 : 0;
     std::vector<std::uint8_t> padded;
     if (stride > size) {

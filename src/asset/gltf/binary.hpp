@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The one binary buffer of an output document, with its views and accessors, under construction.
+/// Construction of the single binary buffer of an output document, with its views and accessors.
 
 #include <cstdint>
 #include <map>
@@ -11,23 +11,26 @@
 
 namespace faqem::detail {
 
-/// What an accessor is for. Views are shared by accessors of equal use and stride, and by no others.
+/// Purpose of an accessor. Accessors share a buffer view if and only if they have the same use and stride.
 enum class AccessorUse { vertices, indices, matrices, other };
 
+/// Collects accessors and views, and writes them to a buffer. Equal accessors are stored once.
 class GltfBufferBuilder {
 public:
-    /// \param description  componentType, type, count and whatever else belongs into the accessor
-    /// \param dense        the elements back to back; empty: all zero, and no bytes are stored
-    /// \return index of the accessor: an earlier one if it is equal in everything
+    /// Adds an accessor.
+    /// \param description  componentType, type, count and any other members of the accessor
+    /// \param dense        contiguous elements, copied; empty: all elements are zero, and no bytes are stored
+    /// \return index of the accessor; that of an earlier one if all members and bytes are equal
     Index add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use);
 
-    /// Bytes in a view of their own (an image), which must live until finish().
+    /// Adds bytes, for example of an image, in a separate view.
+    /// \param bytes  borrowed until finish()
     /// \return index of the view
     /// \pre no accessor is added afterwards
     Index add_view(std::span<const std::uint8_t> bytes);
 
-    /// Puts accessors, bufferViews and buffers[0] (without uri) into the document.
-    /// \return the buffer's bytes; empty if there are none, and then there is no buffer
+    /// Writes accessors, bufferViews and buffers[0] (without uri) to the document.
+    /// \return the bytes of the buffer; if empty, the document has no buffer
     std::vector<std::uint8_t> finish(Json& document);
 
 private:
@@ -36,7 +39,7 @@ private:
         std::uint64_t stride;
         std::vector<std::uint8_t> bytes;
     };
-    /// What add_accessor() was called with, the bytes as they are in their group.
+    /// An added accessor. Its bytes are at `offset` in its group.
     struct StoredAccessor {
         Json description;
         Index group;

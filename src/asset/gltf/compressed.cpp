@@ -10,7 +10,7 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint64_t max_meshopt_ratio = 128;  // the vertex codec makes at most 64 bytes of one
+constexpr std::uint64_t max_meshopt_ratio = 128;  // the vertex codec expands a byte to at most 64 bytes
 
 [[maybe_unused]] std::span<const std::uint8_t> byte_range(const std::vector<std::uint8_t>& buffer,
                                                           const Json& holder) {
@@ -24,7 +24,7 @@ std::uint64_t total_buffer_size(const SourceDocument& source) {
     return sum;
 }
 
-/// Adds bytes as a buffer of their own. \return its index
+/// Adds a buffer. Returns its index.
 [[maybe_unused]] std::size_t add_buffer(SourceDocument& source, std::vector<std::uint8_t> bytes) {
     source.document["buffers"].push_back({{"byteLength", bytes.size()}});
     source.buffers.push_back(std::move(bytes));
@@ -60,7 +60,7 @@ void decompress_views(SourceDocument& source, const std::string& file) {
 
 #ifdef FAQEM_WITH_DRACO
 
-/// Gives an accessor bytes of its own.
+/// Stores the bytes of an accessor in a new buffer and view.
 void set_bytes(SourceDocument& source, Json& accessor, std::vector<std::uint8_t> bytes) {
     const std::uint64_t size = bytes.size();
     const std::size_t buffer = add_buffer(source, std::move(bytes));
@@ -70,7 +70,7 @@ void set_bytes(SourceDocument& source, Json& accessor, std::vector<std::uint8_t>
     views.push_back({{"buffer", buffer}, {"byteLength", size}});
 }
 
-/// Nothing where the type is too small for a corner.
+/// Converts indices to the given component type; empty if an index is out of its range.
 std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::uint32_t>& corners,
                                                         ComponentType type) {
     const std::uint32_t size = component_size(static_cast<std::uint64_t>(type));
@@ -81,7 +81,7 @@ std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::u
     return bytes;
 }
 
-/// Corners and vertices; all attributes have as many of these.
+/// Number of corners plus number of vertices of a primitive.
 std::uint64_t draco_element_count(const Json& document, const Json& primitive) {
     const Json& accessors = document["accessors"];
     const auto count = [&](std::uint64_t accessor) {
@@ -114,7 +114,7 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
         encode_indices(corners, static_cast<ComponentType>(unsigned_member(indices, "componentType", 0)));
     if (!typed)
         throw InputError(file, where,
-                         std::string(draco_name) + ": has vertices beyond the type of the indices");
+                         std::string(draco_name) + ": has more vertices than the index type can address");
     for (std::size_t i = 0; i < targets.size(); ++i)
         set_bytes(source, accessors[targets[i]], std::move(attributes[i].bytes));
     set_bytes(source, indices, std::move(*typed));
@@ -149,7 +149,7 @@ void DecompressionBudget::consume(std::uint64_t amount, const std::string& where
     if (amount > remaining_)
         throw InputError(
             file_, where,
-            std::string(extension) + ": is more than all buffers can hold, with what is before it");
+            std::string(extension) + ": the total decompressed size exceeds the limit for this file");
     remaining_ -= amount;
 }
 
@@ -164,7 +164,7 @@ bool can_decode([[maybe_unused]] std::string_view extension) {
 }
 
 std::string missing_decoder_message(std::string_view extension) {
-    return std::string(extension) + " compressed data: this faqem was built without " +
+    return std::string(extension) + " compressed data: faqem was built without " +
            (extension == draco_name ? "Draco" : "meshoptimizer");
 }
 
@@ -182,12 +182,12 @@ const Json& meshopt_extension(const Json& document, const Json& view) {
 void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& view_where) {
     const std::string where = view_where + "/extensions/" + meshopt_name;
     const Json& compressed = member(member(view, "extensions"), meshopt_name);
-    if (compressed.is_null()) checker.fail(view_where, "lies in a buffer that has no bytes");
+    if (compressed.is_null()) checker.fail(view_where, "refers to a buffer without data");
     if (!can_decode(meshopt_name))
         checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));
     const std::uint64_t buffer = checker.required_reference(compressed, where, "buffer", "buffers");
     const Json& from = member(checker.document, "buffers")[buffer];
-    if (is_fallback_buffer(from)) checker.fail(child_path(where, "buffer"), "is a buffer that has no bytes");
+    if (is_fallback_buffer(from)) checker.fail(child_path(where, "buffer"), "is a buffer without data");
     const std::uint64_t size = from["byteLength"].get<std::uint64_t>();
     const std::uint64_t offset = checker.number(compressed, where, "byteOffset").value_or(0);
     const std::uint64_t length = checker.required_number(compressed, where, "byteLength");
@@ -200,20 +200,21 @@ void check_meshopt(const GltfChecker& checker, const Json& view, const std::stri
     const std::string mode = string_member(compressed, "mode"), filter = string_member(compressed, "filter");
     const bool vertices = mode == "ATTRIBUTES", triangles = mode == "TRIANGLES";
     if (!vertices && !triangles && mode != "INDICES")
-        checker.fail(child_path(where, "mode"), "is no known mode");
+        checker.fail(child_path(where, "mode"), "must be ATTRIBUTES, TRIANGLES or INDICES");
     const bool good_stride =
         vertices ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4;
-    if (!good_stride) checker.fail(child_path(where, "byteStride"), "is " + std::to_string(stride));
-    if (triangles && count % 3 != 0) checker.fail(child_path(where, "count"), "is no multiple of 3");
+    if (!good_stride)
+        checker.fail(child_path(where, "byteStride"), "is invalid for the mode: " + std::to_string(stride));
+    if (triangles && count % 3 != 0) checker.fail(child_path(where, "count"), "is not a multiple of 3");
     const bool good_filter = filter.empty() || filter == "NONE" ||
                              (vertices && filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                              (vertices && filter == "QUATERNION" && stride == 8) ||
                              (vertices && filter == "EXPONENTIAL");
     if (!good_filter)
-        checker.fail(child_path(where, "filter"), "is not known or does not fit the mode and stride");
+        checker.fail(child_path(where, "filter"), "is unknown or does not match the mode and stride");
     const std::uint64_t wanted = unsigned_member(view, "byteLength", 0);
     if (count > wanted || count * stride != wanted)
-        checker.fail(where, "makes " + std::to_string(count) + " times " + std::to_string(stride) +
+        checker.fail(where, "decodes to " + std::to_string(count) + " times " + std::to_string(stride) +
                                 " bytes, the bufferView has " + std::to_string(wanted));
     if (wanted / max_meshopt_ratio > length)
         checker.fail(
@@ -240,17 +241,18 @@ void check_draco(const GltfChecker& checker, const Json& primitive, const std::s
     const std::uint64_t view = checker.required_reference(compressed, where, "bufferView", "bufferViews");
     const Json& buffer_view = member(checker.document, "bufferViews")[view];
     if (is_fallback_buffer(member(checker.document, "buffers")[index_member(buffer_view, "buffer")]))
-        checker.fail(child_path(where, "bufferView"), "lies in a buffer that has no bytes");
+        checker.fail(child_path(where, "bufferView"), "refers to a buffer without data");
     if (unsigned_member(primitive, "mode", 4) != 4)
-        checker.fail_unsupported(child_path(primitive_where, "mode"), "strips in Draco data are not read");
-    if (!primitive.contains("indices")) checker.fail(primitive_where, "has Draco data and no indices");
+        checker.fail_unsupported(child_path(primitive_where, "mode"),
+                                 "triangle strips in Draco data are not supported");
+    if (!primitive.contains("indices")) checker.fail(primitive_where, "has Draco data but no indices");
     const Json& attributes = checker.object(compressed, where, "attributes");
     if (attributes.is_null() || attributes.empty()) checker.fail(where, "has no attributes");
     for (const auto& [name, id] : attributes.items()) {
         const std::string at = where + "/attributes/" + name;
         if (!id.is_number_unsigned() || id.get<std::uint64_t>() > UINT32_MAX)
             checker.fail(at, "is not an unsigned 32-bit integer");
-        if (!primitive["attributes"].contains(name)) checker.fail(at, "is no attribute of the primitive");
+        if (!primitive["attributes"].contains(name)) checker.fail(at, "is not an attribute of the primitive");
     }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Compressed data inside glTF: EXT_meshopt_compression and KHR_draco_mesh_compression. It is checked with
-/// the rest of the document and unpacked once the buffers are there; then the document is as if it had been
-/// plain.
+/// Compressed data in glTF: EXT_meshopt_compression and KHR_draco_mesh_compression. It is validated with the
+/// rest of the document and decompressed when the buffers are loaded. Afterwards the document is the same as
+/// that of an uncompressed file.
 
 #include <cstdint>
 #include <span>
@@ -22,40 +22,51 @@ inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 /// Whether this library was built with a decoder for the extension.
 bool can_decode(std::string_view extension);
 
-/// "EXT_x needs a build with library y", for errors.
+/// Error message for compressed data that this build cannot decode. Names the extension and the library.
 std::string missing_decoder_message(std::string_view extension);
 
-/// A buffer that only stands for what compressed views will hold: it has no bytes of its own.
+/// Whether a buffer is a placeholder without data for decompressed views (the fallback buffer of
+/// EXT_meshopt_compression).
 bool is_fallback_buffer(const Json& buffer);
 
-/// The compressed data that a view is made of, null where it is plain.
+/// The meshopt extension of a view that must be decompressed; null if the view has uncompressed data.
 const Json& meshopt_extension(const Json& document, const Json& view);
 
-/// Checks a view's EXT_meshopt_compression against the buffers and the view, ratio included.
-/// \param where  of the view
+/// Validates the EXT_meshopt_compression of a view against the buffers and the view, including the
+/// compression ratio.
+/// \param where  JSON pointer of the view
+/// \throws InputError, UnsupportedError  if it is invalid or cannot be decoded
 void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& where);
 
-/// Whether some accessor of the primitive has no bytes but those in KHR_draco_mesh_compression.
+/// Whether an accessor of the primitive has only the data of KHR_draco_mesh_compression.
 bool needs_draco(const Json& document, const Json& primitive);
 
-/// Checks the extension of a primitive with needs_draco(). \param where  of the primitive
+/// Validates the Draco extension of a primitive.
+/// \param where  JSON pointer of the primitive
+/// \pre needs_draco()
+/// \throws InputError, UnsupportedError  if it is invalid or cannot be decoded
 void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& where);
 
-/// By accessor: nonzero where Draco data may vouch for its count. Asks nothing of the meshes' validity.
+/// For each accessor, nonzero if a primitive with Draco data uses it, so that it may have no buffer view. The
+/// meshes need not be validated.
 std::vector<char> draco_accessor_flags(const Json& document);
 
-/// So many elements of a Draco mesh are believed of few bytes, and so many of each byte in all: a header may
-/// say anything, and memory is taken by what it says.
+/// Limit on the number of elements of Draco meshes: a base value plus a value per byte of the buffers. Memory
+/// is allocated according to counts in the file, which may be arbitrary.
 inline constexpr std::uint64_t draco_base_element_limit = std::uint64_t{1} << 22,
                                max_draco_elements_per_byte = 256;
 
-/// How much may still be unpacked of a file: that grows with the bytes there are, not with how often they are
-/// referred to.
+/// Limits the total decompressed size of a file. The limit depends on the size of the file, not on how often
+/// its bytes are referenced.
 class DecompressionBudget {
 public:
-    /// \param file  for messages; borrowed
+    /// \param amount  total that may be decompressed
+    /// \param file    path for messages, borrowed
     DecompressionBudget(std::uint64_t amount, const std::string& file) : remaining_(amount), file_(file) {}
-    /// \throws InputError  less is left
+    /// Subtracts an amount from the budget.
+    /// \param where      JSON pointer for messages
+    /// \param extension  name for messages
+    /// \throws InputError  if the remaining budget is smaller
     void consume(std::uint64_t amount, const std::string& where, const char* extension);
 
 private:
@@ -63,31 +74,41 @@ private:
     const std::string& file_;
 };
 
-/// Unpacks every compressed view and primitive that has no plain data into new buffers, and takes the
-/// extensions out of the document.
-/// \pre the document is valid
-/// \throws InputError  damaged data, or more than all buffers can hold
+/// Decompresses all views and primitives that have no uncompressed data into new buffers, and removes the
+/// extensions from the document.
+/// \param file  path for messages
+/// \pre validate_gltf() passed
+/// \throws InputError  if the data is damaged or the decompressed size exceeds the limit
 void decompress(SourceDocument& source, const std::string& file);
 
-/// The elements of a meshopt view.
-/// \param extension  checked
-/// \throws InputError
+/// Decodes the elements of a view compressed with meshoptimizer.
+/// \param extension  validated EXT_meshopt_compression object
+/// \param bytes      compressed data, borrowed
+/// \param file       path for messages
+/// \param where      JSON pointer of the view, for messages
+/// \throws InputError  if the data is damaged
 std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const std::uint8_t> bytes,
                                          const std::string& file, const std::string& where);
 
-/// What an accessor wants of a Draco mesh.
+/// An attribute of a Draco mesh, in the format of its accessor.
 struct DracoAttribute {
-    std::uint32_t id = 0;
+    std::uint32_t id = 0;  ///< unique id in the Draco mesh
     ComponentType type = ComponentType::f32;
-    std::uint32_t components = 0;
-    std::vector<std::uint8_t> bytes;  ///< filled by decode_draco(), back to back
+    std::uint32_t components = 0;     ///< components per vertex
+    std::vector<std::uint8_t> bytes;  ///< contiguous elements, set by decode_draco()
 };
 
-/// Decodes a mesh. The counts in its header are held against the accessors' before anything is allocated.
-/// \param vertices  of every attribute
-/// \param corners   of the index accessor
-/// \return the corners
-/// \throws InputError
+/// Decodes a Draco mesh. The counts in its header are compared with those of the accessors before memory is
+/// allocated.
+/// \param bytes       compressed data, borrowed
+/// \param vertices    count of the attribute accessors
+/// \param corners     count of the index accessor
+/// \param attributes  attributes to decode; `bytes` is set
+/// \param file        path for messages
+/// \param where       JSON pointer of the primitive, for messages
+/// \return the vertex index of each corner
+/// \throws InputError        if the data is damaged or does not match the accessors
+/// \throws UnsupportedError  if the bitstream version is below 2.2
 std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std::uint64_t vertices,
                                         std::uint64_t corners, std::vector<DracoAttribute>& attributes,
                                         const std::string& file, const std::string& where);

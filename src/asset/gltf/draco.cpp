@@ -11,20 +11,23 @@
 namespace faqem::detail {
 namespace {
 
+/// Decoder of one Draco mesh. Errors name the file and the primitive.
 class DracoReader {
 public:
     DracoReader(std::span<const std::uint8_t> bytes, std::string file, std::string where)
         : bytes_(bytes), file_(std::move(file)), where_(std::move(where)) {}
 
-    /// Draco allocates by what its header says, so that is looked at first.
+    /// Compares the counts in the header with those of the accessors. Draco allocates memory according to the
+    /// header, so this is checked before decoding.
     void check_counts(std::uint64_t vertices, std::uint64_t corners) const {
         draco::DecoderBuffer buffer = open();
         draco::DracoHeader header;
         if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) fail("the header is damaged");
-        if (header.encoder_type != draco::TRIANGULAR_MESH) fail("holds no triangles");
+        if (header.encoder_type != draco::TRIANGULAR_MESH) fail("is not a triangle mesh");
         buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
         if (buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2))
-            throw UnsupportedError(file_, where_, std::string(draco_name) + ": is of a version before 2.2");
+            throw UnsupportedError(
+                file_, where_, std::string(draco_name) + ": bitstream versions before 2.2 are not supported");
         if (header.flags & METADATA_FLAG_MASK) {
             draco::GeometryMetadata metadata;
             if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
@@ -37,12 +40,14 @@ public:
                               ? buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) &&
                                     draco::DecodeVarint(&faces, &buffer)
                               : draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer);
-        if (!read) fail("ends too early");
+        if (!read) fail("the data is truncated");
         if (std::uint64_t{faces} * 3 != corners)
-            fail("has " + std::to_string(faces) + " faces, the indices are " + std::to_string(corners));
-        // Edgebreaker tells its vertices; points are more where attributes split them.
+            fail("has " + std::to_string(faces) + " faces, the number of indices is " +
+                 std::to_string(corners));
+        // The header of Edgebreaker has the number of vertices; seams of attributes add more points.
         if (points > vertices)
-            fail("has " + std::to_string(points) + " vertices, the accessors " + std::to_string(vertices));
+            fail("has " + std::to_string(points) + " vertices, the accessors have " +
+                 std::to_string(vertices));
     }
 
     std::unique_ptr<draco::Mesh> decode() const {
@@ -111,13 +116,14 @@ std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std
     const std::unique_ptr<draco::Mesh> mesh = reader.decode();
     if (mesh->num_points() != vertices || std::uint64_t{mesh->num_faces()} * 3 != corners)
         reader.fail("has " + std::to_string(mesh->num_points()) + " vertices and " +
-                    std::to_string(mesh->num_faces()) + " faces, not what the accessors say");
+                    std::to_string(mesh->num_faces()) + " faces, which differs from the accessors");
     for (DracoAttribute& attribute : attributes) {
         const draco::PointAttribute* from = mesh->GetAttributeByUniqueId(attribute.id);
         if (!from) reader.fail("has no attribute " + std::to_string(attribute.id));
-        // Bytes that are neither 0 nor 1 are undefined there, and glTF has no such type.
+        // glTF has no boolean type, and converting a bool that is neither 0 nor 1 is undefined behaviour.
         if (from->data_type() == draco::DT_BOOL)
-            reader.fail("attribute " + std::to_string(attribute.id) + " holds truth values");
+            reader.fail("attribute " + std::to_string(attribute.id) +
+                        " has a boolean type, which glTF does not have");
         if (!convert(*mesh, *from, attribute))
             reader.fail("attribute " + std::to_string(attribute.id) + " is damaged");
     }

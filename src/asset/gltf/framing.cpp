@@ -24,7 +24,7 @@ void put_u32(std::vector<std::uint8_t>& out, std::uint64_t value) {
 
 std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
 
-/// Length of the GLB as its header says, checked against the file.
+/// Length of the GLB in its header, checked against the size of the file.
 std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::string& file,
                              std::vector<std::string>& warnings) {
     if (bytes.size() < header_size)
@@ -37,11 +37,11 @@ std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::str
     if (length > bytes.size())
         throw InputError(
             file, "GLB header",
-            "says " + bytes_text(length) + ", the file has " + bytes_text(bytes.size()) + ": truncated");
+            "declares " + bytes_text(length) + ", the file has " + bytes_text(bytes.size()) + ": truncated");
     if (length < header_size + chunk_header_size)
-        throw InputError(file, "GLB header", "says " + bytes_text(length) + ", too few for a JSON chunk");
+        throw InputError(file, "GLB header", "declares " + bytes_text(length) + ", too few for a JSON chunk");
     if (length < bytes.size())
-        warnings.push_back(bytes_text(bytes.size() - length) + " after the end of the GLB were left out");
+        warnings.push_back(bytes_text(bytes.size() - length) + " after the end of the GLB were ignored");
     return length;
 }
 
@@ -75,7 +75,7 @@ GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string&
             container.bin = bytes.subspan(at, size);
             container.has_bin = true;
         } else {
-            warnings.push_back(where + " is of no known type and was left out");
+            warnings.push_back(where + " has an unknown type and was ignored");
         }
         at += size;
     }
@@ -111,7 +111,7 @@ std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::u
         header_size + chunk_header_size + json_size + (bin.empty() ? 0 : chunk_header_size + bin_size);
     if (total > std::numeric_limits<std::uint32_t>::max())
         throw WriteError(file + ": a GLB of " + bytes_text(total) +
-                         " cannot be: 4 GiB is the limit, use .gltf");
+                         " exceeds the limit of 4 GiB; use .gltf instead");
     std::vector<std::uint8_t> out;
     out.reserve(total);
     put_u32(out, glb_magic);

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// The outermost layer of glTF files: GLB header and chunks, and the nesting depth of the JSON. Checked
-/// before any parser sees the bytes.
+/// GLB header and chunks, and the nesting depth of the JSON text. Both are checked before a parser is called.
 
 #include <cstdint>
 #include <span>
@@ -11,32 +10,35 @@
 
 namespace faqem::detail {
 
-/// What a .glb or .gltf file consists of. Views into the file's bytes.
+/// The JSON text and the BIN chunk of a file, as views into its bytes.
 struct GltfContainer {
     std::string_view json;
     std::span<const std::uint8_t> bin;
-    bool is_binary = false;  ///< a GLB
-    bool has_bin = false;    ///< the GLB has a BIN chunk, maybe an empty one
+    bool is_binary = false;  ///< the file is a GLB
+    bool has_bin = false;    ///< the GLB has a BIN chunk, which may be empty
 };
 
-/// Deepest nesting of JSON arrays and objects that is accepted.
+/// Maximum nesting depth of JSON arrays and objects.
 inline constexpr int max_json_depth = 64;
 
-/// Splits a file. Anything that does not begin with the GLB magic is taken for JSON.
+/// Splits a file into JSON and binary data. A file that does not start with the GLB magic is taken as JSON.
+/// \param bytes     the whole file, borrowed; the result refers to it
 /// \param file      path for messages
-/// \param warnings  gets one sentence for each thing that is left out (chunks of unknown type ...)
-/// \throws InputError        truncated, or the lengths contradict each other
-/// \throws UnsupportedError  a GLB version other than 2
+/// \param warnings  receives a sentence for each ignored part, for example a chunk of unknown type
+/// \throws InputError        if the file is truncated or its lengths are inconsistent
+/// \throws UnsupportedError  if the GLB version is not 2
 GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
                          std::vector<std::string>& warnings);
 
-/// Checks the nesting depth without recursion; brackets inside strings do not count.
-/// \throws InputError  deeper than max_json_depth
+/// Checks the nesting depth of a JSON text without recursion. Brackets inside strings are not counted.
+/// \param file  path for messages
+/// \throws InputError  if the depth exceeds max_json_depth
 void check_json_depth(std::string_view json, const std::string& file);
 
-/// Puts a GLB together.
-/// \param bin  may be empty: then there is no BIN chunk
-/// \throws WriteError  the file would have 4 GiB or more, which GLB cannot express
+/// Builds a GLB.
+/// \param bin   content of the BIN chunk; empty: no BIN chunk
+/// \param file  path for messages
+/// \throws WriteError  if the GLB would exceed its limit of 4 GiB
 std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::uint8_t> bin,
                                    const std::string& file);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// glTF 2.0: .glb and .gltf.
+/// Reading and writing of glTF 2.0 files (.glb and .gltf).
 
 #include <cstdint>
 #include <filesystem>
@@ -12,24 +12,35 @@
 
 namespace faqem::detail {
 
-/// Reads a GLB or a JSON glTF, told apart by content. One part per mesh, in the meshes' order.
-/// \throws ReadError, InputError, UnsupportedError
+/// Reads a GLB or a JSON glTF file, which are distinguished by their content. The asset has one part per
+/// mesh, in the order of the meshes.
+/// \param file  path of the file; buffers and images are searched in its folder
+/// \throws ReadError         if the file or a buffer cannot be read
+/// \throws InputError        if the file is invalid
+/// \throws UnsupportedError  if it requires an extension or an image format that is not supported
 Asset read_gltf(const std::filesystem::path& file);
 
-/// The same for bytes in memory. \param file  for messages; its folder is searched for buffers and images
+/// Same as above, for the bytes of a file in memory.
+/// \param bytes  borrowed
+/// \param file   path for messages; buffers and images are searched in its folder
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes a GLB, or for names that end in .gltf the JSON with NAME.bin and NAME_0.png ... beside it. The same
-/// asset gives the same bytes.
+/// Writes an asset as GLB or, if the name ends in .gltf, as JSON with NAME.bin and NAME_0.png ... in the same
+/// folder. The output is deterministic.
+/// \param asset      the asset
+/// \param file       path of the file
+/// \param overwrite  whether existing files may be replaced
 /// \return what could not be kept, one sentence each
-/// \throws WriteError
+/// \throws WriteError  if a file cannot be written, or a position exceeds the range of float
 std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::path& file,
                                     Overwrite overwrite);
 
-/// A GLB in memory. What write_gltf() would warn of is left out. \throws WriteError  it has more than 4 GiB
+/// Encodes an asset as GLB in memory. The warnings of write_gltf() are dropped.
+/// \throws WriteError  if the GLB exceeds 4 GiB, or a position exceeds the range of float
 FAQEM_EXPORT std::vector<std::uint8_t> encode_glb(const Asset& asset);
 
-/// Walks the default scene (the first one if none is named; all root nodes if there is none).
+/// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is
+/// no scene. Parts without a source mesh follow, with the identity transform.
 /// \pre asset.source is set
 std::vector<Instance> gltf_instances(const Asset& asset);
 

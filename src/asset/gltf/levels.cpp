@@ -12,7 +12,7 @@ namespace {
 constexpr const char* lod_extension = "MSFT_lod";
 constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 
-/// What goes along with a mesh when it moves to another node.
+/// Node members that are moved to another node together with the mesh.
 constexpr std::array<const char*, 3> mesh_keys = {"mesh", "skin", "weights"};
 
 bool is_animated(const Json& document, Index node) {
@@ -22,7 +22,8 @@ bool is_animated(const Json& document, Index node) {
     return false;
 }
 
-/// Its levels would need what is not theirs.
+/// Whether the mesh of a node must be moved to a child node. Otherwise the nodes of the other levels, which
+/// are not in the scene, would need copies of its transform, children, camera or animation.
 bool needs_child_node(const Json& document, Index node) {
     const Json& json = document["nodes"][node];
     for (const char* key : {"children", "matrix", "translation", "rotation", "scale", "camera"})
@@ -40,7 +41,7 @@ void retarget_weight_channels(Json& document, Index from, Index to) {
         }
 }
 
-/// The node that has the mesh and nothing that its levels would need.
+/// Moves the mesh of a node to a new child node if needs_child_node(). Returns the node that has the mesh.
 Index split_mesh_node(GltfWriter& writer, Index node) {
     if (!needs_child_node(writer.out, node)) return node;
     Json child = Json::object();
@@ -62,7 +63,8 @@ Index split_mesh_node(GltfWriter& writer, Index node) {
     return index;
 }
 
-/// A node like the holder with the mesh of another level, or without one where the level has none.
+/// Creates the node of another level: the members of `mesh_node` with the mesh of the level, or no mesh if
+/// the level has none.
 Json level_node(const GltfWriter& writer, const Json& mesh_node, Index mesh, std::size_t level) {
     Json node = Json::object();
     if (mesh_node.contains("name"))
@@ -102,7 +104,7 @@ void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::v
         Json& json = writer.out["nodes"][mesh_node];
         json["extensions"][lod_extension] = {{"ids", std::move(ids)}};
         const Json& extras = member(json, "extras");
-        if (extras.is_null() || extras.is_object())  // they may be anything
+        if (extras.is_null() || extras.is_object())  // extras may be of any JSON type
             json["extras"]["MSFT_screencoverage"] = leveled.coverage[part];
     }
 }

@@ -24,7 +24,7 @@ constexpr std::uint64_t max_image_bytes = std::numeric_limits<std::int32_t>::max
 constexpr std::string_view buffer_token = "faqem-buffer-";
 constexpr std::string_view image_token = "faqem-image-";
 
-/// What the callbacks serve.
+/// Data of the tinygltf callbacks.
 struct CallbackContext {
     const Json& document;
     const GltfContainer& container;
@@ -36,7 +36,7 @@ bool is_data_uri(const std::string& uri) { return uri.compare(0, 5, "data:") == 
 
 std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::string& file,
                                           const std::string& where) {
-    // tinygltf knows only some media types; what the bytes are is found from the bytes.
+    // The media type is replaced, since tinygltf supports only some; image types are detected from the bytes.
     constexpr std::string_view marker = ";base64,";
     const std::size_t end = uri.find(marker);
     if (end == std::string::npos || end > uri.find(','))
@@ -49,8 +49,9 @@ std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::str
     return bytes;
 }
 
-/// \throws ReadError   no such file
-/// \throws InputError  it may not be read
+/// Reads the file or data URI that a buffer or image refers to.
+/// \throws ReadError   if the file does not exist or cannot be read
+/// \throws InputError  if the reference is not allowed or the data URI is invalid
 std::vector<std::uint8_t> read_uri(const CallbackContext& context, const std::string& uri,
                                    const std::string& where, std::uint64_t max_bytes) {
     const std::string file = context.file.string();
@@ -78,7 +79,7 @@ std::vector<std::uint8_t> load_buffer(const CallbackContext& context, std::uint6
         if (bytes.size() > length && bytes.size() - length > 3)
             context.warnings.push_back(where + ": the BIN chunk has " +
                                        std::to_string(bytes.size() - length) +
-                                       " bytes more than the buffer; they were left out");
+                                       " bytes more than the buffer; they were ignored");
     } else {
         throw InputError(file, where,
                          context.container.is_binary ? "has neither a uri nor a BIN chunk" : "has no uri");
@@ -91,7 +92,7 @@ std::vector<std::uint8_t> load_buffer(const CallbackContext& context, std::uint6
     return bytes;
 }
 
-/// The bytes of an image file. tinygltf refuses empty ones, so a missing image is a single zero byte.
+/// Reads an image file. A missing image becomes a single zero byte, since tinygltf rejects empty images.
 std::vector<std::uint8_t> load_image(const CallbackContext& context, std::uint64_t index) {
     const std::string where = child_path("/images", index);
     try {
@@ -133,8 +134,8 @@ bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, i
     return true;
 }
 
-/// The document with every URI replaced by a token that only our callbacks understand. Buffers without bytes
-/// are given one, and accessors that Draco data will fill a view: tinygltf insists on both.
+/// The document with every URI replaced by a token for the callbacks. Buffers without data get one byte, and
+/// accessors with Draco data get a view, since tinygltf requires both.
 std::string json_with_uri_tokens(const Json& document) {
     Json copy = document;
     for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
@@ -156,7 +157,7 @@ tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& conte
     parser.SetImageLoader(store_image, nullptr);
     const std::string file = context.file.string(), json = json_with_uri_tokens(document);
     if (json.size() > std::numeric_limits<unsigned>::max())
-        throw UnsupportedError(file, "", "4 GiB of JSON are not supported");
+        throw UnsupportedError(file, "", "JSON of 4 GiB or more is not supported");
     tinygltf::Model model;
     std::string errors, warnings;
     try {
@@ -173,7 +174,7 @@ tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& conte
     return model;
 }
 
-/// Moves the bytes out of the model.
+/// Moves the buffers and images from the tinygltf model to the source document.
 void move_buffers_and_images(LoadedGltf& loaded) {
     for (tinygltf::Buffer& buffer : loaded.model.buffers)
         loaded.source->buffers.push_back(std::move(buffer.data));

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// From a file's bytes to a validated document. tinygltf parses it and fetches the buffers and images,
-/// fenced: it sees the JSON only after our validation, and every byte it asks for comes through us.
+/// Loading of a glTF file to a validated document. tinygltf parses the JSON only after it was validated, and
+/// reads buffers and images only through callbacks defined here.
 
 #include <tiny_gltf.h>
 
@@ -16,17 +16,18 @@
 
 namespace faqem::detail {
 
-/// A document on its way into an Asset.
+/// A loaded document, before it is converted to an Asset.
 struct LoadedGltf {
     std::string file;                        ///< path for messages
-    std::shared_ptr<SourceDocument> source;  ///< buffers and images are in here; materials are still empty
-    tinygltf::Model model;                   ///< the same document with types; without buffers and images
+    std::shared_ptr<SourceDocument> source;  ///< has the buffers and images; materials are still empty
+    tinygltf::Model model;                   ///< the parsed document, without buffers and images
     std::vector<std::string> warnings;
 };
 
-/// \param bytes  of the file
-/// \param file   for messages; its folder is searched for buffers and images
-/// \throws ReadError, InputError, UnsupportedError
+/// Loads and validates a glTF file, with its buffers and images, and decompresses it.
+/// \param bytes  the whole file, borrowed
+/// \param file   path for messages; buffers and images are searched in its folder
+/// \throws ReadError, InputError, UnsupportedError  as read_gltf()
 LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

@@ -89,7 +89,7 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
         else
             unassigned_parts.push_back(i);
 
-    // A stack, as files may nest nodes deeper than the call stack allows.
+    // An explicit stack: nodes may be nested deeper than the call stack allows.
     std::vector<std::pair<Index, Matrix>> stack;
     const std::vector<Index> roots = root_nodes(document);
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, identity});

@@ -28,10 +28,11 @@ constexpr std::array<ImageFormat, 7> image_formats = {{{{"\x89PNG\r\n\x1a\n", 8}
                                                        {{"GIF8", 4}, 0, "image/gif", ".gif"},
                                                        {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
-/// Decoders take memory by what the header says, some of them when they open an image.
+/// Checks the size in the header before a decoder is called: decoders allocate memory according to the
+/// header, some of them as soon as they open an image.
 void check_header(const Image& image) {
     const std::optional<ImageSize> size = declared_size(image.encoded);
-    if (!size) fail_image(image, "is damaged: its header does not say how large it is");
+    if (!size) fail_image(image, "is damaged: its header has no image size");
     check_image_size(image, *size);
     if (!is_plausible_size(image.encoded, *size)) fail_truncated_image(image, *size);
 }
@@ -81,8 +82,8 @@ Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancel
     if (!can_decode_image(type))
         throw UnsupportedError(
             image.uri, image_title(image),
-            (type.empty() ? std::string("is neither PNG nor JPEG") : type + " is not supported") + ", only " +
-                decodable_format_names() + " are");
+            (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
+                decodable_format_names() + " are supported");
     check_header(image);
     return image_codec().decode(image, type.substr(6), check_cancelled);
 }

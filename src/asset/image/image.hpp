@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What kind of image some bytes are, and what is in them.
+/// Detection of image formats, and decoding and encoding with cancellation.
 
 #include <cstdint>
 #include <span>
@@ -12,24 +12,25 @@
 
 namespace faqem::detail {
 
-/// The public functions of these names, which poll. \throws what the poll throws, too
+/// Same as the public functions of these names, with a cancellation check.
+/// \throws Cancelled  if `check_cancelled` requests it; other exceptions of `check_cancelled` are passed on
 FAQEM_EXPORT Pixels decode(const Image& image, engine::CancellationCheck check_cancelled);
 FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name,
                               engine::CancellationCheck check_cancelled);
 FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
                                Content content, engine::CancellationCheck check_cancelled);
 
-/// Media type by magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/vnd-ms.dds, image/gif,
-/// image/bmp; empty if it is none of these.
+/// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2,
+/// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
-/// Whether decode() knows the media type: PNG and JPEG, and WebP where OpenImageIO reads it from memory.
+/// Whether decode() supports the media type: PNG and JPEG, and WebP if OpenImageIO can read it from memory.
 bool can_decode_image(const std::string& mime_type);
 
-/// "PNG, JPEG and WebP", or what else can be decoded, for errors.
+/// Names of the formats that decode() supports, for error messages: "PNG, JPEG and WebP" or "PNG and JPEG".
 std::string decodable_format_names();
 
-/// Usual name ending with the dot, ".bin" for unknown types.
+/// Usual file name extension of a media type, including the dot; ".bin" for unknown types.
 std::string file_extension(const std::string& mime_type);
 
 }  // namespace faqem::detail

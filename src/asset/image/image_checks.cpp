@@ -32,7 +32,7 @@ void check_image_size(const Image& image, const ImageSize& size) {
     if (size.width == 0 || size.height == 0 || size.width > max_image_side || size.height > max_image_side ||
         size.pixels() * 4 > max_decoded_bytes)
         fail_image(image, "is " + text_of(size) + " pixels, at most " +
-                              text_of({max_image_side, max_image_side}) + " are read");
+                              text_of({max_image_side, max_image_side}) + " are supported");
 }
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is wrong with an encoded image, as far as its size tells.
+/// Errors of encoded images, and checks of the image size.
 
 #include <string>
 
@@ -9,16 +9,19 @@
 
 namespace faqem::detail {
 
-/// "image 'wood'", for messages.
+/// Designation of an image in error messages, for example "image 'wood'".
 std::string image_title(const Image& image);
 
-/// \throws InputError, always: names file and image
+/// Reports an error of an image.
+/// \throws InputError  always, with the file and the image
 [[noreturn]] void fail_image(const Image& image, const std::string& what);
 
-/// \throws InputError as one whose bytes cannot hold its pixels, always
+/// Reports that the bytes of an image cannot hold its pixels.
+/// \throws InputError  always, with the file and the image
 [[noreturn]] void fail_truncated_image(const Image& image, const ImageSize& size);
 
-/// \throws InputError if a side is 0 or above max_image_side, or the pixels would take more than 1 GiB
+/// Checks the size of an image against the limits.
+/// \throws InputError  if a side is 0 or above max_image_side, or the RGBA pixels take more than 1 GiB
 void check_image_size(const Image& image, const ImageSize& size);
 
 }  // namespace faqem::detail

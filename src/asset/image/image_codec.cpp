@@ -16,11 +16,11 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// What the decoder is going to make. A PNG too short for its pixels is found out before there is memory for
-/// them: deflate makes at most 1032 bytes of one (zlib, "Technical Details").
+/// Checks the image that the decoder is about to produce. A PNG that is too short for its pixels is detected
+/// before memory is allocated: deflate expands one byte to at most 1032 bytes (zlib, "Technical Details").
 void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::string& format) {
     if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
-        fail_image(image, "is not a picture of one layer");
+        fail_image(image, "is not a two-dimensional image");
     const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
     check_image_size(image, size);
     const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
@@ -28,10 +28,10 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::stri
         fail_truncated_image(image, size);
 }
 
-/// Calls work(begin, end) for bands of rows, each of which takes a few thousandths of a second, and asks
-/// before each. OpenImageIO has a callback of its own, but calls it once for 64 MB of pixels.
-/// \param work  false where it has failed
-/// \return whether it never has
+/// Calls work(begin, end) for bands of rows and checks for cancellation before each band. A band takes a few
+/// milliseconds. OpenImageIO has its own progress callback, but calls it only once per 64 MB of pixels.
+/// \param work  returns false on failure, which ends the loop
+/// \return whether all calls succeeded
 template <class Work>
 bool for_each_row_band(const Pixels& pixels, engine::CancellationCheck check_cancelled, Work&& work) {
     constexpr std::uint32_t pixels_per_band = 16384;
@@ -44,7 +44,7 @@ bool for_each_row_band(const Pixels& pixels, engine::CancellationCheck check_can
     return true;
 }
 
-/// Spreads 1 to 4 channels to RGBA.
+/// Expands 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
 void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
     const bool grey = channels < 3;
     const bool alpha = channels == 2 || channels == 4;
@@ -92,7 +92,7 @@ Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpe
                                            OIIO::TypeDesc::UINT8, rows);
         });
     const bool closed = opened && output->close();
-    // OpenImageIO 2.4 reports some failures here only.
+    // OpenImageIO 2.4 reports some failures only through geterror().
     const std::string error = output->geterror();
     if (!written || !closed || !error.empty())
         throw WriteError("image '" + name + "': cannot encode: " + error);
@@ -101,7 +101,7 @@ Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpe
 
 bool reads_webp() {
     const auto input = OIIO::ImageInput::create("webp");
-    if (!input) OIIO::geterror();  // else it is there for the next one who asks
+    if (!input) OIIO::geterror();  // clears the global error message
     return input && input->supports("ioproxy");
 }
 

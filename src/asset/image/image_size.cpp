@@ -10,10 +10,11 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t max_jpeg_pixels_per_byte = 512;  // eight blocks of 8 x 8
+constexpr std::uint64_t max_jpeg_pixels_per_byte = 512;  // one bit per block of 8 x 8 pixels
 constexpr std::uint64_t max_webp_pixels_per_byte = 4096, max_unchecked_webp_pixels = 1 << 24;
 
-/// An unsigned number of some bytes. \pre they are there
+/// An unsigned integer of `size` bytes at the position `at`.
+/// \pre at + size <= bytes.size()
 std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t size) {
     std::uint64_t value = 0;
     for (const std::uint8_t byte : bytes.subspan(at, size)) value = value << 8 | byte;
@@ -35,7 +36,7 @@ bool is_frame_header(std::uint8_t marker) {
     return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-/// Finds markers as libjpeg does: what is none between them is skipped.
+/// Size in the first frame header. Bytes between markers are skipped, as in libjpeg.
 std::optional<ImageSize> jpeg_size(Bytes bytes) {
     std::size_t at = 2;
     while (at + 9 < bytes.size()) {
@@ -52,7 +53,7 @@ std::optional<ImageSize> jpeg_size(Bytes bytes) {
     return {};
 }
 
-/// Of the chunk that has to be first (RFC 9649).
+/// Size in the first chunk, which must be VP8X, VP8L or VP8 (RFC 9649).
 std::optional<ImageSize> webp_size(Bytes bytes) {
     if (bytes.size() < 30) return {};
     const std::string_view chunk(reinterpret_cast<const char*>(bytes.data()) + 12, 4);

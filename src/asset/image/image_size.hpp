@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What an encoded image says about its size, before any decoder takes memory for it.
+/// The size that the header of an encoded image declares, read before a decoder allocates memory.
 
 #include <cstdint>
 #include <optional>
@@ -10,25 +10,29 @@
 
 namespace faqem::detail {
 
-/// Larger images are refused.
+/// Maximum width and height of an image, in pixels.
 inline constexpr std::uint64_t max_image_side = 16384;
 
+/// Width and height in pixels.
 struct ImageSize {
     std::uint64_t width = 0, height = 0;
 
-    /// \pre both below 2^32
+    /// Number of pixels.
+    /// \pre width and height are below 2^32
     std::uint64_t pixels() const { return width * height; }
 };
 
-/// The size in the header of a PNG, JPEG or WebP; nothing where there is none. O(bytes)
+/// Reads the size from the header of a PNG, JPEG or WebP; empty if there is none. O(bytes)
 FAQEM_EXPORT std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
-/// Whether so many bytes can hold so many pixels, as far as the format tells.
+/// Whether an encoded image of this length can hold this number of pixels.
 ///
-/// A JPEG has at least one bit for each block of 8 x 8 pixels (ITU-T T.81, F and G: in its first scan a block
-/// has a code). A WebP of one colour takes some 30 bytes of any size: from 4096 x 4096 pixels on, at most
-/// 4096 of one byte are believed. A PNG is looked at elsewhere, when its depth is known.
-/// \param bytes  the whole image
+/// A JPEG has at least one bit per block of 8 x 8 pixels, since every block has a code in the first scan
+/// (ITU-T T.81, annexes F and G). A WebP of a single colour takes about 30 bytes at any size; therefore
+/// images above 4096 x 4096 pixels are limited to 4096 pixels per byte. PNG images are always accepted here;
+/// they are checked when their bit depth is known.
+/// \param bytes  the whole encoded image
+/// \param size   the size in its header
 bool is_plausible_size(std::span<const std::uint8_t> bytes, const ImageSize& size);
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers to text, independent of the locale.
+/// Locale-independent conversion of numbers to text.
 
 #include <array>
 #include <charconv>
@@ -9,7 +9,7 @@
 
 namespace faqem::detail {
 
-/// Appends the shortest text that reads back as the same value of its type.
+/// Appends the shortest decimal text that reads back as the same value of type T.
 template <class T>
 void append_number(std::string& text, T value) {
     std::array<char, 32> digits;
@@ -17,8 +17,8 @@ void append_number(std::string& text, T value) {
     text.append(digits.data(), result.ptr);
 }
 
-/// Rounded to six decimals. A display value made from a linear float comes back the same after another round
-/// trip, which the last bits of a float would not.
+/// Rounds to six decimals. An sRGB value computed from a linear float is then stable under repeated
+/// conversion; the last bits of a float would not be.
 inline double round_to_six_decimals(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace faqem::detail

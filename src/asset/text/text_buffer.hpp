@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A large text, written piece by piece.
+/// A growing buffer for writing large text files.
 
 #include <charconv>
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace faqem::detail {
 
-/// Numbers are written in place, and the block grows where it lies if the system can do that: as a
-/// std::string half of the time of writing a large OBJ file went into copies.
-/// \throws std::bad_alloc
+/// A text buffer that is appended to. Numbers are formatted in place, and realloc() can often grow the block
+/// without copying: with std::string, copies took half of the time of writing a large OBJ file.
+/// All put functions throw std::bad_alloc if memory is exhausted.
 class TextBuffer {
 public:
     void put(char c) {
@@ -29,7 +29,8 @@ public:
         size_ += text.size();
     }
 
-    /// The shortest text that reads back as the same value of its type; not by the locale.
+    /// Appends the shortest decimal text that reads back as the same value of type T, independent of the
+    /// locale.
     template <class T>
     void put_number(T value) {
         ensure_space(longest_number);

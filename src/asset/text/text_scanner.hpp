@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One pass over a text in memory: words, numbers, lines. Numbers do not depend on the locale.
+/// Single-pass scanner for words, numbers and lines of a text in memory. Independent of the locale.
 
 #include <algorithm>
 #include <charconv>
@@ -17,15 +17,17 @@
 
 namespace faqem::detail {
 
-/// What a backslash at the end of a line means.
+/// Whether a backslash at the end of a line joins it with the next line.
 enum class Continuation { no, yes };
 
-/// Lines end with LF, CR or CRLF; a byte order mark at the start is skipped. Views returned point into the
-/// text.
+/// Scans a text. Lines end with LF, CR or CRLF; a UTF-8 byte order mark at the start is skipped. The text is
+/// borrowed, and the returned views point into it.
 class TextScanner {
 public:
-    /// \param file   for messages: `file: line 17: ...`
-    /// \param lines  lines before the text
+    /// \param text          borrowed
+    /// \param file          path for error messages: `file: line 17: ...`
+    /// \param continuation  whether backslashes join lines
+    /// \param lines         number of lines before the text, for error messages
     TextScanner(std::span<const std::uint8_t> text, std::string file, Continuation continuation,
                 std::uint64_t lines = 0)
         : at_(reinterpret_cast<const char*>(text.data())),
@@ -37,17 +39,18 @@ public:
     }
 
     const std::string& file() const { return file_; }
-    /// Number of the current line, from 1.
+    /// Number of the current line, starting at 1.
     std::uint64_t line() const { return line_; }
     bool at_end() const { return at_ == end_; }
-    /// Everything not read yet.
+    /// The text that has not been read yet.
     std::string_view remaining() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
+    /// \throws InputError  always, with the file and the current line
     [[noreturn]] void fail(const std::string& what) const {
         throw InputError(file_, "line " + std::to_string(line_), what);
     }
 
-    /// Skips blanks and a comment (from `#` on); true when nothing else is left on the line.
+    /// Skips blanks and a comment that starts with `#`. Returns whether the end of the line is reached.
     bool at_line_end() {
         skip_blanks();
         if (at_ != end_ && *at_ == '#')
@@ -55,21 +58,21 @@ public:
         return at_ == end_ || is_newline(*at_);
     }
 
-    /// Goes to the start of the next line, whatever is left on this one.
+    /// Advances to the start of the next line and ignores the rest of the current one.
     void next_line() {
         while (at_ != end_ && !is_newline(*at_))
             if (!skip_continuation()) ++at_;
         if (at_ != end_) skip_newline();
     }
 
-    /// Goes to the start of the next line.
-    /// \throws InputError  when something but a comment is left on this one
+    /// Advances to the start of the next line.
+    /// \throws InputError  if the rest of the current line is neither blank nor a comment
     void finish_line() {
         if (!at_line_end()) fail("unexpected " + quoted(word()));
         if (at_ != end_) skip_newline();
     }
 
-    /// Goes to the next line that holds anything but a comment; false at the end of the text.
+    /// Advances to the next line that is neither blank nor a comment. Returns false at the end of the text.
     bool skip_to_content() {
         while (at_line_end()) {
             if (at_ == end_) return false;
@@ -78,7 +81,7 @@ public:
         return true;
     }
 
-    /// The next word of this line, empty when there is none. `#` has no meaning here.
+    /// Reads the next word of this line; empty if there is none. `#` does not start a comment here.
     std::string_view word() {
         skip_blanks();
         const char* first = at_;
@@ -86,7 +89,7 @@ public:
         return {first, static_cast<std::size_t>(at_ - first)};
     }
 
-    /// Takes the next word if it is `expected`.
+    /// Reads the next word if it equals `expected`. Returns whether it did.
     bool accept_word(std::string_view expected) {
         skip_blanks();
         if (remaining().substr(0, expected.size()) != expected || !ends_word(at_ + expected.size()))
@@ -95,7 +98,8 @@ public:
         return true;
     }
 
-    /// The rest of the line without the blanks around it: a name, which may hold blanks and `#`.
+    /// Reads the rest of the line and trims blanks at both ends. Used for names, which may contain blanks and
+    /// `#`.
     std::string rest_of_line() {
         std::string text;
         skip_blanks();
@@ -109,8 +113,10 @@ public:
         return text;
     }
 
-    /// The next word as a number of type T (an integer or floating-point type), which it must be to its last
-    /// character. Infinities and NaN are numbers, also as old C libraries print them (`1.#QNAN`).
+    /// Reads the next word as a number. The whole word must be a number. Infinities and NaN are accepted,
+    /// also in the spelling of old C libraries (`1.#QNAN`).
+    /// \tparam T  an integer or floating-point type
+    /// \throws InputError  if there is no word or it is not a number of type T
     template <class T>
     T number() {
         skip_blanks();
@@ -125,14 +131,15 @@ public:
         return unusual_number<T>(first);
     }
 
-    /// The next character if it is `c`, without skipping blanks.
+    /// Reads the next character if it is `c`. Blanks are not skipped.
     bool accept(char c) {
         if (at_ == end_ || *at_ != c) return false;
         ++at_;
         return true;
     }
 
-    /// An integer here, followed by anything; no blanks are skipped. False when there is none.
+    /// Reads an integer at the current position; it may be followed by any character. Blanks are not skipped.
+    /// Returns false if there is no integer.
     bool accept_integer(std::int64_t& value) {
         const char* first = at_ != end_ && *at_ == '+' && at_ + 1 != end_ && at_[1] != '-' ? at_ + 1 : at_;
         const auto [last, error] = std::from_chars(first, end_, value);
@@ -141,10 +148,10 @@ public:
         return true;
     }
 
-    /// True when a blank, the end of the line or the end of the text comes next.
+    /// Whether the next character is a blank or the end of the line or text.
     bool at_word_end() const { return ends_word(at_); }
 
-    /// A word in quotes for a message, shortened and without control characters.
+    /// Quotes a word for an error message: at most 40 characters, control characters replaced.
     static std::string quoted(std::string_view word) {
         std::string text = "'";
         for (const char c : word.substr(0, 40))
@@ -187,15 +194,16 @@ private:
     template <class T>
     T unusual_number(const char* first) {
         const std::string_view text = word();
-        if (text.empty()) fail("a number is missing");
+        if (text.empty()) fail("expected a number");
         if constexpr (std::is_floating_point_v<T>) {
             const std::size_t hash = text.find(".#");
             if (hash != std::string_view::npos && hash + 2 < text.size())
                 return text[hash + 2] == 'I' && text.substr(hash + 3, 2) == "NF"
                            ? std::numeric_limits<T>::infinity()
                            : std::numeric_limits<T>::quiet_NaN();
-            // Too large or too small for T: infinity or zero, as the nearest value would be. On a copy with a
-            // zero at its end, which the long double overload of libstdc++ 12 needs: it reads on past `last`.
+            // Values out of the range of T become infinity or zero, which is the nearest value. The text is
+            // copied because from_chars() for long double in libstdc++ 12 reads past `last` and needs the
+            // terminating zero of std::string.
             const std::string copy(first, text.data() + text.size());
             long double wide = 0;
             const auto [last, error] = std::from_chars(copy.data(), copy.data() + copy.size(), wide);
@@ -206,7 +214,8 @@ private:
                                             static_cast<T>(wide < 0 ? -1 : 1));
             }
         }
-        fail(quoted(text) + " is not a number" + (std::is_integral_v<T> ? " this place can hold" : ""));
+        fail(quoted(text) + " is not a number" +
+             (std::is_integral_v<T> ? " of the expected integer type" : ""));
     }
 
     const char* at_;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers for different values, in the order in which they come first.
+/// Numbering of distinct values in the order of their first occurrence.
 
 #include <algorithm>
 #include <array>
@@ -14,12 +14,14 @@
 
 namespace faqem::detail {
 
-/// A hash table with open addressing, whose results do not depend on the hash. Values are equal when their
-/// bits are. \tparam Value  std::array of numbers of 4 or 8 bytes
+/// Assigns consecutive indices to distinct values with an open-addressing hash table. The indices do not
+/// depend on the hash function. Values are compared bitwise: 0 and -0 differ.
+/// \tparam Value  std::array of numbers of 4 or 8 bytes
 template <class Value>
 class UniqueValues {
 public:
-    /// The number of a value, new or old. The caller sees to it that there are fewer than no_index.
+    /// Returns the index of a value and adds the value if it is new. Amortised O(1).
+    /// \pre fewer than no_index distinct values
     Index insert(const Value& value) {
         if (2 * (values_.size() + 1) > table_.size()) resize(table_.empty() ? 1024 : 2 * table_.size());
         const std::uint64_t h = hash(value);
@@ -34,7 +36,7 @@ public:
         return table_[slot].index;
     }
 
-    /// Makes room for this many values.
+    /// Allocates memory for `count` values.
     void reserve(std::size_t count) {
         values_.reserve(count);
         if (2 * count > table_.size()) resize(std::bit_ceil(std::max<std::size_t>(2 * count, 1024)));
@@ -70,8 +72,7 @@ private:
 
     struct Slot {
         Index index = no_index;
-        std::uint32_t tag =
-            0;  ///< the hash's upper half: other values are told apart without looking at them
+        std::uint32_t tag = 0;  ///< upper half of the hash; most comparisons of unequal values stop here
     };
 
     std::vector<Value> values_;

@@ -15,15 +15,15 @@ using engine::Vector3;
 
 constexpr double max_distance = 1.5;  // texels
 
-// An edge of the outline, on the page and on the surface.
+// A boundary edge of the chart, on the page and on the surface.
 struct BoundaryEdge {
     ChartPoint a, b;  // texels
     Vector3 surface_a, surface_b;
-    double density;  // texels per length
+    double density;  // texels per unit of length
 
     ChartPoint page_point(double at) const { return a + at * (b - a); }
     Vector3 surface_point(double at) const { return surface_a + at * (surface_b - surface_a); }
-    // Of the closest point to p, 0 at a and 1 at b.
+    // Parameter of the point closest to p: 0 at a, 1 at b.
     double closest(const ChartPoint& p) const {
         const double length = std::norm(b - a);
         return length > 0 ? std::clamp((std::conj(b - a) * (p - a)).real() / length, 0.0, 1.0) : 0;
@@ -48,8 +48,8 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const C
     return edges;
 }
 
-// Whether places on one side are about as far from another one as it looks: the ends, and the place from where
-// on they are out of reach.
+// Whether points of s are about as far from t on the surface as on the page. Tests the ends of s and, if only
+// one of them is closer to t than max_distance, the point in between where the distance reaches max_distance.
 bool has_clearance(const BoundaryEdge& s, const BoundaryEdge& t) {
     const auto distance = [&](double at) {
         const ChartPoint p = s.page_point(at);

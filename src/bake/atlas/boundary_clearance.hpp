@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether a chart's outline comes close to itself.
+/// Whether a chart's boundary comes close to itself on the page but not on the surface.
 
 #include <cstdint>
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace faqem::detail {
 
-/// Whether places of the outline that are less than 1.5 texels from each other on the page are about as near
-/// on the surface: half as far again, and half a texel, at most. Across a slit that is narrower than its wedge
-/// on the surface, viewers would mix texels of both sides.
-/// \param all   of the page
-/// \param work  as in apart()
-/// \return false too if the work is used up before it is known
-/// \throws what the poll throws
-/// Expected O(n).
+/// Whether points of the boundary that are less than 1.5 texels apart on the page are about as close on the
+/// surface: at most 1.5 times as far, plus half a texel. Across a slit that is narrower on the page than on
+/// the surface, texture filtering would mix the texels of both sides.
+/// \param all    all faces of the page
+/// \param chart  without flipped or overlapping triangles
+/// \param work   as in have_disjoint_interiors()
+/// \return false also if `work` is used up before the result is known
+/// Complexity: O(n) expected.
+/// \throws whatever `check_cancelled` throws
 bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
                             engine::CancellationCheck check_cancelled = {});
 

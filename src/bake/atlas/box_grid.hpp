@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which boxes in the plane meet.
+/// Broad phase for intersection tests in the plane: pairs of boxes that share a cell of a grid.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,23 +13,28 @@
 
 namespace faqem::detail {
 
+/// Axis-aligned bounding box in the plane.
 struct Box2 {
     double low_x, low_y, high_x, high_y;
 
     double size() const { return std::max(high_x - low_x, high_y - low_y); }
 };
 
-/// A grid of about as many cells as boxes, and which boxes are in which cell.
+/// A uniform grid with about as many cells as boxes, and the boxes that overlap each cell.
 class BoxGrid {
 public:
-    /// \param work  entries to make at most; lowered by those made
-    /// \return none if the work is used up, or a box is not finite
+    /// Builds the grid.
+    /// \param boxes  at least one
+    /// \param work   maximum number of entries; decreased by the number made
+    /// \return nothing if `work` is used up or a box is not finite
     static std::optional<BoxGrid> build(std::span<const Box2> boxes, std::uint64_t& work);
 
-    /// Calls test(a, b) once for each two boxes that share a cell, until it says no. Expected O(n).
-    /// \param work  pairs to look at at most; lowered by those
-    /// \return whether it always said yes; false too if the work is used up before
-    /// \throws what the poll throws
+    /// Calls test(a, b) once for every pair of boxes that share a cell, until it returns false.
+    /// \param boxes  those that the grid was built from
+    /// \param work   maximum number of pairs visited; decreased by the number visited
+    /// \return whether `test` always returned true; false also if `work` is used up before
+    /// Complexity: O(n) expected.
+    /// \throws whatever `check_cancelled` throws
     template <class Test>
     bool all_pairs(std::span<const Box2> boxes, std::uint64_t& work,
                    engine::CancellationCheck check_cancelled, const Test& test) const {
@@ -42,7 +47,7 @@ public:
                     if (work == 0) return false;
                     --work;
                     const Box2& b = boxes[members_[j]];
-                    // Once per pair: in the first cell that both are in.
+                    // A pair is tested once, in the first cell that both boxes overlap.
                     if (cell_at(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)) != cell) continue;
                     if (!test(members_[i], members_[j])) return false;
                 }
@@ -74,8 +79,8 @@ private:
 
     double low_x_, low_y_, scale_;
     std::size_t columns_, rows_;
-    std::vector<std::uint64_t> begin_;  ///< by cell, one more: into members_
-    std::vector<Index> members_;
+    std::vector<std::uint64_t> begin_;  ///< by cell: offset of its boxes in members_; one more at the end
+    std::vector<Index> members_;        ///< indices of boxes, cell by cell
 };
 
 }  // namespace faqem::detail

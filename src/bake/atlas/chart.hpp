@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the chart atlas must know of a triangle, and a chart.
+/// Input triangles of the chart atlas, and the charts that are made from them.
 
 #include <array>
 #include <complex>
@@ -12,33 +12,35 @@
 
 namespace faqem::detail {
 
-/// A triangle that wants a place in a chart.
+/// A triangle to be placed in a chart.
 struct ChartFace {
     std::array<Vec3, 3> corners = {};
-    double density = 1;                             ///< wanted texels per length, > 0
-    std::array<AdjacentTriangle, 3> adjacent = {};  ///< by corner opposite the edge; mutual, wound alike
-    /// By edge: vertices are split along it in any case, so nothing is won by laying it inside a chart.
+    double density = 1;  ///< wanted texels per unit of length, > 0
+    /// By corner opposite the edge. Symmetric: neighbours name each other. Their winding is consistent.
+    std::array<AdjacentTriangle, 3> adjacent = {};
+    /// By corner opposite the edge: the vertices are split along the edge in any case, so there is no benefit
+    /// in keeping it inside a chart.
     std::array<bool, 3> crease = {};
 };
 
-/// A point of a chart: x right, y up, in wanted texels.
+/// A point in the plane of a chart, in texels at the wanted density: x to the right, y up.
 using ChartPoint = std::complex<double>;
 
-/// Faces that lie in one piece on the page. Every triangle turns counter-clockwise there, none lies on
-/// another.
+/// A connected set of faces with an injective map to the plane. All triangles are counter-clockwise.
 struct Chart {
     std::vector<Index> faces;                       ///< ascending
-    std::vector<std::array<ChartPoint, 3>> points;  ///< by face, its three corners
-    /// Mean over the area of (s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / 4, s1 and s2 the stretches of a face when the
-    /// chart has the area that is wanted. 1: none. Symmetric Dirichlet energy (Smith and Schaefer 2015).
+    std::vector<std::array<ChartPoint, 3>> points;  ///< by face: its three corners
+    /// Area-weighted mean over the faces of (s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / 4, where s1 and s2 are the
+    /// singular values of the face's map when the chart has the wanted area. 1 means no distortion.
+    /// Symmetric Dirichlet energy (Smith and Schaefer 2015).
     double stretch = 1;
-    double texels = 0;  ///< wanted: sum of area times density squared
+    double texels = 0;  ///< wanted number of texels: sum of area times density squared
 };
 
-/// Of a face: its area times its density squared.
+/// Wanted number of texels of a face: its area times its density squared.
 double wanted_texels(const ChartFace& face);
 
-/// Twice the signed area.
+/// Twice the signed area of the triangle (a, b, c); positive if it is counter-clockwise.
 inline double twice_signed_area(const ChartPoint& a, const ChartPoint& b, const ChartPoint& c) {
     return (std::conj(b - a) * (c - a)).imag();
 }

@@ -16,7 +16,7 @@ namespace faqem::detail {
 namespace {
 
 constexpr double max_stretch = 1.06;
-// In flattenings of every face.
+// Work limits, in flattenings of every face of the region or page.
 constexpr std::uint64_t work_per_region = 24, work_for_merging = 32;
 
 double bounding_box_diagonal(const Chart& chart) {
@@ -38,7 +38,7 @@ bool is_acceptable(const Parametrization& parametrization, double max_diagonal) 
            bounding_box_diagonal(parametrization.chart) <= max_diagonal;
 }
 
-// One region's charts.
+// Divides one region into charts.
 Charts parametrize_region(std::span<const ChartFace> all, const std::vector<Index>& region,
                           double max_diagonal, CancellationCheck check_cancelled) {
     Charts result;
@@ -73,7 +73,8 @@ Charts parametrize_region(std::span<const ChartFace> all, const std::vector<Inde
     return result;
 }
 
-// Joins charts, those first that share most of the smaller one's outline.
+// Merges neighbouring charts. Pairs come in descending order of the shared boundary length divided by the
+// smaller perimeter.
 class ChartMerging {
 public:
     ChartMerging(std::span<const ChartFace> all, std::vector<Chart> charts, double max_diagonal,
@@ -111,14 +112,14 @@ private:
         double share;
         Index a, b;
 
-        bool operator<(const MergeCandidate& o) const {  // the queue's top is its largest
+        bool operator<(const MergeCandidate& o) const {  // largest share on top, ties by smallest indices
             return std::tuple(share, o.a, o.b) < std::tuple(o.share, a, b);
         }
     };
     enum class Neighbours { later, all };
     struct SpeculativeMerge {
         MergeCandidate merge;
-        std::uint64_t allowed, left;  // of the work
+        std::uint64_t allowed, left;  // work limit before and after the attempt
         Parametrization parametrization;
     };
 
@@ -127,7 +128,7 @@ private:
         return a > 0 && b > 0 && a + b <= max_faces_per_chart;
     }
 
-    // Threads lay the next joins meanwhile: most of them will be wanted as they are.
+    // Parametrizes the next candidates in parallel and ahead of time: most of these results will be used.
     Parametrization merged_parametrization(const MergeCandidate& merge, std::uint64_t& work) {
         auto found = find_speculative(merge);
         if (found == speculative_merges_.end()) {
@@ -137,7 +138,8 @@ private:
         SpeculativeMerge speculative = std::move(*found);
         speculative_merges_.erase(found);
         const std::uint64_t used = speculative.allowed - speculative.left;
-        // What met the limit of the work, or would now, is done with what is left.
+        // An attempt that reached its work limit, or used at least as much as is left now, is repeated with
+        // what is left, so that the result does not depend on the number of threads.
         if (speculative.left == 0 || used >= work)
             return parametrize_merge(merge, work, workers_.check_cancelled);
         work -= used;
@@ -222,9 +224,9 @@ private:
     std::span<const ChartFace> all_;
     std::vector<Chart> charts_;
     std::vector<Index> chart_of_face_;
-    std::vector<double> perimeters_;  // of the chart
+    std::vector<double> perimeters_;  // by chart
     std::priority_queue<MergeCandidate> queue_;
-    std::vector<SpeculativeMerge> speculative_merges_;  // joins that may come next
+    std::vector<SpeculativeMerge> speculative_merges_;  // attempts made ahead of time
     double max_diagonal_;
     Workers workers_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The charts of a page: regions laid flat, split where that fails, and joined where it does not.
+/// Chart generation: faces are segmented into regions, and the regions are parametrized, split and merged.
 
 #include <cstdint>
 #include <span>
@@ -11,21 +11,24 @@
 
 namespace faqem::detail {
 
-/// What becomes of faces.
+/// Result of make_charts().
 struct Charts {
-    std::vector<Chart> charts;  ///< by smallest face; every face is in one
-    std::uint64_t faces_over_work_limit =
-        0;  ///< faces that lie alone because the work for their region was used up
+    std::vector<Chart> charts;  ///< sorted by smallest face; every face is in exactly one chart
+    /// Faces that became charts of their own because the work limit of their region was reached.
+    std::uint64_t faces_over_work_limit = 0;
 };
 
-/// Charts with a mean stretch of `max_stretch` at most, no longer than 0.9 of the side of a square page that
-/// they would all just fill. Regions (see cluster_faces()) are laid flat; one that cannot be is split: faces
-/// that would lie on their backs leave it, or else it is cut in two. Then charts are joined over their
-/// longest common borders as long as the whole can be laid flat.
-/// Every region, and the joining, may use so much work only; what is not done then lies face by face, or
-/// stays apart. Independent of the number of threads.
-/// O(n log n) expected, and O(n) flattenings of a face at most
-/// \throws what the poll of the workers throws
+/// Divides faces into charts with a mean stretch (Chart::stretch) of at most 1.06 and a bounding box diagonal
+/// of at most 0.9 times the side of a square page that all charts together would exactly fill.
+/// The regions of cluster_faces() are parametrized. A region without an acceptable parametrization is split:
+/// flipped faces are separated from it if they are at most a quarter of its faces, otherwise it is bisected.
+/// Then neighbouring charts are merged where their union has an acceptable parametrization, those that share
+/// the largest part of a perimeter first.
+/// Every region and the merging have a work limit. When it is reached, the remaining faces of the region
+/// become charts of their own, and the remaining charts are not merged.
+/// The result does not depend on the number of threads.
+/// Complexity: O(n log n) expected, plus O(n) flattenings of a face.
+/// \throws whatever `workers.check_cancelled` throws
 Charts make_charts(std::span<const ChartFace> faces, Workers workers);
 
 }  // namespace faqem::detail

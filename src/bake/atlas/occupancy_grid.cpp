@@ -6,7 +6,7 @@
 namespace faqem::detail {
 namespace {
 
-// row = row & (row >> by), bits beyond the end are 0.
+// row &= row >> by, where bits beyond the end are 0.
 void and_with_shifted(std::vector<std::uint64_t>& row, std::uint32_t by) {
     const std::size_t words = by / 64, bits = by % 64;
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -59,7 +59,7 @@ std::vector<OccupancyGrid::Run> OccupancyGrid::runs_of(const BlockMask& mask) {
             result.push_back({y, begin, x - begin});
         }
     }
-    // What needs most room shows soonest that there is none.
+    // Longest runs first: they are the least likely to fit, so that the search ends early.
     std::stable_sort(result.begin(), result.end(),
                      [](const Run& a, const Run& b) { return a.length > b.length; });
     return result;
@@ -83,7 +83,8 @@ void OccupancyGrid::update_longest_run(std::uint32_t y) {
     longest_free_run_[y] = longest;
 }
 
-// Bit x of `candidates`: the mask fits with its first column there. False if it fits nowhere.
+// Sets bit x of `candidates` if the mask fits at row y with its first column at x. Returns false if it fits
+// nowhere in this row.
 bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y, Row& candidates,
                                       Row& scratch) const {
     for (const Run& run : runs) {
@@ -92,7 +93,7 @@ bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y
     candidates.assign(free_[0].size(), ~std::uint64_t{0});
     for (const Run& run : runs) {
         scratch = free_[y + run.row];
-        // Bit x: `known` blocks from x on are free.
+        // Bit x of `scratch`: the `known` blocks from x on are free.
         for (std::uint32_t known = 1; known < run.length;) {
             const std::uint32_t more = std::min(known, run.length - known);
             and_with_shifted(scratch, more);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Free and taken blocks of a page.
+/// Free and occupied blocks of a page.
 
 #include <cstdint>
 #include <optional>
@@ -11,37 +11,41 @@
 
 namespace faqem::detail {
 
-/// The blocks that a chart needs, row by row.
+/// The blocks that a chart occupies.
 struct BlockMask {
     std::uint32_t columns = 1, rows = 1;
-    std::vector<std::uint8_t> blocks = {1};
+    std::vector<std::uint8_t> blocks = {1};  ///< row by row: nonzero for occupied blocks
 
     bool operator()(std::uint32_t x, std::uint32_t y) const {
         return blocks[std::size_t{y} * columns + x] != 0;
     }
-    /// By a quarter: what was right is down then.
+    /// Rotated 90 degrees clockwise.
     BlockMask rotated() const;
 };
 
-/// A rectangle of blocks, one bit each.
+/// A rectangular bitmap of free blocks.
 class OccupancyGrid {
 public:
     OccupancyGrid(std::uint32_t columns, std::uint32_t rows);
 
-    /// Every block becomes four.
+    /// Halves the size of blocks: every block becomes four.
     void refine();
 
     struct BlockPosition {
         std::uint32_t x, y;
     };
-    /// The first place, by row and then by column, where all of the mask's blocks are free.
-    /// \param from, end  range of rows for the mask's first one
-    /// \param step  only every step-th of them
-    /// \throws what the poll throws
+    /// The first position, by row and then by column, at which all blocks of the mask are free.
+    /// \param mask  blocks to be occupied
+    /// \param from  first row to be tried for the mask's first row
+    /// \param end   end (exclusive) of these rows
+    /// \param step  only every step-th row is tried
+    /// \return nothing if the mask does not fit
+    /// \throws whatever `check_cancelled` throws
     std::optional<BlockPosition> find_free(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
                                            std::uint32_t step,
                                            engine::CancellationCheck check_cancelled = {}) const;
 
+    /// Marks the blocks of the mask as occupied.
     void occupy(const BlockMask& mask, BlockPosition position);
 
 private:
@@ -55,7 +59,7 @@ private:
 
     std::uint32_t columns_, rows_;
     std::vector<Row> free_;
-    std::vector<std::uint32_t> longest_free_run_;  // free stretch of every row
+    std::vector<std::uint32_t> longest_free_run_;  // by row, for early rejection
 };
 
 }  // namespace faqem::detail

@@ -11,21 +11,22 @@ namespace faqem::detail {
 namespace {
 
 constexpr std::uint32_t max_block_size = 16;
-// Grains are at most that share of a chart's size, the root of its texels.
+// Largest block size relative to a chart's size, which is the square root of its texels.
 constexpr double max_block_size_ratio = 1.0 / 8;
 
-// So many of the largest charts are tried in all holes.
+// For this many of the largest charts all rows are searched, so that they can fill any hole.
 constexpr std::size_t exhaustively_searched_charts = 256;
 
 using FlatTriangle = std::array<ChartPoint, 3>;
 
-// Turned so that its box is least and lies on its longer side; its low corner is the origin.
+// A chart rotated so that its bounding box has minimum area and is wider than high. The box begins at the
+// origin.
 struct OrientedChart {
     std::vector<FlatTriangle> points;
     double width = 0, height = 0, area = 0;
 };
 
-// Andrew's monotone chain, counter-clockwise.
+// Convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<ChartPoint> convex_hull(const Chart& chart, engine::CancellationCheck check_cancelled) {
     std::vector<ChartPoint> points;
     for (const FlatTriangle& t : chart.points) points.insert(points.end(), t.begin(), t.end());
@@ -62,7 +63,7 @@ struct Bounds {
     double height() const { return high_y - low_y; }
 };
 
-// Of numbers beyond this a product is none any more.
+// Products of larger numbers could overflow.
 constexpr double max_coordinate = 1e100;
 
 bool has_valid_coordinates(const Chart& chart) {
@@ -102,26 +103,26 @@ OrientedChart orient(const Chart& chart, engine::CancellationCheck check_cancell
     return shape;
 }
 
-// A chart at some scale on some page.
+// The blocks of a chart at a given scale and page size.
 struct ChartRaster {
     double scale_x = 1, scale_y = 1;
     std::uint32_t block_size = 1;
     bool is_single_texel = true;
     BlockMask mask;
 
-    // Corner in texels from the mask's top left: v down, half a block inside.
+    // Position of a corner in texels from the top left of the mask: v down, inset by half a block.
     ChartPoint texel_point(const ChartPoint& p) const {
         return {block_size / 2.0 + p.real() * scale_x,
                 mask.rows * double(block_size) - block_size / 2.0 - p.imag() * scale_y};
     }
 };
 
-// Whether the inside of a triangle meets that of a square around (x, y).
+// Whether the interior of a triangle intersects that of the square with centre (x, y) and half side `half`.
 bool overlaps_square(const FlatTriangle& t, double x, double y, double half) {
     const double slack = 1e-9 * half;
     for (std::size_t i = 0; i < 3; ++i) {
         const ChartPoint a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
-        // The side of ab away from c.
+        // There is no overlap if the square is on the outer side of edge ab.
         const ChartPoint d = b - a;
         const double sign = twice_signed_area(a, b, c) > 0 ? 1 : -1;
         const double centre = sign * (std::conj(d) * (ChartPoint(x, y) - a)).imag();
@@ -169,8 +170,8 @@ ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t wi
            2 * raster.block_size <= max_block_size_ratio * size)
         raster.block_size *= 2;
     const auto squeezed = [&](double length, std::uint32_t page) {
-        const double room = page - double(raster.block_size);
-        return length * scale > room ? room / length : scale;
+        const double available = page - double(raster.block_size);
+        return length * scale > available ? available / length : scale;
     };
     raster.scale_x = squeezed(shape.width, width);
     raster.scale_y = squeezed(shape.height, height);
@@ -183,17 +184,17 @@ ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t wi
     return raster;
 }
 
-// Four to the octave.
+// Size classes, four per octave.
 std::uint32_t size_class(std::uint32_t blocks) {
     return static_cast<std::uint32_t>(std::lround(4 * std::log2(double(blocks))));
 }
 
 struct ChartPlacement {
     OccupancyGrid::BlockPosition position = {0, 0};
-    std::uint32_t quarter_turns = 0;  // quarters
+    std::uint32_t quarter_turns = 0;  // clockwise
 };
 
-// One attempt at a scale and a page.
+// An attempt to pack all charts at a given scale on a page of a given size.
 class ChartPacking {
 public:
     ChartPacking(std::span<const OrientedChart> shapes, double scale, std::uint32_t width,
@@ -227,7 +228,8 @@ public:
         std::uint32_t block_size = std::min({max_block_size, width_, height_});
         OccupancyGrid grid(width_ / block_size, height_ / block_size);
         placements_.assign(rasters_.size(), {});
-        // Where the last one of that size went: before it there is no room for the next one but for holes.
+        // By block size and size class: the row of the last chart. The search for the next chart of the class
+        // starts there, since above it only holes are free.
         std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> first_row;
         for (std::size_t number = 0; number < order.size(); ++number) {
             const std::size_t i = order[number];
@@ -236,7 +238,7 @@ public:
             std::uint32_t best_end = height_ / block_size + 1;
             BlockMask mask = rasters_[i].mask, best_mask;
             const std::size_t blocks = mask.blocks.size();
-            // Few blocks look alike after half a turn, and where one did not fit another one won't.
+            // Masks of few blocks hardly change with a rotation by 180 degrees; a single block needs none.
             const std::uint32_t quarter_turns = blocks > 16 ? 4 : blocks > 1 ? 2 : 1;
             for (std::uint32_t t = 0; t < quarter_turns; ++t, mask = mask.rotated()) {
                 if (mask.rows >= best_end) continue;
@@ -271,7 +273,7 @@ private:
     std::vector<ChartPlacement> placements_;
 };
 
-// On the page, after the chart's turns. All of them keep the sense of rotation.
+// Position on the page of a point of the mask, after the chart's rotation. Rotations preserve orientation.
 ChartPoint page_point(const ChartRaster& raster, const ChartPlacement& placement, const ChartPoint& p) {
     const double width = double(raster.mask.columns) * raster.block_size,
                  height = double(raster.mask.rows) * raster.block_size;
@@ -345,7 +347,7 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     }
     if (charts.size() > std::size_t{width} * height) return std::nullopt;
     double low = fits ? 1 : 0, high = fits ? std::sqrt(2.0) : 1;
-    // Most pages end up about half full: the search begins there and goes on in small steps.
+    // Most pages end up about half full, so the search starts there and proceeds in small steps.
     double next = std::sqrt(0.55 * double(width) * height / area);
     while (high - low > 0.01 * high && high > 1e-6) {
         if (!(next > low && next < high)) next = (low + high) / 2;

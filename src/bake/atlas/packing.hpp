@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Charts on a page: masks of blocks, packed without overlap.
+/// Packing of charts on a page, as masks of blocks without overlap.
 
 #include <cstdint>
 #include <optional>
@@ -13,17 +13,17 @@
 
 namespace faqem::detail {
 
-/// A chart on its page, and the texels that are its own. In blocks of block_size x block_size texels, so that mip level
-/// log2(block_size) has texels of one chart only.
+/// A chart on its page, and the texels that belong to it. These are given in blocks of block_size x
+/// block_size texels, so that every texel of mip level log2(block_size) belongs to one chart only.
 struct AtlasChart {
     std::uint32_t x = 0, y = 0;              ///< of the first block, in texels; multiples of `block_size`
-    std::uint32_t block_size = 1;            ///< a power of two
-    std::uint32_t columns = 1, rows = 1;     ///< blocks
-    std::vector<std::uint8_t> blocks = {1};  ///< row by row: nonzero where they are the chart's
+    std::uint32_t block_size = 1;            ///< texels, a power of two
+    std::uint32_t columns = 1, rows = 1;     ///< size in blocks
+    std::vector<std::uint8_t> blocks = {1};  ///< row by row: nonzero for blocks that belong to the chart
     std::vector<Index> triangles;            ///< ascending
-    bool is_single_texel = false;            ///< all of it is one texel
+    bool is_single_texel = false;            ///< the whole chart is one texel
 
-    /// Whether a texel inside the blocks' rectangle is the chart's.
+    /// Whether a texel inside the rectangle of blocks belongs to the chart.
     bool owns(std::uint32_t texel_x, std::uint32_t texel_y) const {
         return blocks[std::size_t{(texel_y - y) / block_size} * columns + (texel_x - x) / block_size] != 0;
     }
@@ -31,20 +31,23 @@ struct AtlasChart {
 
 /// A page of charts.
 struct ChartPage {
-    Atlas atlas;  ///< no cells
+    Atlas atlas;  ///< without cells
     std::vector<AtlasChart> charts;
 };
 
-/// Places every chart, turned so that its box is least, on the smallest page that holds the wanted sizes;
-/// then takes the largest scale that fits that page (to a hundredth), at most sqrt 2. If the largest page is
-/// too small everything is scaled down. A chart longer than the page is squeezed along; one with places that
-/// are not finite, or beyond 1e100, becomes one texel. A chart owns the blocks that a bilinear read inside it
-/// touches on the mip level where blocks are texels; the larger the chart, the larger its blocks, 16 at most.
-/// Large blocks come first; each chart goes to the lowest free place in one of four turns.
-/// \param faces  of all charts together
-/// \param max_size  largest width and height, a power of two
+/// Places all charts on the smallest page on which they fit at the wanted sizes, and then takes the largest
+/// scale that fits on this page (with an accuracy of 1%), at most sqrt(2). If the largest page is too small,
+/// the scale is below 1.
+/// Charts are rotated so that their bounding boxes have minimum area. A chart longer than the page is
+/// compressed along this axis; one with coordinates that are not finite or beyond 1e100 becomes one texel.
+/// A chart owns the blocks that a bilinear read inside it touches on the mip level whose texels are blocks.
+/// Larger charts have larger blocks, up to 16 texels. Charts are placed in descending order of block size,
+/// each in the first free row, in one of up to four rotations.
+/// \param charts    all charts of the page
+/// \param faces     number of faces of all charts together
+/// \param max_size  largest width and height in texels, a power of two
 /// \return nothing if there are more charts than texels
-/// \throws what the poll throws
+/// \throws whatever `check_cancelled` throws
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
                                      engine::CancellationCheck check_cancelled = {});
 

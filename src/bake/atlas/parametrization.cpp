@@ -22,14 +22,16 @@ using HermitianMatrix = Eigen::SparseMatrix<ComplexPoint>;
 constexpr double min_height_ratio = 1e-3;
 constexpr int max_iterations = 10;
 
-// A face by itself in the plane: corner 0 at the origin, corner 1 to the right, corner 2 above.
+// A face mapped isometrically to the plane: corner 0 at the origin, corner 1 on the positive x axis, corner 2
+// above it.
 struct LocalTriangle {
     std::array<ComplexPoint, 3> at;
-    double area = 0;  // the true one, not that of `at`
+    double area = 0;  // of the input face; `at` may have a larger height, see min_height_ratio
 
-    ComplexPoint edge(std::size_t k) const { return at[(k + 2) % 3] - at[(k + 1) % 3]; }  // opposite k
+    // The edge opposite corner k.
+    ComplexPoint edge(std::size_t k) const { return at[(k + 2) % 3] - at[(k + 1) % 3]; }
     double twice_area() const { return twice_signed_area(at[0], at[1], at[2]); }
-    // Half the cotangent of the angle at k.
+    // Half the cotangent of the angle at corner k.
     double half_cotangent(std::size_t k) const {
         const ComplexPoint a = at[(k + 1) % 3] - at[k], b = at[(k + 2) % 3] - at[k];
         return (std::conj(a) * b).real() / twice_area() / 2;
@@ -60,7 +62,7 @@ LocalTriangle local_triangle(const ChartFace& face) {
     return result;
 }
 
-// The faces as a mesh of their own: corners are one vertex if they meet over shared edges.
+// The faces of one chart as an indexed mesh. Corners are the same vertex if shared edges connect them.
 class ChartMesh {
 public:
     ChartMesh(std::span<const ChartFace> all, std::vector<Index> faces)
@@ -110,7 +112,7 @@ public:
         return {z[vertex(i, 0)], z[vertex(i, 1)], z[vertex(i, 2)]};
     }
 
-    // Along the mean normal. Faces have their own densities, so vertices take a mean.
+    // Projection along the mean normal. Densities differ by face, so all vertices are scaled by their mean.
     std::vector<ComplexPoint> planar_projection() const {
         Vector3 normal = Vector3::Zero();
         double weight = 0, density = 0;
@@ -158,7 +160,7 @@ std::vector<Index> flipped_faces_of(ChartMesh& chart_mesh, const std::vector<Com
     return result;
 }
 
-// Flat over wanted area.
+// Area of the flattened faces divided by the wanted area.
 double area_ratio(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z) {
     double twice = 0;
     for (std::size_t i = 0; i < chart_mesh.size(); ++i) {
@@ -175,7 +177,7 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
     for (std::size_t i = 0; i < chart_mesh.size(); ++i) {
         const LocalTriangle& local = chart_mesh.local(i);
         const auto t = chart_mesh.triangle(z, i);
-        // u = a x + b conj(x): stretches |a| + |b| and |a| - |b|.
+        // The face's map is u = a x + b conj(x), with the singular values |a| + |b| and |a| - |b|.
         const ComplexPoint e = local.at[1] - local.at[0], f = local.at[2] - local.at[0];
         const ComplexPoint u = t[1] - t[0], v = t[2] - t[0], det = {0, -2 * local.twice_area()};
         const double a = std::abs((u * std::conj(f) - v * std::conj(e)) / det);
@@ -187,7 +189,8 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
     return std::isfinite(result) ? result : HUGE_VAL;
 }
 
-// The two vertices that are farthest along the axis along which the faces are longest.
+// The two vertices with the smallest and the largest coordinate along the longest axis of the bounding box,
+// each with this coordinate in texels.
 std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_mesh,
                                                         std::span<const ChartFace> all,
                                                         const std::vector<Index>& faces) {
@@ -211,7 +214,7 @@ std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_m
     return result;
 }
 
-// Least squares conformal map; empty if the system has no solution. Two vertices are held.
+// Least squares conformal map with two pinned vertices; empty if the linear system cannot be solved.
 std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mesh,
                                                       std::span<const ChartFace> all,
                                                       const std::vector<Index>& faces) {
@@ -250,7 +253,8 @@ std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mes
     return result;
 }
 
-// Rounds of: the best rotation of every face, then the vertices that fit them best.
+// As-rigid-as-possible parametrization. An iteration finds the best rotation of every face (local step), then
+// the vertex positions that fit these rotations best (global step).
 class ArapSolver {
 public:
     explicit ArapSolver(const ChartMesh& chart_mesh) : chart_mesh_(chart_mesh) {
@@ -265,7 +269,7 @@ public:
                 entries.emplace_back(b, a, -w);
             }
         }
-        entries.emplace_back(0, 0, 1.0);  // holds it in place
+        entries.emplace_back(0, 0, 1.0);  // pins vertex 0: the solution is unique up to a translation only
         RealMatrix matrix(chart_mesh.vertices(), chart_mesh.vertices());
         matrix.setFromTriplets(entries.begin(), entries.end());
         solver_.compute(matrix);
@@ -286,10 +290,10 @@ public:
             const double size = std::abs(rotation);
             rotation = size > 0 ? rotation / size : ComplexPoint(1);
             for (std::size_t k = 0; k < 3; ++k) {
-                const ComplexPoint pull = local.half_cotangent(k) * rotation * local.edge(k);
+                const ComplexPoint edge = local.half_cotangent(k) * rotation * local.edge(k);
                 const Index a = chart_mesh_.vertex(i, (k + 1) % 3), b = chart_mesh_.vertex(i, (k + 2) % 3);
-                right.row(b) += Eigen::RowVector2d(pull.real(), pull.imag());
-                right.row(a) -= Eigen::RowVector2d(pull.real(), pull.imag());
+                right.row(b) += Eigen::RowVector2d(edge.real(), edge.imag());
+                right.row(a) -= Eigen::RowVector2d(edge.real(), edge.imag());
             }
         }
         const Eigen::MatrixX2d solution = solver_.solve(right);
@@ -303,7 +307,7 @@ private:
     Eigen::SimplicialLDLT<RealMatrix> solver_;
 };
 
-// The area that is wanted; one face alone keeps its shape.
+// Makes a chart of the wanted area from the map `z`.
 Chart make_chart(ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z, double stretch) {
     Chart chart;
     const double ratio = area_ratio(chart_mesh, z);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From faces on a surface to flat ones.
+/// Parametrization of connected faces: a map from the surface to the plane.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,36 +12,40 @@
 
 namespace faqem::detail {
 
-/// What came of an attempt to lay faces flat.
+/// Result of parametrize().
 struct Parametrization {
     enum class Outcome {
         valid,
-        flipped,  ///< some triangles would lie on their backs: `flipped_faces`
-        /// All turn the right way, but some lie on others, or has_boundary_clearance() does not hold, or it could
-        /// not be told.
+        flipped,  ///< some triangles are flipped or degenerate: `flipped_faces`
+        /// No triangle is flipped, but some overlap or has_boundary_clearance() is false; or there is no
+        /// result because of too many faces, the work limit, or a linear system that could not be solved.
         overlapping,
     };
     Outcome outcome = Outcome::overlapping;
-    Chart chart;                       ///< of `valid` only
-    std::vector<Index> flipped_faces;  ///< faces, ascending
+    Chart chart;                       ///< set if the outcome is `valid`
+    std::vector<Index> flipped_faces;  ///< indices of faces, ascending; set if the outcome is `flipped`
 };
 
+/// Work units that one flattening costs for every face.
 inline constexpr std::uint64_t parametrization_work_per_face = 256;
 
-/// More faces are not laid flat in one piece: the time between two questions to the poll grows with them to
-/// the power 1.5, and that for so many is 25 ms.
+/// Sets of more faces are not parametrized in one piece: the time between two cancellation checks grows with
+/// the number of faces to the power 1.5, and is 25 ms for this many.
 inline constexpr std::size_t max_faces_per_chart = 8192;
 
-/// Lays connected faces flat with little stretch. Begins with the projection along their mean normal if that
-/// turns none over, else with a least squares conformal map (Lévy et al. 2002), and goes on with rounds of
-/// as-rigid-as-possible parametrisation (Liu et al. 2008), of which the best is taken. One face alone is
-/// always flat, and exact. Faces with less height than a thousandth of their longest side get that much. More
-/// than `max_faces_per_chart` are not tried: the outcome is `overlapping`.
-/// \param all    of the page
-/// \param faces  into `all`, ascending, connected over `adjacent`
-/// \param work   as in have_disjoint_interiors(); a flattening itself counts as `parametrization_work_per_face` comparisons a face
-/// \throws what the poll throws; solving a system of all vertices is one operation
-/// O(n^1.5) expected
+/// Parametrizes connected faces with low distortion.
+/// The initial map is the projection along the mean normal if it flips no triangle, otherwise a least squares
+/// conformal map (Lévy et al. 2002). It is followed by up to 10 iterations of as-rigid-as-possible
+/// parametrization (Liu et al. 2008), of which the one with the least stretch and no flipped triangle is
+/// taken. A single face is always valid and mapped isometrically. A triangle whose height is less than a
+/// thousandth of its longest edge is given that height. More than `max_faces_per_chart` faces are not tried.
+/// \param all    all faces of the page
+/// \param faces  indices into `all`, ascending, connected over ChartFace::adjacent
+/// \param work   as in have_disjoint_interiors(); the flattening itself counts as
+///               `parametrization_work_per_face` comparisons per face
+/// \throws whatever `check_cancelled` throws; there is no check while a linear system over all vertices is
+///         solved
+/// Complexity: O(n^1.5) expected.
 Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
                             engine::CancellationCheck check_cancelled = {});
 

@@ -10,35 +10,37 @@ namespace {
 
 constexpr std::uint32_t max_block_size = 16;
 
-// Size class of a cell at some scale. Legs lie along the sides of the cell, the longer one along its width.
+// Size class of a cell at a given scale. The legs are parallel to the sides of the cell, the longer one to
+// its width.
 struct CellShape {
     std::uint32_t width = 1, height = 1;
-    std::uint32_t block_size = 1;  // the cell's place and sides are multiples of it, a power of two
-    std::uint32_t margin = 0;      // texels of each side beyond the leg
+    std::uint32_t block_size = 1;  // a power of two; position and sides of the cell are multiples of it
+    std::uint32_t margin = 0;      // texels by which each side is longer than the leg
     bool is_transposed = false;    // the second leg is the longer one
-    bool is_single_texel = true;   // all of the triangle is one texel
+    bool is_single_texel = true;   // the whole triangle is one texel
 
-    // All that makes cells look the same.
+    // Equal for cells of equal layout.
     auto key() const { return std::tuple(block_size, height, width, margin, is_transposed, is_single_texel); }
     auto size() const { return std::tuple(block_size, height, width); }
 };
 
-// Mip level k is clean in cells on a grid of 2^k texels if the legs run from centre to centre of its texels:
-// those lie in one cell, half of the outermost ones outside of the legs.
-// A leg is at least a block_size long: measured, clean levels are worth more than the texels they cost.
+// Mip level k of a cell is free of other cells' texels if the cell is aligned to a grid of 2^k texels and the
+// legs run between centres of texels of this level: all of these are in the cell, with half of each outermost
+// texel outside of the legs. Legs are at least a block long: measurements show that the quality gained on
+// coarser levels is worth the texels.
 std::uint32_t block_size_for(double shorter_leg) {
     std::uint32_t block_size = 1;
     while (block_size < max_block_size && 2 * block_size <= shorter_leg) block_size *= 2;
     return block_size;
 }
 
-// Between the hypotenuses of strangers, one shifted by (m, m) against the other, m texels: 2 for bilinear
-// reads of the page itself, more to keep coarser levels cleaner.
+// The hypotenuses of two triangles that are not partners are shifted against each other by (m, m) texels.
+// m = 2 is enough for bilinear reads of level 0; larger margins reduce mixing on coarser levels.
 std::uint32_t margin_of(std::uint32_t block_size, bool has_shared_hypotenuse) {
     return block_size + (has_shared_hypotenuse ? 0 : std::max(2u, block_size));
 }
 
-// To four classes to the octave and whole grains.
+// Rounds to four size classes per octave and to a multiple of the block size.
 std::uint32_t cell_size_class(double x, std::uint32_t block_size) {
     const double octave = std::exp2(std::floor(std::log2(std::max(1.0, x))) - 2);
     const double step = std::max(octave, double(block_size));
@@ -74,8 +76,8 @@ struct Unit {
 
 double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
 
-// Places the corners of a triangle in its cell: the first, or the second, which is turned by 180 degrees.
-// On the page triangles turn clockwise in (u, v down), as unmirrored glTF textures do.
+// Places the corners of the first or the second triangle of a cell; the second is rotated by 180 degrees.
+// Triangles are clockwise on the page in (u, v) with v down, as in glTF textures that are not mirrored.
 TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, const AtlasTriangle& triangle,
                                  bool second) {
     TrianglePlacement placement;
@@ -85,7 +87,7 @@ TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, 
     }
     const std::uint32_t along = shape.width - shape.margin, up = shape.height - shape.margin;
     const double inset = shape.block_size / 2.0;
-    std::array<std::array<double, 2>, 3> local;  // right corner, end of the first leg, end of the second
+    std::array<std::array<double, 2>, 3> local;  // right-angle corner, end of the first leg, of the second
     if (shape.is_transposed) {
         local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
         placement.legs = {up, along};
@@ -102,7 +104,7 @@ TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, 
     return placement;
 }
 
-// Place number along a Hilbert curve over a square of 2^16 by 2^16.
+// Index of (x, y) along a Hilbert curve over a square of 2^16 by 2^16.
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
     std::uint64_t result = 0;
     for (std::uint32_t s = 1u << 15; s > 0; s /= 2) {
@@ -119,7 +121,7 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
     return result;
 }
 
-// One attempt at a scale and a page.
+// The cells of all triangles at one scale, packed on shelves.
 class ShelfPacking {
 public:
     ShelfPacking(std::span<const AtlasTriangle> triangles, double scale,
@@ -163,8 +165,8 @@ public:
         });
     }
 
-    // Calls place(number of the unit, x, y) for all units, shelf by shelf, the highest first; false if they
-    // do not fit. Grains come from coarse to fine, so every unit lies on its own.
+    // Calls place(unit index, x, y) for all units, shelf by shelf, the largest first. Returns false if they
+    // do not fit. Units come in descending order of block size, so that each is aligned to its block size.
     template <class Place>
     bool place_on_shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
         std::uint64_t x = 0, y = 0, shelf = 0;
@@ -218,7 +220,7 @@ public:
     }
 
 private:
-    // A place for a unit of some size, in the order of a space-filling curve.
+    // Position of a cell; cells of one size are sorted along a space-filling curve.
     struct CurvePoint {
         std::uint64_t curve;
         std::uint32_t x, y;
@@ -231,7 +233,7 @@ private:
     std::vector<Unit> units_;
 };
 
-// The largest scale in [low, high] that fits, to a thousandth; low must fit.
+// The largest scale in [low, high] that fits, with a relative accuracy of 0.001; `low` must fit.
 double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t width, std::uint32_t height,
                      double low, double high, engine::CancellationCheck check_cancelled) {
     if (ShelfPacking(triangles, high, check_cancelled).fits(width, height)) return high;

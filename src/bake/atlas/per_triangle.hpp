@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The paper's atlas: every triangle on its own (FA-QEM, Sec. 3.2.3, per-triangle flattening).
+/// Per-triangle atlas of the paper: every triangle is flattened by itself (FA-QEM, Sec. 3.2.3).
 
 #include <array>
 #include <cstdint>
@@ -13,67 +13,75 @@
 
 namespace faqem::detail {
 
-/// What the atlas must know of a triangle. One of its angles becomes the right one.
+/// Input triangle of the per-triangle atlas. It becomes a right triangle on the page.
 struct AtlasTriangle {
-    std::uint8_t right_angle_corner =
-        0;  ///< the corner opposite the partner's edge, else the one with the largest angle
-    /// Wanted lengths in texels of the edges from `right_angle_corner` to the next corner and to the one after.
+    /// The corner that gets the right angle: opposite the edge to the partner, else with the largest angle.
+    std::uint8_t right_angle_corner = 0;
+    /// Wanted lengths in texels of the edges from `right_angle_corner` to the next corner and to the one
+    /// after it.
     std::array<double, 2> legs = {0, 0};
-    std::uint64_t order = 0;  ///< triangles with close numbers look alike and are close together
-    /// The triangle across the edge opposite `right_angle_corner`, wound alike. Mutual. The two share that edge on the
-    /// page.
+    /// Sort key. Triangles with close values look alike, and are placed close to each other.
+    std::uint64_t order = 0;
+    /// The triangle across the edge opposite `right_angle_corner`, with consistent winding; `no_index`: none.
+    /// Symmetric: partners name each other. They share this edge on the page.
     Index partner = no_index;
 };
 
-/// A triangle's place. Corner UVs are in texels; texel (i, j)'s centre is at (i + 0.5, j + 0.5), v down.
+/// Position of a triangle on the page. The UVs of its corners are in texels; the centre of texel (i, j) is at
+/// (i + 0.5, j + 0.5), and v points down.
 struct TrianglePlacement {
     std::array<std::array<double, 2>, 3> uv = {};
-    std::array<std::uint32_t, 2> legs = {0, 0};  ///< as given lengths; 0, 0: all of it is one texel
+    /// Lengths in texels, in the order of AtlasTriangle::legs. 0, 0: the whole triangle is one texel.
+    std::array<std::uint32_t, 2> legs = {0, 0};
 };
 
-/// A rectangle of texels that belongs to one triangle or to two.
+/// A rectangle of texels that belongs to one or two triangles.
 struct AtlasCell {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
-    Index first = no_index, second = no_index;  ///< triangles; second is first's turned by 180 degrees
-    /// They are partners, and the hypotenuse of one is that of the other. Else there is a margin between
-    /// them.
+    Index first = no_index, second = no_index;  ///< triangles; the second is rotated by 180 degrees
+    /// The triangles are partners and share their hypotenuse. Otherwise there is a margin between them.
     bool has_shared_hypotenuse = false;
 };
 
-/// A page. Cells do not overlap, and every texel that a bilinear read inside a triangle touches is in its
-/// cell and, but for partners, on its side of the cell.
+/// A page. Cells do not overlap. Every texel that a bilinear read inside a triangle touches is in the
+/// triangle's cell and, unless the cell is shared by partners, on the triangle's side of the cell.
 struct Atlas {
     std::uint32_t width = 0, height = 0;        ///< powers of two
     std::vector<TrianglePlacement> placements;  ///< by triangle
-    std::vector<AtlasCell> cells;               ///< by row
-    double scale = 1;                           ///< of the wanted lengths
+    std::vector<AtlasCell> cells;               ///< in descending order of block size and height
+    double scale = 1;                           ///< lengths on the page divided by the wanted lengths
 };
 
-/// Packs rectangles of size classes, four to the octave and width and height apart, on shelves: partners
-/// share one, the others go by twos. Takes the smallest page that holds the wanted lengths, and then the
-/// largest scale that fits it, at most sqrt 2. Cells lie on a grid of 2^k texels and triangles begin 2^(k-1)
-/// texels inside, so that mip level k reads texels of a pair's own cell only; k grows with the cell. Cells of
-/// one size follow a Hilbert curve over the page, so that beyond level k they mix with cells that look alike.
-/// \param max_size  largest width and height, a power of two
+/// Packs triangles into rectangular cells, and the cells on shelves.
+/// The width and the height of a cell are quantized to four size classes per octave. Partners share a cell;
+/// other triangles are put into cells in pairs of equal shape. Takes the smallest page on which the wanted
+/// lengths fit, and then the largest scale that fits on this page, at most sqrt(2). If the largest page is
+/// too small, the scale is below 1.
+/// Cells are aligned to a grid of 2^k texels and triangles begin 2^(k-1) texels inside their cell, so that
+/// mip level k reads texels of the triangle's own cell only; k grows with the cell. Cells of one size follow
+/// a Hilbert curve over the page, so that levels beyond k mix texels of cells that look alike.
+/// \param triangles  all triangles of the page
+/// \param max_size   largest width and height in texels, a power of two
 /// \return nothing if there are more triangles than texels
-/// O(n log n)
-/// \throws what the poll throws
+/// Complexity: O(n log n).
+/// \throws whatever `check_cancelled` throws
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
                                     engine::CancellationCheck check_cancelled = {});
 
-/// Barycentrics of a triangle with a place, at texel coordinates.
+/// Barycentric coordinates of a placed triangle as a function of texel coordinates.
 class BarycentricFrame {
 public:
     explicit BarycentricFrame(const TrianglePlacement& placement);
 
-    /// Of (x, y); negative outside.
+    /// Barycentric coordinates of (x, y); outside the triangle some are negative.
     Vec3 at(double x, double y) const;
-    /// Of the point of the triangle that is closest to (x, y) on the page.
+    /// Barycentric coordinates of the point of the triangle that is closest to (x, y) on the page.
     Vec3 closest(double x, double y) const;
 
 private:
     TrianglePlacement placement_;
-    std::array<std::array<double, 3>, 2> gradient_ = {};  ///< of the second and third weight: x, y, constant
+    /// Second and third coordinate as affine functions: factor of x, factor of y, constant.
+    std::array<std::array<double, 3>, 2> gradient_ = {};
 };
 
 }  // namespace faqem::detail

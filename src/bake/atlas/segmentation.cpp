@@ -22,14 +22,14 @@ constexpr double perimeter_weight = 0.02;
 
 struct SharedBoundary {
     Index region;
-    double length;  // of edges that are no creases
+    double length;  // total length of the shared edges that are not creases
 };
 
 struct Region {
     double area = 0, perimeter = 0;
-    Vector3 normal = Vector3::Zero();  // sum of areas times normals
+    Vector3 normal = Vector3::Zero();  // sum of the area vectors
     double min_density = 0, max_density = 0;
-    std::vector<SharedBoundary> neighbours;  // ascending
+    std::vector<SharedBoundary> neighbours;  // sorted by region
     std::uint32_t version = 0;
     bool is_merged = false;
 
@@ -41,7 +41,7 @@ struct Merge {
     Index a, b;
     std::uint32_t version_a, version_b;
 
-    bool operator<(const Merge& o) const {  // the queue's top is its largest
+    bool operator<(const Merge& o) const {  // smallest cost on top, ties by smallest indices
         return std::tuple(o.cost, o.a, o.b) < std::tuple(cost, a, b);
     }
 };
@@ -142,7 +142,7 @@ private:
     }
 
     void merge(Index i, Index j) {
-        // The one with more neighbours stays, so that few lists are rewritten.
+        // The region with more neighbours is kept, so that fewer neighbour lists have to be updated.
         if (regions_[i].neighbours.size() < regions_[j].neighbours.size()) std::swap(i, j);
         Region &a = regions_[i], &b = regions_[j];
         a.perimeter += b.perimeter - 2 * shared_length(a, j);
@@ -183,7 +183,7 @@ private:
     engine::CancellationCheck check_cancelled_;
 };
 
-// Positions of the neighbours of faces[i] in `faces`.
+// Calls visit(j) for every neighbour faces[j] of faces[i].
 template <class Visit>
 void for_each_neighbour(std::span<const ChartFace> all, std::span<const Index> faces, std::size_t i,
                         Visit&& visit) {
@@ -195,7 +195,7 @@ void for_each_neighbour(std::span<const ChartFace> all, std::span<const Index> f
     }
 }
 
-// Breadth first; positions in order of their visit.
+// Indices into `faces` in breadth-first order from `start`.
 std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span<const Index> faces,
                                        std::size_t start) {
     std::vector<std::size_t> order = {start};
@@ -252,7 +252,7 @@ std::array<std::vector<Index>, 2> bisect(std::span<const ChartFace> all, std::sp
     side[one] = 0;
     side[other] = 1;
     while (next[0] < order[0].size() || next[1] < order[1].size()) {
-        // The one with fewer faces grows, as long as it can.
+        // The half with fewer faces grows, as long as its front is not empty.
         std::size_t s = order[1].size() < order[0].size() ? 1 : 0;
         if (next[s] == order[s].size()) s = 1 - s;
         for_each_neighbour(all, faces, order[s][next[s]++], [&](std::size_t j) {

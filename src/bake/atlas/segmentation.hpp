@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces may become a chart: regions that look one way.
+/// Segmentation of a surface into regions of similar normals, from which charts are made.
 
 #include <span>
 #include <vector>
@@ -10,24 +10,29 @@
 
 namespace faqem::detail {
 
-/// Groups of faces, each connected over `adjacent`. Neighbouring regions are joined again and again, the pair
-/// first that adds least to the spread of its normals (face areas times squared distance from the mean
-/// normal; Ward's rule, as in the face clusters of Garland et al. 2001) and to its outline's square. None is
-/// made whose mean normal is shorter than 1 - `max_normal_spread`, or whose densities differ by more than 2.
-/// \return by region, faces ascending; regions by smallest face.
-/// O(n log n) expected
-/// \throws what the poll throws
+/// Hierarchical clustering of faces into regions that are connected over ChartFace::adjacent.
+/// Neighbouring regions are merged in ascending order of a cost: the increase of the spread of the normals
+/// (face areas times squared distances from the mean normal; Ward's method, as in the face clusters of
+/// Garland et al. 2001) plus a multiple of the union's squared perimeter. Two regions are not merged if the
+/// mean normal of the union would be shorter than 0.88 or its densities would differ by more than a factor
+/// of 2.
+/// \return the faces of every region, ascending; regions sorted by smallest face
+/// Complexity: O(n log n) expected.
+/// \throws whatever `check_cancelled` throws
 std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
                                               engine::CancellationCheck check_cancelled = {});
 
-/// The connected groups of `faces`.
-/// \param faces  ascending
-/// \return each ascending, by smallest face
+/// Connected components of `faces`.
+/// \param all    all faces of the page
+/// \param faces  indices into `all`, ascending
+/// \return the faces of every component, ascending; components sorted by smallest face
 std::vector<std::vector<Index>> connected_subsets(std::span<const ChartFace> all,
                                                   std::span<const Index> faces);
 
-/// Two connected groups of about the same number of faces, grown breadth first from two faces far apart.
-/// \param faces  connected, two at least, ascending
+/// Splits connected faces into two connected sets of about the same size, which are grown breadth-first from
+/// two faces far apart.
+/// \param all    all faces of the page
+/// \param faces  indices into `all`, connected, at least two, ascending
 std::array<std::vector<Index>, 2> bisect(std::span<const ChartFace> all, std::span<const Index> faces);
 
 }  // namespace faqem::detail

@@ -22,9 +22,9 @@ double distance_squared(const Corner& a, const Corner& b, double x, double y) {
     return ex * ex + ey * ey;
 }
 
-// Samples of a tile in a box of texel coordinates.
+// Samples of a tile inside a box of texel coordinates; x1 and y1 are exclusive.
 struct Range {
-    std::uint32_t x0, x1, y0, y1;  // half open
+    std::uint32_t x0, x1, y0, y1;
 };
 
 class SampleOwners {
@@ -49,7 +49,7 @@ public:
         for_each_sample(range_of(uv, 0), [&](std::size_t at, double x, double y) {
             if (owner_[at] != no_index) return;
             for (std::size_t c = 0; c < 3; ++c) {
-                if (edge_function(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // v points down
+                if (edge_function(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // outside, as v points down
             }
             owner_[at] = triangle;
         });
@@ -68,7 +68,7 @@ public:
         });
     }
 
-    // Whether some sample of the chart's has no triangle yet.
+    // Whether any sample of the chart has no triangle yet.
     bool has_unassigned() const {
         bool result = false;
         for_each_owned_sample([&](std::size_t at) { result = result || owner_[at] == no_index; });
@@ -134,7 +134,7 @@ private:
     std::uint32_t samples_, columns_, rows_;
     std::vector<std::uint8_t> owned_;       // by texel
     std::vector<Index> owner_;              // by sample
-    std::vector<double> squared_distance_;  // squared; 0 inside of a triangle
+    std::vector<double> squared_distance_;  // by sample, to its triangle; 0 inside
 };
 
 }  // namespace
@@ -167,7 +167,7 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
                        std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
                        std::uint32_t samples) {
     if (chart.is_single_texel) {
-        // All triangles share the texel; the samples go to them by turns.
+        // All triangles share the texel: its samples are assigned to them in turn.
         TileOwners result{chart.triangles, {}};
         for (std::uint32_t i = 0; i < samples * samples; ++i) {
             result.owners.push_back(i % static_cast<std::uint32_t>(chart.triangles.size()));
@@ -177,7 +177,7 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
     SampleOwners owners(atlas, chart, tile, samples);
     for (Index t : chart.triangles) owners.assign_covered(t);
     if (!owners.has_unassigned()) return owners.finish();
-    // A block reaches at most a block's diagonal, and half of it, beyond the chart.
+    // Samples in the chart's blocks are at most 1.5 blocks away from the chart along each axis.
     const double reach = 2 * chart.block_size;
     for (Index t : chart.triangles) {
         for (std::size_t c = 0; c < 3; ++c) {

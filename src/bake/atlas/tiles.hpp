@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which triangle the samples of a chart belong to.
+/// Tiles of charts, and the triangle that every sample of a tile belongs to.
 
 #include <cstdint>
 #include <span>
@@ -10,25 +10,31 @@
 
 namespace faqem::detail {
 
-/// A rectangle of texels, baked in one go.
+/// A rectangle of texels of one chart, baked as one unit of work.
 struct ChartTile {
-    Index chart = 0;  ///< into the charts of the page
-    std::uint32_t x = 0, y = 0, width = 0, height = 0;
+    Index chart = 0;                                    ///< index into the charts of the page
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;  ///< texels
 };
 
-/// Cuts the charts' rectangles into tiles of at most 64 x 64 texels; those without a block are left out.
+/// Splits the rectangles of charts into tiles of at most 64 x 64 texels. Tiles without any block of their
+/// chart are left out.
 std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts);
 
-/// Samples of a tile, samples x samples per texel.
+/// The triangle of every sample of a tile.
 struct TileOwners {
-    std::vector<Index> triangles;  ///< those with samples here, into the atlas, ascending
-    std::vector<std::uint32_t>
-        owners;  ///< row by row of samples: into `triangles`; none where not the chart's
+    std::vector<Index> triangles;  ///< triangles with samples in the tile: indices into the atlas, ascending
+    /// By sample, row by row: index into `triangles`, or `none` outside the chart's blocks.
+    std::vector<std::uint32_t> owners;
     static constexpr std::uint32_t none = 0xffffffff;
 };
 
-/// Gives every sample in the chart's blocks to the triangle that it is in, else to the closest one that has
-/// an edge on the chart's outline; the first one of those that are equally close.
+/// Assigns every sample in the chart's blocks to the triangle that contains it, otherwise to the triangle
+/// with the closest edge on the chart's boundary. Ties are resolved by the smallest index.
+/// \param atlas     placements of the triangles
+/// \param chart     the chart that the tile is part of
+/// \param adjacent  neighbours of every triangle of the atlas, by corner opposite the edge
+/// \param tile      one of split_into_tiles()
+/// \param samples   samples per texel along each axis
 TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
                        std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
                        std::uint32_t samples);

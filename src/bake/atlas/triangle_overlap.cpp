@@ -17,7 +17,7 @@ Box2 box_of(const FlatTriangle& t) {
     return {x0, y0, x1, y1};
 }
 
-// Whether an edge of a has all of b outside of it, or within `slack` of that.
+// Whether b is on the outer side of an edge of a, with a tolerance of `slack`.
 bool has_separating_edge(const FlatTriangle& a, const FlatTriangle& b, double slack) {
     for (std::size_t i = 0; i < 3; ++i) {
         const ChartPoint &from = a[i], &to = a[(i + 1) % 3];
@@ -30,7 +30,7 @@ bool has_separating_edge(const FlatTriangle& a, const FlatTriangle& b, double sl
     return false;
 }
 
-// Two convex shapes are apart if and only if an edge of one of them parts them.
+// Two convex polygons are disjoint if and only if an edge of one of them separates them.
 bool is_separated(const FlatTriangle& a, const Box2& box_a, const FlatTriangle& b, const Box2& box_b) {
     const double slack = 1e-9 * std::max(box_a.size(), box_b.size());
     if (box_a.high_x <= box_b.low_x + slack || box_b.high_x <= box_a.low_x + slack) return true;

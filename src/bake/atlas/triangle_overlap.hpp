@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether flat triangles lie on each other.
+/// Overlap test for triangles in the plane.
 
 #include <array>
 #include <cstdint>
@@ -13,12 +13,14 @@
 
 namespace faqem::detail {
 
-/// Whether the triangles' insides are apart from each other. All must turn counter-clockwise. What overlaps
-/// by less than 1e-9 of the larger box counts as touching: that is rounding.
-/// Triangles are compared where their boxes share a cell of a grid. Expected O(n).
-/// \param work  comparisons to make at most; lowered by those made
-/// \return false too if the work is used up before it is known
-/// \throws what the poll throws
+/// Whether the interiors of the triangles are pairwise disjoint. All triangles must be counter-clockwise. An
+/// overlap of less than 1e-9 of the larger bounding box counts as touching, to allow for rounding.
+/// Triangles are compared if their bounding boxes share a cell of a grid.
+/// \param triangles  the three corners of every triangle
+/// \param work       maximum number of comparisons; decreased by the number made
+/// \return false also if `work` is used up before the result is known
+/// Complexity: O(n) expected.
+/// \throws whatever `check_cancelled` throws
 bool have_disjoint_interiors(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work,
                              engine::CancellationCheck check_cancelled = {});
 

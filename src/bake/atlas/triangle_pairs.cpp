@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::uint8_t unpaired = 3;
 
-// Lengths of the edges from a corner to the next one and to the one after.
+// Lengths of the edges from a corner to the next one and to the one after it.
 std::array<double, 2> legs_at(const PairTriangle& triangle, std::size_t corner) {
     return {triangle.edges[(corner + 2) % 3], triangle.edges[(corner + 1) % 3]};
 }
 
-// Texels of a triangle by itself: half the rectangle over the two shorter edges, its largest angle made
-// right.
+// Texels of a triangle without a partner: its largest angle becomes a right angle, and it covers half of the
+// rectangle over its two shorter edges.
 double unpaired_texels(const PairTriangle& triangle) {
     const auto& e = triangle.edges;
     const double longest = std::max({e[0], e[1], e[2]});
@@ -31,7 +31,7 @@ std::array<double, 2> pair_sides(std::span<const PairTriangle> triangles, Index 
     return {root_mean_square(a[0], b[0]), root_mean_square(a[1], b[1])};
 }
 
-// Rectangle over triangles; infinite where there can be no pair.
+// Texels of the rectangle divided by those of the separate triangles; infinite where no pair is allowed.
 double waste(std::span<const PairTriangle> triangles, Index t, std::uint8_t corner) {
     const AdjacentTriangle& other = triangles[t].adjacent[corner];
     if (other.triangle == no_index) return HUGE_VAL;
@@ -82,7 +82,7 @@ public:
         }
     }
 
-    // Joins lonely triangles over paths: free, pair, pair, ..., free.
+    // Matches triangles without partners over augmenting paths: unpaired, pair, pair, ..., unpaired.
     void augment() {
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             if (corner_[t] == unpaired) find_augmenting_path(static_cast<Index>(t), 3);
@@ -100,7 +100,8 @@ private:
 
     bool on_path(Index t) const { return std::find(path_.begin(), path_.end(), t) != path_.end(); }
 
-    // Finds a partner for t, which is free but for its place on the path, in at most `pairs` turned pairs.
+    // Finds a partner for t, which is unpaired or whose pair is split by the current path. The rest of the
+    // path may split at most `pairs` pairs.
     bool find_augmenting_path(Index t, int pairs) {
         check_cancelled_();
         path_.push_back(t);

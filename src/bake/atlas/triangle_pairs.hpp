@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which triangles share a cell of the per-triangle atlas: matching across mesh edges.
+/// Matching of triangles across mesh edges: partners share a cell of the per-triangle atlas.
 
 #include <array>
 #include <cstdint>
@@ -12,27 +12,29 @@
 
 namespace faqem::detail {
 
-/// A triangle across an edge, and its corner opposite that edge.
+/// The triangle across an edge, and its corner opposite this edge.
 struct AdjacentTriangle {
     Index triangle = no_index;
     std::uint8_t corner = 0;
 };
 
-/// What the matching must know of a triangle. Entry i of both is for the edge opposite corner i.
+/// Input triangle of the matching. Entry i of both arrays is for the edge opposite corner i.
 struct PairTriangle {
     std::array<double, 3> edges = {0, 0, 0};        ///< wanted lengths in texels
-    std::array<AdjacentTriangle, 3> adjacent = {};  ///< mutual; no_index at borders
+    std::array<AdjacentTriangle, 3> adjacent = {};  ///< symmetric; `no_index` at the boundary
 };
 
-/// Two slivers that share a short edge are better off in cells of their own.
+/// Largest ratio of a pair's rectangle to the texels of the two triangles in cells of their own. For example,
+/// two slivers that share a short edge need fewer texels in cells of their own.
 inline constexpr double max_waste = 1.3;
 
-/// By triangle: the corner opposite the edge to its partner, 3 where it stays alone.
-/// A pair fills a rectangle with the shared edge as diagonal. Pairs that waste least come first (rectangle
-/// against triangles, ties by index); then paths of up to seven edges are turned over where that leaves fewer
-/// alone. A pair whose rectangle has more than `max_waste` times the texels of the two by themselves is
-/// never made. O(n log n)
-/// \throws what the poll throws
+/// Matches adjacent triangles in pairs. A pair fills a rectangle whose diagonal is the shared edge.
+/// Pairs are matched greedily in ascending order of waste (texels of the rectangle divided by those of the
+/// two triangles in cells of their own; ties by index). Then augmenting paths of up to seven edges reduce the
+/// number of triangles without a partner. No pair has a waste above `max_waste`.
+/// \return by triangle: the corner opposite the edge to its partner, or 3 if it has no partner
+/// Complexity: O(n log n).
+/// \throws whatever `check_cancelled` throws
 std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles,
                                          engine::CancellationCheck check_cancelled = {});
 

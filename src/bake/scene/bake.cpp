@@ -27,7 +27,8 @@ namespace {
 void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
     if (simplified.parts.size() != source.parts.size()) {
         throw InputError("", "simplified parts",
-                         "there are " + std::to_string(simplified.parts.size()) + ", the asset has " +
+                         "there are " + std::to_string(simplified.parts.size()) +
+                             ", but the number of parts of the asset is " +
                              std::to_string(source.parts.size()));
     }
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
@@ -37,18 +38,18 @@ void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
                                    part.history.triangles.size() == source.parts[p].triangles.size());
         if (!history_fits) {
             throw InputError("", part_title(source, p),
-                             "its simplified mesh has no history or that of another part");
+                             "the history of the simplified mesh is missing or does not match the part");
         }
     }
 }
 
-// Bare geometry asks the original nothing, unless skins or morph targets come along.
+// Without textures and transferred normals, the map is needed only for skin weights and morph targets.
 bool needs_map(const Part& part, const BakeOptions& bake) {
     const bool is_bare = bake.kind == Bake::none && bake.normals != Normals::transfer;
     return !is_bare || !part.joints.empty() || !part.morph_targets.empty();
 }
 
-// Maps and normals.
+// Makes the surface maps and the normals of all parts.
 void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
     double done = 0;
     for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
@@ -74,7 +75,7 @@ void bake_by_kind(BakeJob& job) {
         case Bake::atlas:
         case Bake::per_triangle:
             if (bake_pages(job)) return;
-            job.warn("more triangles than texels: colours went to the vertices");
+            job.warn("more triangles than texels: the base colour was baked into vertex colours instead");
             return bake_vertex(job);
         case Bake::vertex:
             return bake_vertex(job);
@@ -91,7 +92,7 @@ SimplifiedAsset bake_without_histories(const Asset& source, const SimplifiedPart
     check_asset(source);
     check_parts_match(source, simplified);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
-        throw OptionError("correspondence needs a new atlas: bake must not be vertex, keep or none");
+        throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
     BakeJob job(source, options);
     job.result.report = simplified.report;

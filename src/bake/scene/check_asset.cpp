@@ -42,7 +42,7 @@ private:
     template <class T>
     void check_size(const std::vector<T>& values, const std::string& name) const {
         if (values.size() != part_.positions.size())
-            fail(name, std::to_string(values.size()) + " entries, there are " +
+            fail(name, "has " + std::to_string(values.size()) + " entries, expected one for each of " +
                            std::to_string(part_.positions.size()) + " vertices");
     }
     template <class T>

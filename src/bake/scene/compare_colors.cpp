@@ -18,9 +18,9 @@ using detail::Bvh;
 using engine::Vector3;
 
 constexpr std::size_t block = 4096;
-constexpr double wrong_threshold = 0.25;
+constexpr double outlier_threshold = 0.25;
 
-/// The scene as one part, with the materials and images it shows.
+/// The scene as a single part, with its materials and images.
 Asset flattened(const Asset& asset) {
     Asset result;
     result.parts = {detail::flatten(asset)};
@@ -29,11 +29,11 @@ Asset flattened(const Asset& asset) {
     return result;
 }
 
-/// A scene that can be asked for places and their colours.
+/// A scene, prepared for closest-point queries and colour lookup.
 struct Model {
     Asset asset;
     detail::Surface surface;
-    std::vector<Vector3> face_normals;  ///< by triangle of the surface: the side that is outside
+    std::vector<Vector3> face_normals;  ///< by triangle of the surface: oriented by the vertex normals
     Bvh tree;
     detail::SourceSampler colors;
 
@@ -69,7 +69,7 @@ struct Model {
     }
 };
 
-/// As displayed, without alpha; transparent is black.
+/// Converts a colour to sRGB without alpha; transparent colours give black.
 std::array<double, 3> srgb(const detail::LinearColor& premultiplied) {
     std::array<double, 3> c = {};
     if (!(premultiplied[3] > 0)) return c;
@@ -99,7 +99,7 @@ void add_sample(Sums& sums, const Model& from, const Model& to, const detail::Ra
     for (std::size_t k = 0; k < 3; ++k) squared += (a[k] - b[k]) * (a[k] - b[k]);
     ++sums.seen;
     sums.squared += squared / 3;
-    sums.outliers += squared > wrong_threshold * wrong_threshold;
+    sums.outliers += squared > outlier_threshold * outlier_threshold;
 }
 
 OneSidedColors one_sided(const Model& from, const Model& to, const CompareOptions& options,

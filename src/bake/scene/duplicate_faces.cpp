@@ -11,10 +11,10 @@
 namespace faqem::detail {
 namespace {
 
-// What tells faces at one place apart.
+// Properties by which coincident faces look different.
 struct FaceAppearance {
     Index material;
-    bool is_wound_against_normals;  // wound against its normals, so that the other side is seen
+    bool is_wound_against_normals;  // the winding contradicts the normals
     bool operator==(const FaceAppearance&) const = default;
 };
 
@@ -36,7 +36,8 @@ std::vector<FaceAppearance> face_appearances(const Part& part) {
     return result;
 }
 
-// The smallest corner first, so that doubles are equal and faces back to back are not.
+// Welded corners by face, the smallest one first: duplicate faces are equal, faces of opposite winding are
+// not.
 std::vector<Triangle> canonical_corners(const Part& part) {
     const std::vector<Index> first = engine::weld_exact(part.positions);
     std::vector<Triangle> result;
@@ -73,8 +74,8 @@ std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index
     if (groups.empty()) groups.assign(corners.size(), 0);
     const Index next = *std::max_element(groups.begin(), groups.end()) + 1;
     for (const Index f : separated) {
-        const auto [material, turned] = appearances[f];
-        groups[f] = next + 2 * (material == no_index ? 0 : 1 + material) + (turned ? 1 : 0);
+        const auto [material, reversed] = appearances[f];
+        groups[f] = next + 2 * (material == no_index ? 0 : 1 + material) + (reversed ? 1 : 0);
     }
     return groups;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces at one place that do not look the same.
+/// Coincident faces of different appearance.
 
 #include <vector>
 
@@ -8,14 +8,16 @@
 
 namespace faqem::detail {
 
-/// The engine drops all but one of the faces of a group that have the same corners and winding. Materials of
-/// one group share a page, and normals may turn a face round: then two such faces do not show the same. They
-/// are the sides of two boxes that touch, or of a sheet, where one is wound the wrong way.
-/// \param groups  of the part's faces, or empty: one for all
-/// \return `groups`; a face with the corners (by place) and winding of an earlier one of its group, but
-///         another material, or normals on the other side, has a group that it shares with others of its kind
-///         at most.
-/// O(n log n)
+/// Moves coincident faces of different appearance to different groups.
+/// The engine keeps only one of the faces of a group that have the same corners and winding. Such faces can
+/// look different, since the materials of a group share a page and vertex normals can contradict the winding.
+/// An example are touching faces of two boxes, one of which has the wrong winding.
+/// \param part    the faces
+/// \param groups  group of every face, or empty if there is only one group
+/// \return `groups`, in which a face with the corners (by position) and winding of an earlier face of its
+///         group, but with another material or the opposite orientation of its normals, has a new group.
+///         Faces of a new group agree in material and orientation.
+/// Complexity: O(n log n).
 std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index> groups);
 
 }  // namespace faqem::detail

@@ -14,7 +14,7 @@ namespace {
 
 std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
 
-// The fewest faces that show every component of a part: 4 for each, or all it has. O(faces)
+// Minimum face count that keeps all components of a part: 4 faces for each component, or all it has. O(faces)
 std::uint64_t min_faces_for_components(const Part& part) {
     const std::vector<Index> welded = engine::weld_exact(part.positions);
     engine::UnionFind joined(welded.size());
@@ -32,7 +32,8 @@ std::uint64_t min_faces_for_components(const Part& part) {
     return sum;
 }
 
-// What no part's share may fall below. Components go before the target where the target has no room for them.
+// Minimum face count by part. If the sum is more than `goal`, the minimums are by part instead of by
+// component.
 std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t goal) {
     std::vector<std::uint64_t> least;
     std::uint64_t sum = 0;
@@ -44,7 +45,8 @@ std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t goal) {
 
 }  // namespace
 
-// Parts whose share would be below their least are given that, and the others pay for it.
+// Parts whose proportional share would be below their minimum get the minimum; the other parts share the
+// rest.
 std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal) {
     const std::size_t parts = asset.parts.size();
     std::vector<std::uint64_t> share = min_budgets(asset, goal);
@@ -84,7 +86,7 @@ std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goa
 std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances) {
     std::vector<double> weights(parts, 0);
     for (const Instance& instance : instances) {
-        double squares = 0;  // of the linear part's entries: three times the mean squared stretch
+        double squares = 0;  // of the entries of the linear part: three times the mean squared scale
         for (const std::size_t column : {0u, 4u, 8u}) {
             for (std::size_t row = 0; row < 3; ++row)
                 squares += std::pow(instance.transform[column + row], 2);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a face count for a whole asset is spread over its parts.
+/// Distribution of the face budget of an asset over its parts.
 
 #include <cstdint>
 #include <span>
@@ -10,16 +10,18 @@
 
 namespace faqem::detail {
 
-/// In proportion to the parts' faces, by largest remainder. Where there is room for them, a part gets no
-/// fewer than 4 faces (or all it has) for each of its connected components, at the others' cost; else no
-/// fewer than 4.
-/// \return per part; their sum is above `goal` only where the parts' 4 faces each are.
-/// O(faces)
+/// Distributes `goal` faces over the parts in proportion to their face counts (largest remainder method).
+/// A part gets at least 4 faces (or all it has) for each of its connected components, at the expense of the
+/// other parts. If `goal` is too small for that, the minimum is 4 faces per part (or all it has).
+/// \return face count by part; the sum exceeds `goal` only if the sum of 4 faces per part does
+/// Complexity: O(faces).
 std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal);
 
-/// How much a squared distance times an area in a part's own units counts in the scene: lengths scale with
-/// the part's instances, and what is seen twice counts twice. 1 for what has no size there.
-/// \param parts  how many there are
+/// Weights by part that convert costs (squared distance times area) from a part's units to those of the
+/// scene: the fourth power of an instance's scale, summed over the instances of the part. 1 for parts that
+/// have no size in the scene, or none that is finite.
+/// \param parts      number of parts
+/// \param instances  all instances of the scene
 std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances);
 
 }  // namespace faqem::detail

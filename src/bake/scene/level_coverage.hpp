@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How large a level may be seen, for save_levels().
+/// Screen coverage of levels of detail, for save_levels().
 
 #include <vector>
 
@@ -10,12 +10,13 @@
 
 namespace faqem::detail {
 
-/// SavedLevel::coverage of a level: by part, at the largest that the scene shows it.
-/// \param source       whose boxes count
-/// \param size         of its scene
-/// \param error        of the level, in units of the scene; 0: as large as one likes (infinity)
-/// \param error_share  of the screen's height that the error may cover: 1 / 1080 is a pixel of 1080
-/// O(vertices)
+/// Computes SavedLevel::coverage of a level, by part, for the largest scale of the part.
+/// \param source       asset whose bounding boxes are used
+/// \param size         scene_size() of `source`
+/// \param error        error of the level, in units of the scene; if it is 0 the coverage is infinite
+/// \param error_share  fraction of the screen height that the error may cover: 1.0 / 1080 is one of 1080
+///                     pixels
+/// Complexity: O(vertices).
 FAQEM_EXPORT std::vector<double> level_coverage(const Asset& source, const SceneSize& size, double error,
                                                 double error_share);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Options::max_error for a scene.
+/// Simplification of an asset within Options::max_error.
 
 #include <cstdint>
 #include <vector>
@@ -11,17 +11,22 @@
 
 namespace faqem::detail {
 
-/// The parts of an asset to measure several results against.
+/// The original parts of an asset, to which several results can be compared.
 class ReferenceParts {
 public:
-    /// \param options  of the runs; borrowed
-    /// \throws InputError  an index is out of range
+    /// \param source   the asset; not needed after construction
+    /// \param options  options of the runs; must outlive this
+    /// \throws InputError if an index is out of range, and whatever `check_cancelled` throws
     ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled = {});
 
     const SceneSize& size() const { return size_; }
-    /// Of all parts.
+    /// Number of faces of all parts.
     std::uint64_t faces() const { return faces_; }
-    /// In the units of the scene, the largest of all parts.
+    /// Measures the largest distance of all parts from their originals, in units of the scene.
+    /// \param simplified  one result per part
+    /// \param allowed     allowed distance, in units of the scene
+    /// \param mode        as distance()
+    /// \throws whatever `check_cancelled` throws
     MeasuredDistance operator()(const SimplifiedParts& simplified, double allowed, MeasureMode mode,
                                 CancellationCheck check_cancelled) const;
 
@@ -32,9 +37,9 @@ private:
     std::uint64_t faces_ = 0;
 };
 
-/// simplify_parts() with max_error: searches over the face count of the whole asset, one call of
-/// simplify_parts() for each try.
-/// \pre options are valid
+/// simplify_parts() with Options::max_error: a search over the face count of the whole asset, with one call
+/// of simplify_parts() per attempt.
+/// \param options  must be valid, with max_error set
 SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options);
 
 }  // namespace faqem::detail

@@ -14,15 +14,15 @@ namespace {
 
 bool matches(const Part& part, const CollapseHistory& history) {
     if (history.triangles.size() != part.triangles.size()) return false;
-    double most = 0;
+    double extent = 0;
     for (const Vec3& at : part.positions)
-        most = std::max({most, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
+        extent = std::max({extent, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (std::size_t k = 0; k < 3 && history.triangles[f][0] != no_index; ++k) {
             const Vec3 &a = part.positions[part.triangles[f][k]],
                        &b = history.positions[history.triangles[f][k]];
             for (std::size_t i = 0; i < 3; ++i) {
-                if (!(std::abs(a[i] - b[i]) <= 0.01 * most)) return false;
+                if (!(std::abs(a[i] - b[i]) <= 0.01 * extent)) return false;
             }
         }
     }
@@ -46,10 +46,10 @@ SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts) {
 
 void check_source_matches_histories(const Asset& source, const SimplifiedParts& simplified) {
     if (source.parts.size() != simplified.parts.size())
-        throw InputError("", "", "has another number of meshes than the history");
+        throw InputError("", "", "the number of meshes differs from that of the history");
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         if (!matches(source.parts[p], simplified.parts[p].history))
-            throw InputError("", "mesh " + std::to_string(p), "is not the one of the history");
+            throw InputError("", "mesh " + std::to_string(p), "does not match the history");
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From histories that were cut to the simplified parts that bake() takes.
+/// Restores simplified parts, as input of bake(), from truncated histories.
 
 #include <vector>
 
@@ -9,14 +9,15 @@
 
 namespace faqem::detail {
 
-/// The simplified meshes of the parts, and sums over their reports.
-/// \param cuts  one per part, as truncate_to_faces() gives them
-/// O(size)
+/// Restores the simplified meshes of all parts, and sums up their reports.
+/// \param cuts  one history per part, as returned by truncate_to_faces()
+/// Complexity: O(size of the histories).
 FAQEM_EXPORT SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts);
 
-/// Whether the corners of the source's faces are where the histories say, but for welding.
-/// \throws InputError  they are not, or the source has another number of parts
-/// O(faces)
+/// Checks that the corners of the source's faces have the positions stored in the histories, except for small
+/// offsets by welding.
+/// \throws InputError if they have not, or if the numbers of parts differ
+/// Complexity: O(faces).
 FAQEM_EXPORT void check_source_matches_histories(const Asset& source, const SimplifiedParts& simplified);
 
 }  // namespace faqem::detail

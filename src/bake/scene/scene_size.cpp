@@ -10,7 +10,7 @@ namespace faqem::detail {
 
 namespace {
 
-// The singular values of the linear part: no distance grows by more than the largest.
+// Smallest and largest singular value of the linear part: bounds of the factor by which distances change.
 PartScale scale_of(const Eigen::Matrix4d& transform) {
     const Eigen::Vector3d values =
         Eigen::JacobiSVD<Eigen::Matrix3d>(transform.topLeftCorner<3, 3>()).singularValues();
@@ -48,7 +48,7 @@ SceneSize scene_size(const Asset& source) {
 Options part_options(const Options& options, const SceneSize& size, const PartScale& scale) {
     Options own = options;
     if (!options.topology.prune) return own;
-    // A part that the scene shrinks to nothing has no units to say a size in.
+    // If the scale is 0, the length cannot be converted.
     own.topology.prune.reset();
     if (!(scale.largest > 0)) return own;
     using Limits = std::numeric_limits<double>;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How large a scene and its parts are in the scene's units.
+/// Size of a scene and scales of its parts.
 
 #include <vector>
 
@@ -10,32 +10,33 @@
 
 namespace faqem::detail {
 
-/// By how much the scene shrinks and stretches a part at least and at most, over all its instances; 1 and 1
-/// where it does not show the part.
+/// Bounds of the scale of a part in the scene: the maxima, over its instances, of the smallest and of the
+/// largest singular value of the transform. 1 and 1 if the scene has no instance of the part.
 struct PartScale {
     double smallest = 1, largest = 1;
 };
 
-/// Sizes of a scene.
+/// Size of a scene and scales of its parts.
 struct SceneSize {
     std::vector<PartScale> scales;  ///< by part
-    double diagonal = 0;            ///< of the box of all instances' faces with area
+    double diagonal = 0;  ///< of the bounding box of all instances, without degenerate faces; scene units
 
-    /// In units of the scene.
+    /// Converts a length to units of the scene.
     double operator()(const Length& length) const {
         return length.unit == Length::Unit::model ? length.value : length.value * diagonal;
     }
 };
 
-/// How large the scene is, and how large it shows its parts.
-/// \throws InputError  an index is out of range
-/// O(faces log faces)
+/// Computes the size of a scene and the scales of its parts.
+/// \throws InputError if an index is out of range
+/// Complexity: O(faces log faces).
 FAQEM_EXPORT SceneSize scene_size(const Asset& source);
 
-/// What a part is simplified with: Topology::prune in the part's own units, at its largest scale; unset where
-/// the scene shrinks the part to nothing.
-/// \param size  of the scene
-/// \param scale  the part's
+/// Options for the simplification of one part: Topology::prune is converted to the part's units at its
+/// largest scale, and unset if this scale is 0.
+/// \param options  for the whole asset
+/// \param size     size of the scene
+/// \param scale    scale of the part
 Options part_options(const Options& options, const SceneSize& size, const PartScale& scale);
 
 }  // namespace faqem::detail

@@ -11,13 +11,15 @@ namespace faqem::detail {
 
 namespace {
 
-// A chart that is one triangle would hold each of its edges: there have to be charts.
+// The finest level needs an atlas of charts: in a per-triangle atlas all edges are seams, which limits the
+// simplification of the other levels.
 Options finest_level_options(Options options) {
     options.bake.kind = Bake::atlas;
     return options;
 }
 
-// What was pruned is gone, and what has become small since then is none of it.
+// The small components of the original were already pruned for the finest level. Components that became small
+// by the simplification must not be pruned.
 Options other_level_options(Options options) {
     options.bake.kind = Bake::keep;
     options.bake.correspondence = Recording::off;
@@ -25,7 +27,7 @@ Options other_level_options(Options options) {
     return options;
 }
 
-// A level is made of the finest one; its counts are those since the original.
+// Levels are made from the finest one, but their counts refer to the original.
 void add_counts_of_finest(Report& report, const Report& before) {
     report.faces_in = before.faces_in;
     report.vertices_in = before.vertices_in;
@@ -43,7 +45,7 @@ void add_counts_of_finest(Report& report, const Report& before) {
     report.warnings.insert(report.warnings.begin(), before.warnings.begin(), before.warnings.end());
 }
 
-// Whether a part is still the original's surface is read from its counts.
+// The counts of the parts determine whether a part still has the original surface.
 void add_counts_of_finest(SimplifiedParts& simplified, const SimplifiedParts& finest, const Report& baked) {
     add_counts_of_finest(simplified.report, baked);
     for (std::size_t p = 0; p < simplified.parts.size(); ++p)
@@ -55,21 +57,27 @@ void add_counts_of_finest(SimplifiedParts& simplified, const SimplifiedParts& fi
 void check_shared_texture(const Options& options) {
     const Bake kind = options.bake.kind;
     if (kind != Bake::automatic && kind != Bake::atlas)
-        throw OptionError("shared textures: need an atlas of charts, so bake must be atlas or automatic");
+        throw OptionError(
+            "shared textures: an atlas of charts is required, so bake must be atlas or automatic");
     if (options.history == Recording::on)
-        throw OptionError("shared textures: only the finest level has a history that leads to the original");
+        throw OptionError(
+            "shared textures: history must be off, since only the finest level has a history that "
+            "begins at the original");
     if (options.topology.weld == Weld::none)
-        throw OptionError("shared textures: without welding the seams of the new atlas would be borders");
+        throw OptionError(
+            "shared textures: weld must not be none, since the seams of the new atlas would become "
+            "boundaries");
     if (options.topology.group_boundaries == GroupBoundaries::kept)
-        throw OptionError("shared textures: groups cannot be kept, the new atlas may join their materials");
+        throw OptionError(
+            "shared textures: group boundaries cannot be kept, since the new atlas may merge materials");
 }
 
 std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,
                                                              const ReferenceParts& measured,
                                                              std::span<const LevelTarget> level_targets,
                                                              const Options& options) {
-    // The finest level is simplified in a phase of its own. What comes then is all told of as baking: that
-    // level, the collapses of the others, and each of them.
+    // The simplification of the finest level is reported as Phase::simplify. All other steps are reported as
+    // Phase::bake: baking this level, simplifying the other levels, and baking each of them.
     const double steps = level_targets.size() == 1 ? 1 : static_cast<double>(level_targets.size()) + 1;
     const auto baking = [&](std::size_t before) {
         const auto done = static_cast<double>(before);
@@ -84,7 +92,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
         measured);
     const SimplifiedPartsLevel& finest = made.front();
     std::vector<SimplifiedAssetLevel> out;
-    out.reserve(level_targets.size());  // the first one is referred to
+    out.reserve(level_targets.size());  // `baked` is a reference to the first element
     out.push_back(
         {bake(source, finest.result, finest_level_options(baking(0))), finest.distance, finest.error});
     const SimplifiedAsset& baked = out.front().result;

@@ -11,13 +11,16 @@
 
 namespace faqem::detail {
 
-/// \throws OptionError  the options do not go together with LevelTextures::shared
+/// Checks that options are compatible with LevelTextures::shared.
+/// \throws OptionError if they are not
 void check_shared_texture(const Options& options);
 
-/// Bakes the finest level, and makes the others of it with its UVs. Each is measured against the original.
-/// \param measured  of the source
-/// \param level_targets     of the source, at least one
-/// \pre options are valid and checked as above, the asset is checked
+/// Simplifies and bakes the finest level, and makes the other levels from it, with its UVs and images. Every
+/// level is measured against the original.
+/// \param source         must have passed check_asset()
+/// \param measured       the parts of `source`
+/// \param level_targets  as returned by level_targets() for `source`, at least one
+/// \param options        must be valid and have passed check_shared_texture()
 /// \return as simplify_levels()
 std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,
                                                              const ReferenceParts& measured,

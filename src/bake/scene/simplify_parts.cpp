@@ -21,7 +21,7 @@
 namespace faqem {
 namespace {
 
-// UVs and colours of a part on its corners.
+// UVs and vertex colours of a part as corner attributes.
 CornerAttributes corner_attributes(const Part& part) {
     CornerAttributes result;
     result.width = static_cast<std::uint32_t>(2 * part.uvs.size() + (part.colors.empty() ? 0 : 4));
@@ -37,7 +37,7 @@ CornerAttributes corner_attributes(const Part& part) {
     return result;
 }
 
-// Empty where there is one group only.
+// By face: the material group or, without groups, the material. Empty if all are equal.
 std::vector<Index> face_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
     std::vector<Index> result;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -53,7 +53,7 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.faces_out += part.faces_out;
     sum.vertices_in += part.vertices_in;
     sum.vertices_out += part.vertices_out;
-    // The target of a part is 4 at least, even where it has fewer faces.
+    // The target of a part is at least 4, even if the part has fewer faces.
     sum.target_faces += std::min(part.target_faces, part.faces_in);
     if (part.stop != StopReason::reached_target && sum.stop != StopReason::cancelled) sum.stop = part.stop;
     sum.collapses += part.collapses;
@@ -71,9 +71,9 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.seconds.simplify += part.seconds.simplify;
 }
 
-// A part as the engine takes it. Where materials are baked into one page they are one group, so that borders
-// between them cost no faces and samples may cross them, but for doubles of another look; elsewhere, and
-// where such borders are to be kept, they are the materials themselves.
+// A part as the input of the engine. Materials that are baked into one page form one group, so that
+// boundaries between them need no faces and samples can cross them; only coincident faces of different
+// appearance are separated. Otherwise, and if group boundaries are to be kept, the groups are the materials.
 struct PartInput {
     std::vector<Index> groups;
     CornerAttributes attributes;
@@ -90,7 +90,7 @@ struct PartInput {
     PartInput(const PartInput&) = delete;
 };
 
-// One run with all its targets.
+// Simplification of all parts to all targets.
 class PartsRun {
 public:
     PartsRun(const Asset& source, const Options& options) : source_(source), options_(options) {
@@ -147,7 +147,7 @@ private:
         is_cancelled_ = true;
     }
 
-    // Per part and target; none of a part is above the one before it.
+    // Face counts by part and target; in descending order for every part.
     std::vector<std::vector<std::uint64_t>> budgets(std::span<const std::uint64_t> targets) {
         const detail::Stopwatch watch;
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
@@ -180,7 +180,8 @@ private:
 
     bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
 
-    // Kept borders, and faces set apart, say nothing about what is baked into one page.
+    // Restores the material groups, which determine the pages. The groups for the simplification also
+    // separate coincident faces and, with kept boundaries, materials.
     void restore_face_groups(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
         result.mesh.face_groups.clear();
@@ -218,10 +219,10 @@ private:
     std::vector<detail::CostCurve> curves_;
     bool is_cancelled_ = false;
     detail::SceneSize size_;
-    std::vector<std::vector<float>> weights_;  // by part; empty: the same everywhere
+    std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
     double faces_ = 0;                         // of all parts
-    double done_ = 0;                          // faces that were worked on
-    double passes_ = 1;                        // how often each is
+    double done_ = 0;                          // faces of the parts that are finished, in all passes
+    double passes_ = 1;                        // number of passes over all parts
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One run over all parts of an asset, with one target or several.
+/// Simplification of all parts of an asset to one or more targets.
 
 #include <cstdint>
 #include <span>
@@ -10,11 +10,12 @@
 
 namespace faqem::detail {
 
-/// As run_to_targets(), for assets: each target is spread over the parts as the budget says, and each part goes from
-/// level to level. Defined in simplify_parts.cpp.
-/// \param targets  faces of all parts, at least one, each at most the one before it
-/// \pre options are valid, the asset is checked
-/// \return one result per target; where it was cancelled, one alone, which says so
+/// As run_to_targets(), for assets. Every target is distributed over the parts according to Options::budget,
+/// and every part is simplified from one level to the next.
+/// \param source   must have passed check_asset()
+/// \param targets  face counts of all parts together: at least one, in descending order
+/// \param options  must be valid
+/// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
 std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
                                                        std::span<const std::uint64_t> targets,
                                                        const Options& options);

@@ -9,21 +9,22 @@
 
 namespace faqem::detail {
 
-/// The options to do one step with: it is told of as a part of one phase, and never falls.
-/// \param options   borrowed while the step goes on
-/// \param reported_phase      the phase that the callback of `options` hears of
-/// \param from, to  what is done of that phase before and after the step
+/// Options for one step of the work. Its progress is reported as a range of one phase, and never decreases.
+/// \param options         must outlive the step
+/// \param reported_phase  phase that is passed to the callback of `options`
+/// \param from            fraction of this phase that is done before the step
+/// \param to              fraction of this phase that is done after the step
 inline Options step_options(const Options& options, Phase reported_phase, double from, double to) {
     Options own = options;
     if (!options.progress) return own;
-    // Shared, because options are copied on the way.
-    own.progress = [&options, reported_phase, from, to, most = std::make_shared<double>(0)](Phase phase,
-                                                                                            double fraction) {
-        // Baking tells of two phases, one after the other.
+    // The maximum is shared between copies of the options.
+    own.progress = [&options, reported_phase, from, to, max = std::make_shared<double>(0)](Phase phase,
+                                                                                           double fraction) {
+        // bake() reports two phases one after the other: each is half of the step.
         if (phase == Phase::map) fraction = fraction / 2;
         if (phase == Phase::bake) fraction = (1 + fraction) / 2;
-        *most = std::clamp(fraction, *most, 1.0);
-        return options.progress(reported_phase, from + (to - from) * *most);
+        *max = std::clamp(fraction, *max, 1.0);
+        return options.progress(reported_phase, from + (to - from) * *max);
     };
     return own;
 }

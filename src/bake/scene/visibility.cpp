@@ -22,16 +22,21 @@ using engine::to_eigen;
 using engine::Vector3;
 
 constexpr std::size_t direction_count = 32;
-constexpr std::uint64_t visibility_query_cost = 4 * direction_count;  // a ray takes a few microseconds
-constexpr double ray_offset_ratio = 1.0 / 5000;                       // above the surface rays begin
-constexpr double max_patch_radius_ratio = 1.0 / 400;                  // of a patch, from its first face
-constexpr double min_patch_normal_cosine = 0.8;                       // cosine between the normals of a patch
-constexpr double sufficient_visibility = 0.5;  // seen, to look from no other large face
+// Operations that a visibility query counts as in cancellation checks: a ray takes a few microseconds.
+constexpr std::uint64_t visibility_query_cost = 4 * direction_count;
+// Distance of the rays' origins from the surface, relative to the diagonal.
+constexpr double ray_offset_ratio = 1.0 / 5000;
+// Radius of a patch around its first face, relative to the diagonal.
+constexpr double max_patch_radius_ratio = 1.0 / 400;
+// Smallest cosine between the normals of a patch's first face and its other faces.
+constexpr double min_patch_normal_cosine = 0.8;
+// No further large faces around a vertex are sampled once this visibility is reached.
+constexpr double sufficient_visibility = 0.5;
 
-// A part where the scene shows it.
+// Mesh of an instance, in the coordinates of the scene.
 struct InstanceMesh {
     std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;  // wound as their fronts are seen
+    std::vector<Triangle> triangles;  // with reversed winding if the transform is a reflection
 };
 
 InstanceMesh instance_mesh(const Asset& scene, const Instance& instance, CancellationCheck check_cancelled) {
@@ -50,7 +55,7 @@ InstanceMesh instance_mesh(const Asset& scene, const Instance& instance, Cancell
     return result;
 }
 
-// What a face of a material hides.
+// Sides of a face that occlude, depending on its material.
 enum class OccludingSides { none, front, both };
 
 OccludingSides occluding_sides(const Asset& scene, Index material) {
@@ -64,7 +69,7 @@ OccludingSides occluding_sides(const Asset& scene, Index material) {
     return m.double_sided ? OccludingSides::both : OccludingSides::front;
 }
 
-// All that stands between the surface and who looks at it.
+// The occluding faces of all instances.
 class Occluders {
 public:
     Occluders(const Asset& scene, const std::vector<Instance>& all, CancellationCheck check_cancelled) {
@@ -89,9 +94,9 @@ public:
         tree_ = Bvh(positions, triangles, check_cancelled);
     }
 
-    // Whether who looks from far in that direction does not see the point.
+    // Whether the point is hidden from a distant viewer in the given direction.
     bool is_occluded(const Vector3& point, const Vector3& direction) const {
-        // A ray that leaves through a face's back is a look at its front.
+        // If the ray hits the back of a face, the viewer sees its front.
         return tree_.any_hit(to_array(point), to_array(direction), [&](Index face, Bvh::Side side) {
             return side == Bvh::Side::back || is_double_sided_[face];
         });
@@ -105,14 +110,16 @@ private:
             vertices += scene.parts[instance.part].positions.size();
         }
         if (faces >= 1ull << 31 || vertices >= no_index)
-            throw InputError({}, "scene", "is too large for visibility: " + std::to_string(faces) + " faces");
+            throw InputError({}, "scene",
+                             "is too large for visibility: " + std::to_string(faces) +
+                                 " faces in all instances, fewer than 2147483648 are supported");
     }
 
     Bvh tree_;
     std::vector<bool> is_double_sided_;
 };
 
-// Spread evenly over the sphere, on a spiral; none along an axis.
+// Unit vectors along a spiral, evenly distributed over the sphere. None is parallel to an axis.
 std::vector<Vector3> directions() {
     std::vector<Vector3> result;
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -124,7 +131,7 @@ std::vector<Vector3> directions() {
     return result;
 }
 
-// One instance's surface, looked from.
+// Samples the visibility of the surface of one instance.
 class VisibilitySampler {
 public:
     VisibilitySampler(const Surface& surface, const Occluders& occluders, const Workers& workers)
@@ -135,7 +142,7 @@ public:
         sample_patches(workers);
     }
 
-    // The share that is seen, per position of the surface: the largest of the faces around it.
+    // Visibility by position of the surface: the maximum over the faces around it.
     std::vector<float> by_position(const Workers& workers) const {
         std::vector<float> result(surface_.positions.size());
         parallel_blocks(result.size(), 64, workers,
@@ -160,7 +167,8 @@ private:
         return longest <= max_patch_radius();
     }
 
-    // Small faces that lie together and look the same way are seen as the first of them is.
+    // Combines small neighbouring faces with similar normals into patches, which have the visibility of their
+    // first face.
     void sample_patches(const Workers& workers) {
         patch_.assign(surface_.triangles.size(), no_index);
         std::vector<Index> first, todo;
@@ -187,7 +195,7 @@ private:
                         });
     }
 
-    // To the patch of a face what belongs to it around a vertex.
+    // Adds the faces around vertex v that belong to the patch of face `first`.
     void grow_patch(Index v, Index first, std::vector<Index>& todo, CancellationCheck check_cancelled) {
         for (const Index g : around_[v]) {
             check_cancelled();
@@ -214,7 +222,7 @@ private:
         return most;
     }
 
-    // From a point of a face, to both of its sides.
+    // Visibility of a face at a point: the sum over both of its sides.
     double visibility_from(Index face, const Vector3& point) const {
         const Vector3& normal = surface_.normals[face];
         std::array<double, 2> seen = {}, all = {};  // by side
@@ -233,7 +241,7 @@ private:
     VertexFaces around_;
     double diagonal_;
     std::vector<Vector3> directions_ = directions();
-    std::vector<Index> patch_;  // by face; no_index: of none, the face is large
+    std::vector<Index> patch_;  // by face; no_index: large face without a patch
     std::vector<double> patch_visibility_;
 };
 
@@ -268,8 +276,8 @@ VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers) {
 
 std::string visibility_warning(const Asset& scene) {
     return is_dynamic(scene)
-               ? "visibility: the scene moves, and was looked at as it stands: what only a movement "
-                 "shows counts as hidden"
+               ? "visibility: the scene has animations, skins or morph targets, and was evaluated in its "
+                 "default pose: surface that is visible in other poses only counts as hidden"
                : "";
 }
 

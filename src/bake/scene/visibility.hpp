@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much of a scene's surface can be seen from outside.
+/// Visibility of the surface of a scene from outside.
 
 #include <cstdint>
 #include <string>
@@ -12,31 +12,32 @@
 
 namespace faqem::detail {
 
-/// What MeshView::vertex_weights are where nothing is seen: a door may be opened.
+/// Smallest value for MeshView::vertex_weights. It is not 0, since hidden surface may become visible in use.
 inline constexpr float min_visibility = 0.02f;
 
-/// What the vertices of an asset's parts can be seen of.
+/// Visibility of the vertices of an asset's parts.
 struct VertexVisibility {
-    /// By part, one per vertex, in [min_visibility, 1]: the share of all directions from which the surface
-    /// around it is seen, each counted by the cosine at which it is, over what is seen of a plane. Where the
-    /// scene shows a part several times, the largest. 1 where there is no surface that the scene shows.
+    /// By part and vertex, in [min_visibility, 1]: the fraction of directions from which the surface around
+    /// the vertex is visible, weighted by the cosine to its normal, and 1 for an unoccluded plane. For a part
+    /// with several instances, the largest value. 1 for vertices without surface in the scene.
     std::vector<std::vector<float>> weights;
-    std::uint64_t hidden_vertices = 0;  ///< vertices that nothing is seen of
+    std::uint64_t hidden_vertices = 0;  ///< number of vertices with visibility 0
 };
 
-/// Looks from the surface of the scene, as it stands, along directions spread evenly over the sphere. A face
-/// hides what is behind it where its material is opaque, and it turns its front to who looks, or has two
-/// sides. What is nearer than 1/5,000 of its instance's diagonal to a surface is on it. Faces smaller than
-/// 1/400 of that diagonal are looked from together, as far as they lie within it and look the same way.
-/// Source: Zhang and Turk, Visibility-Guided Simplification, 2002, for the weight; theirs looks from outside,
-/// through an image.
-/// \param scene  checked
-/// \throws InputError  all instances together have 2^31 faces or more
-/// \throws what the poll of the workers throws
-/// O(n log n) for n faces of all instances together; about 250 bytes for each
+/// Computes the visibility of the vertices of a scene in its default pose.
+/// Rays are cast from the surface in 32 directions that are evenly distributed over the sphere. A face
+/// occludes the surface behind it if its material is opaque and if it either faces the viewer or is
+/// double-sided. Faces closer than 1/5,000 of the bounding box diagonal of the instance do not occlude. Faces
+/// smaller than 1/400 of this diagonal are combined into patches of this radius with similar normals, and
+/// each patch is sampled once. Source: Zhang and Turk, Visibility-Guided Simplification, 2002, for the
+/// weighting; their visibility is determined from outside, by rendering.
+/// \param scene  must have passed check_asset()
+/// \throws InputError if all instances together have 2^31 faces or more, or 2^32 - 1 vertices or more
+/// \throws whatever `workers.check_cancelled` throws
+/// Complexity: O(n log n) time and about 250 n bytes for n faces of all instances together.
 FAQEM_EXPORT VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers = {});
 
-/// What is said of a scene that does not always stand so; empty where it does.
+/// Warning that the visibility was computed in the default pose; empty if the scene is static.
 std::string visibility_warning(const Asset& scene);
 
 }  // namespace faqem::detail

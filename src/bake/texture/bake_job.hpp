@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What all ways of baking share: the parts with their maps, and the result in the making.
+/// State that all kinds of baking share: the parts with their surface maps, and the result.
 
 #include <algorithm>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace faqem::detail {
 
-/// One call of bake().
+/// State of one call of bake().
 class BakeJob {
 public:
     BakeJob(const Asset& asset, const Options& how) : source(asset), options(how) {}
@@ -28,13 +28,15 @@ public:
     std::vector<CornerNormals> normals;  ///< by part
     SimplifiedAsset result;
 
-    /// Tells how far the work is. \throws engine::Cancelled
+    /// Calls the progress callback.
+    /// \param fraction  of the phase, 0 to 1
+    /// \throws engine::Cancelled if the callback cancels, and whatever it throws
     void report_progress(Phase phase, double fraction) const {
         phase_ = phase;
         fraction_ = fraction;
         check_cancelled().now();
     }
-    /// Asks while the work goes on from there.
+    /// Check for loops on the calling thread. It passes on the progress that was reported last.
     CancellationCheck cancellation_check() const {
         return options.progress ? CancellationCheck(monitor_) : CancellationCheck();
     }
@@ -43,20 +45,24 @@ public:
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
 
 private:
-    // What the callback is told next; no part of the work.
+    // Arguments of the next call of the callback.
     mutable Phase phase_ = Phase::map;
     mutable double fraction_ = 0;
     mutable engine::ProgressMonitor monitor_{[this] { return options.progress(phase_, fraction_); }};
 };
 
-/// parallel_blocks() with a work that polls; `done` of `total` work was done before.
+/// parallel_blocks() that reports progress.
+/// \param size   number of elements
+/// \param done   number of elements that were processed before
+/// \param total  number of elements that `done` and `size` are part of
+/// \param work   called as work(begin, end, check_cancelled)
 template <class Work>
 void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t size, std::size_t block,
                                    double done, double total, Work&& work) {
-    const std::size_t stretch = std::max(block, (size / 32 / block + 1) * block);
-    for (std::size_t begin = 0; begin < size; begin += stretch) {
+    const std::size_t batch = std::max(block, (size / 32 / block + 1) * block);
+    for (std::size_t begin = 0; begin < size; begin += batch) {
         job.report_progress(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
-        const std::size_t count = std::min(stretch, size - begin);
+        const std::size_t count = std::min(batch, size - begin);
         parallel_blocks(count, block, job.workers(),
                         [&](std::size_t b, std::size_t e, CancellationCheck check_cancelled) {
                             work(begin + b, begin + e, check_cancelled);
@@ -64,22 +70,24 @@ void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t 
     }
 }
 
-/// `material 'red'`, or by number where it has no name.
+/// Name of a material in messages: `material 'red'`, or its index if it has no name.
 std::string material_title(const Asset& asset, Index material);
 
-/// `part 'leg'`, or by number where it has no name.
+/// Name of a part in messages: `part 'leg'`, or its index if it has no name.
 FAQEM_EXPORT std::string part_title(const Asset& asset, std::size_t part);
 
-/// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
+/// Bakes a new atlas with new images.
+/// \return false, with an unchanged result, if there are more triangles than texels
 bool bake_pages(BakeJob& job);
 
-/// Colours on vertices.
+/// Bakes the base colour into vertex colours. The result has no textures.
 void bake_vertex(BakeJob& job);
 
-/// The source's UVs, colours and images. \throws InputError  the simplified mesh does not carry them
+/// Keeps the source's UVs, vertex colours and images.
+/// \throws InputError if the simplified mesh has no UVs and vertex colours
 void bake_keep(BakeJob& job);
 
-/// No UVs, no images.
+/// Removes UVs, vertex colours and images.
 void bake_none(BakeJob& job);
 
 }  // namespace faqem::detail

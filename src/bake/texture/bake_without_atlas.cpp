@@ -11,7 +11,7 @@
 namespace faqem::detail {
 namespace {
 
-// Texture names of a material, for a warning: "base colour, normal".
+// Names of a material's textures for a warning: "base colour, normal".
 std::string texture_names(const Material& m, bool with_base) {
     std::string result;
     const auto add = [&](const TextureRef& texture, const char* name) {
@@ -25,7 +25,8 @@ std::string texture_names(const Material& m, bool with_base) {
     return result;
 }
 
-// Takes all textures away and says so. What glowed through a texture alone must not glow all over.
+// Removes all textures of a material, with a warning. The emissive factor is reset if there was an emissive
+// texture: without it the whole surface would emit light.
 Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere) {
     Material result = material_or_default(job.source, index);
     const std::string names = texture_names(result, !base_is_kept_elsewhere);
@@ -34,7 +35,7 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     result.base_color_texture = result.metallic_roughness_texture = result.normal_texture =
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
-    result.extension_textures.clear();  // save() says so
+    result.extension_textures.clear();  // save() warns about these
     result.rebaked = true;
     return result;
 }
@@ -53,8 +54,8 @@ std::vector<Index> kept_materials(const BakePart& part) {
     return result;
 }
 
-// Tangents where there are normal maps. Those of a file are taken to be made from the UVs as they are;
-// viewers make theirs from what the texture's transform makes of them.
+// Tangents of the faces whose material has a normal map. Tangents stored in a file are assumed to be computed
+// from the UVs without the texture transform; viewers compute missing ones from the transformed UVs.
 std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
                                  const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<Vec4f> result;
@@ -116,7 +117,8 @@ void bake_keep(BakeJob& job) {
         if (from.values.size() != corners * width) {
             throw InputError(
                 "", part_title(job.source, part.index),
-                "its simplified mesh does not carry UVs and colours; simplify_parts() with Bake::keep");
+                "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
+                "simplify_parts() transfers if bake.kind is Bake::keep");
         }
         CornerLayers layers{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {

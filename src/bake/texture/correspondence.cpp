@@ -6,11 +6,12 @@
 namespace faqem {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the format is written byte for byte");
+static_assert(std::endian::native == std::endian::little,
+              "records are written as they are in memory, and the format is little-endian");
 
 constexpr char magic[8] = {'F', 'A', 'Q', 'E', 'M', 'C', '0', '1'};
 
-// One texel as it is in the file.
+// Layout of one texel in the file.
 struct Record {
     std::uint32_t part, face;
     float second, third;

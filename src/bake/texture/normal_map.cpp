@@ -14,7 +14,8 @@ namespace {
 using engine::to_eigen;
 using engine::Vector3;
 
-// Below this mean angle, degrees, a normal map from geometry shows less than its bytes are worth.
+// Smallest mean normal deviation, in degrees, for which a normal map is made from geometry. Below it the
+// visible difference does not justify the size of the image.
 constexpr double min_deviation = 5;
 
 struct Deviation {

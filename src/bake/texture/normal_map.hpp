@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which pages get a normal map, and the tangents that go with it.
+/// Which pages get a normal map, and the tangents for it.
 
 #include <span>
 #include <vector>
@@ -10,18 +10,21 @@
 
 namespace faqem::detail {
 
-/// Whether a page gets a normal map: as BakeOptions::normal_map says. O(faces)
-/// \param faces  of the page
+/// Whether a page gets a normal map, according to BakeOptions::normal_map.
+/// \param group  the materials of the page
+/// \param faces  the faces of the page
+/// Complexity: O(faces).
 bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<const PageFace> faces);
 
-/// How much the normals that the original is lit with, its normal maps left aside, differ from those of the
-/// simplified mesh: mean angle in degrees over the faces by area, at four places of each. O(faces)
+/// Normal deviation: mean angle, in degrees, between the shading normals of the original (without its normal
+/// maps) and those of the simplified mesh. Weighted by face area, and measured at four points of every face.
+/// Complexity: O(faces).
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces);
 
-/// Gives the corners of some faces of a simplified mesh tangents (MikkTSpace).
-/// \param faces     of the simplified mesh; they have one material
+/// Computes tangents (MikkTSpace) at the corners of some faces of a simplified mesh.
+/// \param faces     indices of faces of the simplified mesh, all of one material
 /// \param uvs       by corner of the simplified mesh
-/// \param tangents  by corner of the simplified mesh; made so long if it is empty
+/// \param tangents  by corner of the simplified mesh; resized if it is shorter
 void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
                   std::span<const Vec2f> uvs, CancellationCheck check_cancelled,
                   std::vector<Vec4f>& tangents);

@@ -14,10 +14,10 @@ namespace {
 
 using engine::Vector3;
 
-// Below this a texel's colour is that of texels around it.
+// Texels with a lower alpha take their colour from the texels around them.
 constexpr float min_visible_alpha = 1.0f / 512;
 
-constexpr std::size_t texels_per_poll = 4096;
+constexpr std::size_t texels_per_check = 4096;
 
 Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, CancellationCheck check_cancelled) {
     if (!wanted) return {};
@@ -26,7 +26,7 @@ Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, CancellationCheck 
     return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * texels, 255), has_alpha};
 }
 
-// Sums of samples.
+// Sums over the samples of one texel.
 struct TexelSums {
     explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
 
@@ -37,7 +37,7 @@ struct TexelSums {
     std::vector<LinearColor> layers;   // of the page's own material; normals in tangent space in RGB
     std::uint32_t layer_samples = 0;
     std::array<std::uint8_t, 3> steps{};  // samples by MapStep
-    TexelOrigin origin;                   // of the sample next to the middle
+    TexelOrigin origin;                   // of the sample closest to the centre
     double distance_to_center = std::numeric_limits<double>::infinity();
 
     void add(const Appearance& a, float share) {
@@ -53,7 +53,7 @@ struct TexelSums {
     }
 };
 
-// The bytes of a direction; of straight up where there is none.
+// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
 void write_normal(const Vector3& sum, std::uint8_t* to) {
     const double length = sum.norm();
     const Vector3 n = length > 1e-6 ? Vector3(sum / length) : Vector3(0, 0, 1);
@@ -88,8 +88,8 @@ public:
             bake_texels(cell, check_cancelled, [&](double, double) -> TexelProjector& { return first; });
             return;
         }
-        // The two face each other with their hypotenuses and have the same legs: the weights of their right
-        // corners tell which one is nearer.
+        // The two triangles have equal legs and adjacent hypotenuses: the one with the larger barycentric
+        // coordinate of the right-angle corner is closer.
         TexelProjector second = projector(cell.second);
         bake_texels(cell, check_cancelled, [&](double x, double y) -> TexelProjector& {
             return second.right_angle_weight(x, y) > first.right_angle_weight(x, y) ? second : first;
@@ -150,7 +150,8 @@ private:
             job_, {request_.atlas, request_.adjacent, request_.faces, request_.tangents}, triangle, samples_};
     }
 
-    // Texels between strangers belong to one of them; one on the hypotenuse of partners is both's.
+    // Between two triangles that are not partners a texel belongs to one of them. On the shared hypotenuse of
+    // partners a texel can have samples of both.
     template <class Choose>
     void bake_texels(const AtlasCell& cell, CancellationCheck check_cancelled, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
@@ -188,7 +189,7 @@ private:
         add_layers(sum, projector, at, point);
     }
 
-    // What a neighbour of another material shows has nothing to do with this one's extensions.
+    // Samples of another material, on a neighbouring face, are skipped: they have no value for these layers.
     void add_layers(TexelSums& sum, const TexelProjector& projector, const TexelSample& at,
                     const SurfacePoint& point) const {
         if (request_.layers.empty() || sampler_.material(projector.part(), point) != request_.material)
@@ -252,7 +253,7 @@ private:
         const CancellationCheck check_cancelled = job_.cancellation_check();
         auto& [history, approximate, closest] = images_.samples;
         for (std::size_t i = 0; i < is_covered_.size(); ++i) {
-            if (i % texels_per_poll == 0) check_cancelled(texels_per_poll / 16);
+            if (i % texels_per_check == 0) check_cancelled(texels_per_check / 16);
             images_.texels += is_covered_[i];
             history += is_covered_[i] *
                        (std::uint64_t{samples_} * samples_ - approximate_samples_[i] - closest_samples_[i]);
@@ -267,11 +268,11 @@ private:
     const PageRequest& request_;
     std::uint32_t samples_;
     PageImages images_;
-    std::vector<std::uint8_t> approximate_samples_,
-        closest_samples_;                          // samples of each texel that were found so
-    std::vector<std::uint8_t> is_covered_;         // texels in cells
-    std::vector<std::uint8_t> has_color_;          // those with a colour
-    std::vector<std::uint8_t> has_layer_samples_;  // those with samples of the page's own material
+    // By texel: number of samples with MapStep::approximate and MapStep::closest.
+    std::vector<std::uint8_t> approximate_samples_, closest_samples_;
+    std::vector<std::uint8_t> is_covered_;         // by texel: in a cell or chart
+    std::vector<std::uint8_t> has_color_;          // by texel: has a visible colour
+    std::vector<std::uint8_t> has_layer_samples_;  // by texel: has samples of the page's own material
 };
 
 }  // namespace

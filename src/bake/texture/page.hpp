@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The texel loop: colours for one page of the atlas.
+/// The texel loop: bakes the images of one page of the atlas.
 
 #include <span>
 #include <vector>
@@ -12,39 +12,42 @@
 
 namespace faqem::detail {
 
-/// What is on a page.
+/// A page to be baked.
 struct PageRequest {
     const Atlas& atlas;
     std::span<const AtlasChart> charts;
     std::span<const ChartTile> tiles;                           ///< of the charts
     std::span<const std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle of the atlas
     std::span<const PageFace> faces;                            ///< by triangle of the atlas
-    /// By part and corner, as they are written; needed for normal maps.
+    /// By part and corner, as they will be written; needed for normal maps.
     std::span<const std::vector<Vec4f>> tangents;
     Channels channels;
     AlphaMode alpha_mode = AlphaMode::opaque;
     std::span<const ExtensionLayer> layers = {};  ///< of `material`
-    Index material = no_index;                    ///< whose extensions these are
+    Index material = no_index;                    ///< of the source, with the extensions of `layers`
 };
 
-/// The page's images; those not asked for have no pixels.
+/// The images of a page. Channels that were not requested have no pixels.
 struct PageImages {
     Pixels base, occlusion_roughness_metallic, emissive, normal;
-    std::vector<Pixels> layers;                 ///< as asked for
-    std::array<std::uint64_t, 3> samples = {};  ///< by MapStep
-    std::uint64_t uncertain_texels = 0;         ///< with a sample found other than by MapStep::history
-    std::uint64_t texels = 0;                   ///< that show a triangle
-    std::vector<TexelOrigin> origins;           ///< by texel; empty unless they are recorded
+    std::vector<Pixels> layers;                 ///< by PageRequest::layers
+    std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
+    std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
+    std::uint64_t texels = 0;                   ///< texels that show a triangle
+    std::vector<TexelOrigin> origins;           ///< by texel; empty unless options.bake.correspondence is on
 };
 
-/// Averages options.bake.samples^2 samples per texel, in linear light and premultiplied, encodes once, and
-/// fills the rest. Texels outside a triangle show what lies across the edge: the mesh neighbour unfolded into
-/// the triangle's plane, so that coarser mip levels average what they would on an unbroken texture; the
-/// triangle's closest point where there is none. Normals are averaged in the tangent space of the simplified mesh;
-/// texels outside a triangle use that of its closest point. Cells and tiles are independent of each other, so
-/// the result does not depend on the number of threads.
-/// \param done, total  cells and tiles, for the progress
-/// \throws Cancelled
+/// Bakes the images of a page.
+/// A texel is the average of options.bake.samples^2 samples in linear light with premultiplied alpha, and is
+/// encoded once. The other texels are filled by push_pull().
+/// Samples outside a triangle show the mesh neighbour across the edge, unfolded into the triangle's plane, so
+/// that coarser mip levels have the averages of a continuous texture; where there is no neighbour, they show
+/// the triangle's closest point. Normals are averaged in the tangent space of the simplified mesh; samples
+/// outside a triangle use the tangent space of its closest point.
+/// The result does not depend on the number of threads, as cells and tiles are independent of each other.
+/// \param done   cells and tiles of other pages that were baked before, for the progress
+/// \param total  cells and tiles of all pages
+/// \throws Cancelled if the progress callback cancels, and whatever the callback throws
 PageImages bake_page(const BakeJob& job, const SourceSampler& sampler, const PageRequest& request,
                      double done, double total);
 

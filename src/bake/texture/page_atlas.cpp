@@ -15,10 +15,10 @@ namespace {
 using engine::to_eigen;
 using engine::Vector3;
 
-// Charts of fewer faces have more gutter than cells of pairs do.
+// With fewer faces, charts have more gutter than the cells of a per-triangle atlas.
 constexpr std::size_t min_mean_faces_per_chart = 3;
 
-// Source texels per length at a simplified face, root mean square over four places.
+// Source texels per unit of length at a simplified face: root mean square over four points.
 double density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
     constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
     double sum = 0;
@@ -35,7 +35,8 @@ std::array<Vector3, 3> corners_of(const TriangleMesh& mesh, Index face) {
     return {to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]), to_eigen(mesh.positions[t[2]])};
 }
 
-// Holds densities within a factor of 4 of their median by area, part by part: parts have their own units.
+// Clamps densities to within a factor of 4 of their area-weighted median. By part, as parts have their own
+// units.
 void clamp_densities(const BakeJob& job, std::span<const PageFace> faces, std::vector<double>& density) {
     for (std::size_t begin = 0, end; begin < faces.size(); begin = end) {
         struct Weighted {
@@ -60,7 +61,7 @@ void clamp_densities(const BakeJob& job, std::span<const PageFace> faces, std::v
     }
 }
 
-// Along a Morton curve over the box of its part, part by part.
+// Sort keys of faces: by part, and along a Morton curve over the bounding box of the part.
 std::vector<std::uint64_t> morton_codes(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<std::uint64_t> result(faces.size());
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
@@ -85,11 +86,11 @@ std::uint8_t opposite_longest_edge(const PairTriangle& triangle) {
     return static_cast<std::uint8_t>(longest - triangle.edges.begin());
 }
 
-// Half an edge: a side of one face.
+// A half-edge of a face.
 struct FaceEdge {
     Index part, low, high;  // vertices
-    std::uint64_t corner;   // 3 * triangle + the corner opposite
-    bool up;                // runs from low to high
+    std::uint64_t corner;   // 3 * triangle + corner opposite the edge
+    bool up;                // directed from low to high
 
     bool same_edge(const FaceEdge& o) const { return part == o.part && low == o.low && high == o.high; }
 };
@@ -142,14 +143,14 @@ double total_wanted_texels(const BakeJob& job, std::span<const PageFace> faces,
     return sum;
 }
 
-// Pages below this get up to twice the texels.
+// Pages with fewer texels get up to twice as many.
 constexpr double small_page_texels = 1 << 18;
 
 double small_page_factor(double texels) {
     return std::clamp(std::sqrt(small_page_texels / texels), 1.0, std::numbers::sqrt2);
 }
 
-// By face.
+// Wanted texels per unit of length, by face.
 std::vector<double> wanted_densities(const BakeJob& job, const SourceSampler& sampler,
                                      std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the faces of a page to its atlas: who is whose neighbour, how large, in which order.
+/// Makes the atlas of a page: adjacency, texel densities and layout of its faces.
 
 #include <array>
 #include <optional>
@@ -20,24 +20,28 @@ struct PageFace {
     Index part = 0, face = 0;
 };
 
-/// An atlas, and the neighbours in the mesh by triangle.
+/// An atlas, and the mesh adjacency of its triangles.
 struct PageAtlas {
     Atlas atlas;
     std::vector<AtlasChart> charts;
-    std::vector<ChartTile> tiles;  ///< of the charts
-    std::vector<std::array<AdjacentTriangle, 3>> adjacent;
-    BakedPage summary;  ///< what can be told before it is baked
+    std::vector<ChartTile> tiles;                           ///< of the charts
+    std::vector<std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle and corner opposite the edge
+    BakedPage summary;  ///< report entry, with what is known before baking
 
+    /// Number of cells and tiles, which are the units of work.
     std::size_t pieces() const { return atlas.cells.size() + tiles.size(); }
 };
 
-/// Neighbours of the page's faces: over edges with exactly two of them, wound alike. O(n log n)
+/// Neighbours of the page's faces, across edges with exactly two faces of consistent winding.
+/// \param faces  the faces of the page
+/// \return by face and corner opposite the edge
+/// Complexity: O(n log n).
 std::vector<std::array<AdjacentTriangle, 3>> face_adjacency(const BakeJob& job,
                                                             std::span<const PageFace> faces);
 
-/// Wants the source's texels per length of each face, and makes the atlas that options.bake.kind says.
-/// `automatic` takes charts unless they hold fewer than 3 faces on average.
-/// \param faces  those of a part are consecutive
+/// Makes the atlas of a page, of the kind given by options.bake.kind, with texel densities taken from the
+/// source. Bake::automatic uses charts unless they have fewer than 3 faces on average.
+/// \param faces  the faces of the page; those of one part must be consecutive
 /// \return nothing if there are more pieces than texels
 std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSampler& sampler,
                                          std::span<const PageFace> faces);

@@ -14,7 +14,7 @@ namespace {
 
 using TextureMember = TextureRef Material::*;
 
-// Adds images of one page to the result: first their places, then what is in them, side by side.
+// Adds the images of one page to the result: add() appends an empty image, write() encodes all in parallel.
 class ImageWriter {
 public:
     ImageWriter(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
@@ -103,7 +103,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
     result.extension_textures.clear();
-    // Textures of the group that an image is baked from.
+    // Textures of the group in the given slots.
     const auto uses = [&](std::initializer_list<TextureMember> slots) {
         std::vector<TextureRef> found;
         for (const Index m : group.materials) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the images of a page to its material.
+/// Makes the material of a page from its images.
 
 #include <span>
 
@@ -9,10 +9,11 @@
 
 namespace faqem::detail {
 
-/// The material of a group, with the page's images added to the result, encoded as the options say. A channel
-/// with an image has factor 1; the others keep what the group's first material says.
-/// \param channels  those that `images` has
-/// \param layers    of the group's material; their factors stay
+/// Returns the material of a group, and adds the page's images to the result, encoded according to the
+/// options. A channel with an image has factor 1; other channels keep the factors of the group's first
+/// material.
+/// \param channels  the channels of `images`
+/// \param layers    extension layers of the group's material; their factors are kept
 Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
                        std::span<const ExtensionLayer> layers, const PageImages& images);
 

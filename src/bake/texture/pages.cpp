@@ -14,13 +14,13 @@
 namespace faqem::detail {
 namespace {
 
-// One group's faces and page.
+// The page of a material group.
 struct GroupPage {
-    Index material = no_index;  // the group's first
+    Index material = no_index;  // the group's first material
     Channels channels;
     std::vector<PageFace> faces;
     std::vector<ExtensionLayer> layers;
-    std::optional<PageAtlas> atlas;  // none where no image is needed
+    std::optional<PageAtlas> atlas;  // empty if no image is needed
 };
 
 bool has_non_white_colors(const Part& part) {
@@ -29,7 +29,7 @@ bool has_non_white_colors(const Part& part) {
     });
 }
 
-// An image is made where a material has one, and where factors differ.
+// Channels that need an image: those for which a material has one, or for which the factors differ.
 Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
     Channels result;
     const Material& first = group.material;
@@ -83,7 +83,7 @@ void warn_of_normal_maps(BakeJob& job, const MaterialGroups& groups, const std::
     }
 }
 
-// UVs of the corners of all parts, in 0..1.
+// UVs by part and corner, in [0, 1].
 std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector<GroupPage>& pages) {
     std::vector<std::vector<Vec2f>> result(job.parts.size());
     for (const GroupPage& page : pages) {
@@ -103,11 +103,12 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
     return result;
 }
 
-// Pages with a smaller share of the source's texels per length are told of: mostly a tiled texture that no page
-// could hold.
+// Pages whose texel density is a smaller fraction of the source's cause a warning. The usual reason is a
+// tiled texture that does not fit on a page.
 constexpr double min_relative_density = 0.2;
 
-// Texels per length: of the page over the source's, both root mean squares over the simplified surface.
+// Texel density of the page divided by that of the source, both root mean squares over the simplified
+// surface.
 double relative_density(const BakeJob& job, const SourceSampler& sampler, const GroupPage& page) {
     const CancellationCheck check_cancelled = job.cancellation_check();
     double own = 0, wanted = 0;
@@ -146,19 +147,20 @@ void add_to_report(BakeJob& job, const SourceSampler& sampler, const GroupPage& 
         baked.density < min_relative_density * job.options.bake.texel_density.value_or(1)) {
         const std::string side = std::to_string(std::lround(1 / baked.density));
         job.warn("atlas of " + material_title(job.source, page.material) + ": one texel for " + side + " x " +
-                 side + " of the source's; texture_size is " + std::to_string(job.options.bake.texture_size));
+                 side + " texels of the source; texture_size is " +
+                 std::to_string(job.options.bake.texture_size));
     }
     job.result.report.pages.push_back(std::move(baked));
     if (page.atlas->summary.faces_outside_charts > 0) {
         job.warn("atlas: " + std::to_string(page.atlas->summary.faces_outside_charts) +
-                 " faces lie alone: the bound on the work for their charts was reached");
+                 " faces became charts of their own because the work limit of their region was reached");
     }
     if (job.options.bake.correspondence == Recording::on) {
         job.result.correspondence.push_back({material, atlas.width, atlas.height, std::move(images.origins)});
     }
 }
 
-// Tangents of the corners of all parts, where there is a normal map.
+// Tangents by part and corner; empty for parts without a normal map.
 std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::vector<GroupPage>& pages,
                                                 const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<std::vector<Vec4f>> result(job.parts.size());

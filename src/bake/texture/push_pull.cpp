@@ -42,7 +42,8 @@ PyramidLevel push(std::uint32_t width, std::uint32_t height, const std::vector<s
     return result;
 }
 
-// Weights 9 3 3 1 of the four coarse texels around the centre of a fine one.
+// Bilinear interpolation of the four coarse texels around the centre of a fine one: weights 9, 3, 3 and 1 of
+// 16.
 std::uint8_t upsampled(const PyramidLevel& coarse, std::uint32_t x, std::uint32_t y, std::size_t k) {
     const auto other = [](std::uint32_t i, std::uint32_t n) {
         const std::uint32_t c = i / 2;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// No black texels: what the bake left empty takes the colours around it.
+/// Push-pull interpolation: texels that were not baked get the colours of the texels around them.
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +10,19 @@
 
 namespace faqem::detail {
 
-/// Half-open range of channels of RGBA.
+/// Range [begin, end) of the channels of RGBA.
 struct ChannelRange {
     std::uint32_t begin = 0, end = 4;
 };
 
-/// Push-pull (Gortler et al. 1996, The Lumigraph): the image is halved again and again, averaging what is
-/// known, until all is; then every unknown texel is read from the next coarser image.
-/// \param pixels  changed where `known` is zero, in `channels` only
-/// \param known   width * height; nonzero where the texel is baked. All zero: nothing happens
-/// O(texels) time, 5/3 bytes per texel.
-/// \throws what the poll throws
+/// Fills unknown texels by push-pull interpolation (Gortler et al. 1996, The Lumigraph): the image is halved
+/// repeatedly by averaging known texels until all are known; then every unknown texel is interpolated from
+/// the next coarser image.
+/// \param pixels    changed where `known` is zero, in `channels` only
+/// \param known     width * height entries, nonzero for baked texels; if all are zero, nothing is changed
+/// \param channels  the channels to be filled
+/// Complexity: O(texels) time, 5/3 bytes of memory per texel.
+/// \throws whatever `check_cancelled` throws
 void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
                engine::CancellationCheck check_cancelled = {});
 

@@ -12,7 +12,7 @@ namespace {
 using engine::to_eigen;
 using engine::Vector3;
 
-// The right corner is the one whose UV is level with one other corner and plumb with the other.
+// The right-angle corner has the same u as one of the other corners and the same v as the other one.
 std::size_t right_angle_corner(const TrianglePlacement& placement) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto &r = placement.uv[i], &a = placement.uv[(i + 1) % 3], &b = placement.uv[(i + 2) % 3];
@@ -42,7 +42,7 @@ TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, I
         const AdjacentTriangle& adjacent = page.adjacent[triangle][c];
         if (adjacent.triangle == no_index) continue;
         const Index other = page.faces[adjacent.triangle].face;
-        // Beyond a crease another side begins, whose colours would run into a strip a texel wide.
+        // Neighbours across a crease are not used: their colours would show in a strip one texel wide.
         if (!is_crease(normals_, face_.face, c, other, adjacent.corner)) {
             unfolded_[c] = unfold(c, other, adjacent.corner);
         }
@@ -53,7 +53,7 @@ Vector3 TexelProjector::corner(Index face, std::size_t i) const {
     return to_eigen(mesh_.positions[mesh_.triangles[face][i % 3]]);
 }
 
-// Length of a texel on the simplified surface, the longer one of its sides.
+// Length of the longer side of a texel on the simplified surface.
 double TexelProjector::texel_length() const {
     const auto at = [&](std::size_t i) { return corner(face_.face, i); };
     if (is_single_texel()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
@@ -80,7 +80,8 @@ TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, do
     if (is_single_texel())
         return {face_.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0, x + s,
                 y + t};
-    // The neighbour runs along the edge the other way. What is outside of it too is drawn in.
+    // The neighbour traverses the edge in the opposite direction. Points beyond the neighbour are clamped to
+    // it.
     const auto weights_in_neighbour = [](const UnfoldedNeighbour& neighbour, const Vec3& w, std::size_t c) {
         const double up = std::min(1.0, -w[c] * neighbour.height_ratio);
         const double along = w[(c + 2) % 3] + w[c] * neighbour.foot;
@@ -109,7 +110,7 @@ SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint3
     return point;
 }
 
-// Weights of the point of this triangle that is closest to a sample.
+// Barycentric coordinates of the point of this triangle that is closest to a sample.
 Vec3 TexelProjector::own_weights(const TexelSample& at) const {
     return at.cache_index == 0 ? at.weights : frame_.closest(at.x, at.y);
 }

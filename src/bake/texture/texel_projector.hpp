@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the texels of a triangle to points of the simplified mesh.
+/// Maps samples of texels to points of the simplified mesh and of the source.
 
 #include <array>
 #include <cstdint>
@@ -15,61 +15,67 @@
 
 namespace faqem::detail {
 
-/// A point on a face of the simplified mesh.
+/// A sample of a texel as a point on a face of the simplified mesh.
 struct TexelSample {
     Index face = 0;
-    Vec3 weights = {};
-    std::size_t cache_index = 0;  ///< of the painter
-    double x = 0, y = 0;          ///< on the page
+    Vec3 weights = {};            ///< barycentric coordinates
+    std::size_t cache_index = 0;  ///< 0 on the projector's triangle, c + 1 across its edge opposite corner c
+    double x = 0, y = 0;          ///< position on the page, in texels
 };
 
-/// What painters find their triangles in.
+/// A page as the input of TexelProjector.
 struct ProjectorInput {
     const Atlas& atlas;
     std::span<const std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle of the atlas
     std::span<const PageFace> faces;                            ///< by triangle of the atlas
-    /// By part and corner, as they are written; empty parts where no normals are painted.
+    /// By part and corner, as they will be written; empty for parts without a normal map.
     std::span<const std::vector<Vec4f>> tangents;
 };
 
-/// A triangle of the atlas, its neighbours, and where its last samples were.
+/// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts.
 class TexelProjector {
 public:
-    /// \param triangle  of the atlas
-    /// \param samples   per texel and axis
-    /// \pre all that is referred to outlives this
+    /// \param job       must outlive this
+    /// \param page      what it refers to must outlive this
+    /// \param triangle  index into the atlas
+    /// \param samples   samples per texel along each axis
     TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle, std::uint32_t samples);
 
-    /// The point for place (s, t) of texel (x, y): on the triangle, or across an edge on its neighbour, unfolded
-    /// into the triangle's plane.
+    /// The sample at position (s, t), from 0 to 1, in texel (x, y): on the triangle, or across an edge on its
+    /// neighbour, unfolded into the triangle's plane.
     TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
 
-    /// The original's point there. The trail is followed and prolonged.
+    /// The point of the source that corresponds to a sample in texel (x, y). Uses and updates the warm
+    /// starts.
     SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 
-    /// Which way the simplified face at a point looks.
+    /// Normal of the simplified face at a sample, see oriented_face_normal().
     engine::Vector3 face_normal(const TexelSample& at) const {
         return oriented_face_normal(part_, normals_, at.face);
     }
 
-    /// A normal of the original in the simplified mesh's tangent space. One that lies across an edge is turned with
-    /// its face into this triangle's plane: at a crease it would lean over by the whole fold.
+    /// Transforms a normal of the source to the tangent space of the simplified mesh. For a sample on a
+    /// neighbour the normal is rotated with the neighbour into this triangle's plane; otherwise it would be
+    /// off by the dihedral angle.
     engine::Vector3 to_tangent_space(const TexelSample& at, const engine::Vector3& normal) const;
 
-    /// Weight of the right corner at a place of the page: tells which of a pair's triangles is nearer.
+    /// Barycentric coordinate of the right-angle corner at a point of the page. The partner with the larger
+    /// value is closer to the point.
     double right_angle_weight(double x, double y) const { return frame_.at(x, y)[right_angle_corner_]; }
 
+    /// Index of the part that the triangle belongs to.
     Index part() const { return face_.part; }
-    /// Distance between samples on the simplified surface.
+    /// Distance between samples on the simplified surface, in the part's units.
     double spacing() const { return spacing_; }
 
 private:
-    // How weights of this face become weights of the neighbour across an edge, unfolded into one plane.
+    // Conversion of barycentric coordinates of this face to those of the neighbour across an edge, which is
+    // unfolded into this face's plane.
     struct UnfoldedNeighbour {
         Index face = no_index;
-        std::size_t corner = 0;           // of the neighbour, opposite the edge
-        double height_ratio = 0;          // this face's over the neighbour's, above the edge
-        double foot = 0, other_foot = 0;  // of the corners opposite, along the edge, 0 to 1
+        std::size_t corner = 0;           // corner of the neighbour opposite the edge
+        double height_ratio = 0;          // height above the edge: of this face divided by the neighbour's
+        double foot = 0, other_foot = 0;  // projections of the opposite corners to the edge, 0 to 1 along it
     };
 
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
@@ -86,9 +92,9 @@ private:
     const CornerNormals& normals_;
     const TriangleMesh& mesh_;
     const double spacing_;
-    std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite
-    std::array<FrameCorner, 3> frames_;          // for normals
-    std::array<WarmStartCache, 4> warm_starts_;  // the triangle's own, then those across
+    std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite the edge
+    std::array<FrameCorner, 3> frames_;          // set if the page has a normal map
+    std::array<WarmStartCache, 4> warm_starts_;  // by TexelSample::cache_index
 };
 
 }  // namespace faqem::detail

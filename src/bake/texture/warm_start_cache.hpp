@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the last samples on a face were found.
+/// Warm starts for the projection of samples: results of recent samples nearby.
 
 #include <cstdint>
 
@@ -8,17 +8,20 @@
 
 namespace faqem::detail {
 
-/// The last sample on a face and the first one of its row, by texel: the next one may start from there if it is
-/// close by. Rows come from the top, each from the left.
+/// Remembers the last sample on a face and the first sample of its row of texels. The search for a sample
+/// close to one of them can start there. Samples must be added row by row from the top, each row from the
+/// left.
 class WarmStartCache {
 public:
-    /// The answer that a sample in texel (x, y) may start from. Null where there is none.
+    /// Starting point for a sample in texel (x, y), or null if no remembered sample is close. Valid until
+    /// add().
     const SurfacePoint* start_near(std::uint32_t x, std::uint32_t y) const {
         if (!started_) return nullptr;
         if (last_.y == y && x - last_.x <= 1) return &last_.point;
         return row_.is_near(x, y) ? &row_.point : nullptr;
     }
 
+    /// Adds the result of a sample in texel (x, y).
     void add(const SurfacePoint& point, std::uint32_t x, std::uint32_t y) {
         last_ = {point, x, y};
         if (!started_ || row_.y != y) row_ = last_;
@@ -31,7 +34,7 @@ private:
         std::uint32_t x = 0, y = 0;
 
         bool is_near(std::uint32_t to_x, std::uint32_t to_y) const {
-            constexpr std::uint32_t steps = 4;  // a row may begin far from where the one above did
+            constexpr std::uint32_t steps = 4;  // largest offset in texels between the starts of two rows
             return to_y - y <= 1 && to_x + steps - x <= 2 * steps;
         }
     };

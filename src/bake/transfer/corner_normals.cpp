@@ -14,11 +14,12 @@ using engine::to_eigen;
 using engine::Vector3;
 
 constexpr double inset = 0.02;
-// Vertices with more creases than this keep the rest of their corners apart, so that the work stays bounded.
+// Largest number of clusters of a vertex that are searched for a corner. It bounds the work: if there are
+// more creases, the remaining corners are not clustered.
 constexpr std::size_t max_clusters = 64;
 
-// Angle times area: a large flat face keeps its normal next to a narrow bevel, and how a fan is cut up does
-// not matter.
+// Angle times area. With the area, a large flat face keeps its normal next to a narrow bevel; with the angle,
+// the result depends little on how a fan is triangulated.
 double corner_weight(const TriangleMesh& mesh, std::uint64_t corner) {
     const Triangle& t = mesh.triangles[corner / 3];
     const Vector3 p = to_eigen(mesh.positions[t[corner % 3]]);
@@ -32,7 +33,8 @@ struct Cluster {
     Vector3 seed, sum;
 };
 
-// Writes the mean normals of one vertex; clusters are numbered by their first corner.
+// Clusters the corners of one vertex and writes their mean normals. A cluster has the number of its first
+// corner.
 void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corners,
                    const std::vector<Vector3>& face_normals, const std::vector<Vector3>& raw,
                    double min_normal_cosine, CornerNormals& result) {
@@ -67,27 +69,28 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     }
 }
 
-// Above 0 where a face looks the way its normals do, below where it is wound against them; by area.
+// Twice the area of a face: positive if its winding agrees with its vertex normals, negative if it
+// contradicts them.
 double normal_winding_agreement(const Part& part, std::size_t face) {
-    Vector3 looks = Vector3::Zero();
-    for (std::size_t c = 0; c < 3; ++c) looks += corner_normal(part, face, c);
+    Vector3 normals = Vector3::Zero();
+    for (std::size_t c = 0; c < 3; ++c) normals += corner_normal(part, face, c);
     const Triangle& t = part.triangles[face];
-    const Vector3 wound = engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
-                                              to_eigen(part.positions[t[2]]));
-    const double result = looks.dot(wound);
-    return result > 0 ? wound.norm() : result < 0 ? -wound.norm() : 0;
+    const Vector3 area = engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
+                                             to_eigen(part.positions[t[2]]));
+    const double result = normals.dot(area);
+    return result > 0 ? area.norm() : result < 0 ? -area.norm() : 0;
 }
 
 std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part,
                                                       engine::CancellationCheck check_cancelled) {
     std::vector<std::uint8_t> result(part.faces(), 0);
     if (part.source->normals.empty()) return result;
-    double most = 0;
+    double total = 0;
     for (std::size_t f = 0; f < part.source->triangles.size(); ++f) {
         check_cancelled();
-        most += normal_winding_agreement(*part.source, f);
+        total += normal_winding_agreement(*part.source, f);
     }
-    if (!(most > 0)) return result;
+    if (!(total > 0)) return result;
     for (std::size_t f = 0; f < result.size(); ++f) {
         result[f] = normal_winding_agreement(*part.source, part.simplified->history.kept_faces[f]) < 0;
     }
@@ -137,7 +140,7 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Wor
                                 raw[c] = face_normal;
                         }
                     });
-    // The cosine is lowered a little: equal normals differ by rounding.
+    // The tolerance allows for rounding differences between equal normals.
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh, workers.check_cancelled);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

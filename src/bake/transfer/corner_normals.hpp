@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals of the simplified mesh.
+/// Normals at the corners of the simplified mesh.
 
 #include <cstdint>
 #include <vector>
@@ -11,30 +11,35 @@
 
 namespace faqem::detail {
 
-/// Per corner of the simplified mesh.
+/// Normals of the simplified mesh, and their clusters.
 struct CornerNormals {
-    std::vector<Vec3f> normals;   ///< unit length, on the front side of their face
-    std::vector<Index> clusters;  ///< corners of one vertex that share a normal have the same number
-    /// Per face: 1 where the original face that it used to be is wound against its own normals, while most of
-    /// the part is not. Such files are lit as they were, wrong winding or not.
+    std::vector<Vec3f> normals;   ///< by corner: unit length, within 90 degrees of the face normal
+    std::vector<Index> clusters;  ///< by corner: corners of a vertex that share a normal have the same number
+    /// By face: 1 if the winding of the source face contradicts its vertex normals, while it agrees with them
+    /// on most of the part's area. Such a face is shaded by its vertex normals, as in the source.
     std::vector<std::uint8_t> has_reversed_winding;
 };
 
-/// The unit normal of a simplified face as it is wound, or its opposite where it is CornerNormals::has_reversed_winding. Zero
-/// where the face has no area. O(1)
+/// Unit normal of a simplified face by its winding, reversed where CornerNormals::has_reversed_winding is
+/// set. Zero if the face is degenerate. Complexity: O(1).
 engine::Vector3 oriented_face_normal(const BakePart& part, const CornerNormals& normals, std::size_t face);
 
-/// Whether the normals of both ends are split along an edge.
-/// \param corner,other_corner  of the two faces on it, each opposite the edge; both are wound alike
+/// Whether the edge between two faces of consistent winding is a crease: the normals of both its vertices are
+/// split along it.
+/// \param corner        corner of `face` opposite the edge
+/// \param other_corner  corner of `other` opposite the edge
 bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
                std::size_t other_corner);
 
-/// As BakeOptions::normals says. Normals::transfer: a corner's normal is the original's (its face's, where it
-/// has none) a little inside the simplified face. Normals::smooth: the simplified face's own.
-/// Corners of one vertex whose normals differ by at most the crease angle get their mean, weighted by corner
-/// angles. A normal that would look away from its face gives way to the face's: oriented_face_normal() with
-/// Normals::transfer, else the face as it is wound. Normals::flat clusters as Normals::smooth does.
-/// O(corners), for bounded numbers of creases per vertex
+/// Computes the normals of a simplified part according to BakeOptions::normals.
+/// With Normals::transfer the normal of a corner is that of the source (of its face, if it has no normals) at
+/// a point slightly inside the simplified face; with Normals::smooth it is the normal of the simplified face.
+/// Corners of a vertex whose normals differ by at most the crease angle get their mean, weighted by corner
+/// angle times face area. A normal that is not within 90 degrees of the face normal is replaced by the
+/// latter, which is oriented_face_normal() with Normals::transfer, and otherwise given by the winding.
+/// Normals::flat has the clusters of Normals::smooth, but keeps the face normals.
+/// Complexity: O(corners) for a bounded number of creases per vertex.
+/// \throws whatever `workers.check_cancelled` throws
 CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers);
 
 }  // namespace faqem::detail

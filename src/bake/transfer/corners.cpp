@@ -6,7 +6,7 @@
 namespace faqem::detail {
 namespace {
 
-// Bits, because kept UVs may be anything; -0 and 0 are one value.
+// Compares bit patterns, since kept UVs can be NaN. -0 and 0 are equal.
 template <std::size_t N>
 int compare(const std::array<float, N>& a, const std::array<float, N>& b) {
     for (std::size_t k = 0; k < N; ++k) {
@@ -30,7 +30,7 @@ int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
     return layers.colors.empty() ? 0 : compare(layers.colors[a], layers.colors[b]);
 }
 
-// For each corner the first corner of its vertex that agrees with it.
+// By corner: the first corner of its vertex that agrees with it in every layer.
 std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers,
                                            engine::CancellationCheck check_cancelled) {
     const VertexCorners at = vertex_corners(mesh, check_cancelled);

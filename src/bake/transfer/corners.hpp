@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From attributes on corners to vertices as files want them.
+/// Welds the corners of a simplified mesh with equal attributes to vertices of an output part.
 
 #include <memory>
 #include <span>
@@ -15,35 +15,36 @@ namespace faqem::detail {
 
 /// A part of the source with its simplified mesh.
 struct BakePart {
-    Index index = 0;  ///< into Asset::parts
+    Index index = 0;  ///< index into Asset::parts
     const Part* source = nullptr;
     const SimplifyResult* simplified = nullptr;
-    std::unique_ptr<const SurfaceMap>
-        map;  ///< null where the simplified mesh has no faces, or nothing is asked
+    /// Null if the simplified mesh has no faces, or nothing is transferred from the source.
+    std::unique_ptr<const SurfaceMap> map;
 
     std::size_t faces() const { return simplified->mesh.triangles.size(); }
 };
 
-/// Operations of a poll that finding a place through BakePart::map counts as.
+/// Number of operations that a query of BakePart::map counts as in cancellation checks.
 inline constexpr std::uint64_t map_query_cost = 32;
 
 /// Corners of the simplified mesh by vertex.
 struct VertexCorners {
-    std::vector<std::uint64_t> begin;    ///< vertices + 1
-    std::vector<std::uint64_t> corners;  ///< 3 * face + corner, ascending at each vertex
+    std::vector<std::uint64_t> begin;    ///< by vertex: offset into `corners`; one more at the end
+    std::vector<std::uint64_t> corners;  ///< 3 * face + corner, ascending for every vertex
 
     std::span<const std::uint64_t> at(std::size_t vertex) const {
         return std::span(corners).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
     }
 };
 
-/// O(faces + vertices)
+/// Sorts the corners of a mesh by vertex. Complexity: O(faces + vertices).
 VertexCorners vertex_corners(const TriangleMesh& mesh, engine::CancellationCheck check_cancelled = {});
 
-/// Barycentrics of a point at a corner, moved by `inset` of the way to the middle of the opposite edge.
+/// Barycentric coordinates of a point near a corner, at the fraction `inset` of the way from the corner to
+/// the midpoint of the opposite edge.
 Vec3 barycentrics_near_corner(std::size_t corner, double inset);
 
-/// One entry per corner of the simplified mesh in each; empty ones are not written.
+/// Attributes by corner of the simplified mesh. Empty ones are not written.
 struct CornerLayers {
     std::vector<Vec3f> normals;
     std::vector<std::vector<Vec2f>> uvs;
@@ -51,15 +52,16 @@ struct CornerLayers {
     std::vector<Vec4f> tangents = {};
 };
 
-/// The output part, and for each of its vertices a corner of the simplified mesh that it stands for.
+/// An output part.
 struct WeldedPart {
     Part part;
-    std::vector<std::uint64_t> corner;
+    std::vector<std::uint64_t> corner;  ///< by vertex of `part`: its first corner in the simplified mesh
 };
 
-/// Joins the corners of a simplified vertex that agree in every layer. Output vertices come in the order of their
-/// first use. Name and source are those of the source part. O(corners log valence)
-/// \throws what the poll throws
+/// Makes one output vertex of all corners of a simplified vertex that agree in every layer. Output vertices
+/// are in the order of their first use. Part::name and Part::source are those of the source part.
+/// Complexity: O(corners log valence).
+/// \throws whatever `check_cancelled` throws
 WeldedPart weld_corners(const BakePart& part, const CornerLayers& layers,
                         engine::CancellationCheck check_cancelled = {});
 

@@ -6,7 +6,7 @@
 namespace faqem::detail {
 namespace {
 
-// What a layer of one content holds when it takes in another; none where it cannot.
+// Content of a layer for both contents; empty if no layer can hold both.
 std::optional<TextureContent> merged_content(TextureContent a, TextureContent b) {
     const auto is_colored = [](TextureContent c) {
         return c == TextureContent::color || c == TextureContent::alpha ||

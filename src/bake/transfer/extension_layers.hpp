@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The images that a material's extension textures become on a page.
+/// Layers of a page for the textures of a material's extensions.
 
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace faqem::detail {
 
-/// One image on the page, for one or more textures of a material's extensions.
+/// An image of the page for one or more textures of a material's extensions.
 struct ExtensionLayer {
     TextureContent content;
-    TextureRef texture_ref;  ///< of the source's image
+    TextureRef texture_ref;  ///< of the source
     float normal_scale = 1;
-    std::vector<Index> textures;  ///< into Material::extension_textures, at least one
+    std::vector<Index> textures;  ///< indices into Material::extension_textures, at least one
 
     bool is_normal_map() const { return content == TextureContent::normal; }
     bool has_color() const { return content != TextureContent::alpha; }
@@ -24,11 +24,13 @@ struct ExtensionLayer {
     TexelEncoding encoding() const;
 };
 
-/// Textures that show the same image in the same way share a layer where its channels can mean both.
-/// Textures that nobody knows have none. O(textures^2)
+/// The layers of a material. Textures with the same image, transform and sampler share a layer if its
+/// channels can hold the contents of both. Textures of unknown extensions have no layer.
+/// Complexity: O(textures^2).
 std::vector<ExtensionLayer> extension_layers(const Material& material);
 
-/// The texture that a material's tangents belong to: its normal map, else one of its extensions. Null: none.
+/// The texture that the tangents of a material are for: its normal map, otherwise the first normal map of its
+/// extensions. Null if there is none.
 const TextureRef* tangent_texture(const Material& material);
 
 }  // namespace faqem::detail

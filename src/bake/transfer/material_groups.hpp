@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which materials may share a page of the atlas.
+/// Groups of materials that share a page of the atlas.
 
 #include <vector>
 
@@ -10,34 +10,39 @@
 
 namespace faqem::detail {
 
-/// Materials that become one.
+/// Materials that are merged into one.
 struct MaterialGroup {
-    Material material;             ///< the first one
-    std::vector<Index> materials;  ///< into Asset::materials, ascending; no_index (the default material) last
+    Material material;  ///< the first one
+    /// Indices into Asset::materials, ascending; `no_index`, the default material, comes last.
+    std::vector<Index> materials;
 };
 
-/// The groups of the materials that an asset's faces use.
+/// The groups of all materials that are used by faces of an asset.
 struct MaterialGroups {
-    std::vector<MaterialGroup> groups;     ///< by smallest material
-    std::vector<Index> group_of_material;  ///< materials + 1: group of each, no_index where no face uses it
+    std::vector<MaterialGroup> groups;  ///< sorted by smallest material
+    /// Group of every material, the default material last; `no_index` for unused ones.
+    std::vector<Index> group_of_material;
 
-    /// \param material  into Asset::materials, or no_index
+    /// The group of a material.
+    /// \param material  index into Asset::materials, or `no_index`
     Index group_of(Index material) const {
         return group_of_material[material == no_index ? group_of_material.size() - 1 : material];
     }
 };
 
-/// The material of that index; a default one for no_index.
+/// The material with the given index; the default material for `no_index`.
 const Material& material_or_default(const Asset& asset, Index material);
 
-/// The material of a face of a part; no_index where the part names none.
+/// Material index of a face of a part; `no_index` if the part has no materials.
 inline Index face_material(const Part& part, std::size_t face) {
     return part.face_material.empty() ? no_index : part.face_material[face];
 }
 
-/// Materials merge where alpha mode (and cutoff), double-sidedness and unlitness agree. One with other
-/// extensions stays alone: what those say cannot be merged. `vertex` has one colour per vertex and nothing
-/// else, so there the factors that are no base colour must agree too. O(faces + materials^2)
+/// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
+/// double-sidedness and in being unlit. A material with other extensions is a group of its own, since
+/// extensions cannot be merged. With Bake::vertex, which bakes the base colour only, the other factors must
+/// agree too.
+/// Complexity: O(faces + materials^2).
 FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, Bake kind);
 
 }  // namespace faqem::detail

@@ -98,7 +98,7 @@ Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner) {
 std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
                                    engine::CancellationCheck check_cancelled) {
     std::vector<Vec4f> result;
-    std::map<Index, std::vector<Index>> without;  // by material
+    std::map<Index, std::vector<Index>> without;  // faces without tangents, by material
     for (Index f = 0; f < part.triangles.size(); ++f) {
         check_cancelled();
         const Index material = face_material(part, f);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The original's shading normals without its textures, and frames to put normal maps in.
+/// Shading normals of the source without normal maps, and tangent frames.
 
 #include <vector>
 
@@ -11,39 +11,44 @@
 
 namespace faqem::detail {
 
-/// Axes of a tangent space: unit vectors, not quite at right angles in general.
+/// Axes of a tangent space: unit vectors, in general not orthogonal.
 struct TangentFrame {
     engine::Vector3 tangent, bitangent, normal;
 
-    /// A vector of tangent space in the space of the mesh.
+    /// Transforms a vector from tangent space to the space of the mesh.
     engine::Vector3 to_mesh(const engine::Vector3& v) const {
         return v.x() * tangent + v.y() * bitangent + v.z() * normal;
     }
-    /// The inverse; the normal, (0, 0, 1), where the axes do not span space.
+    /// Inverse of to_mesh(). Returns (0, 0, 1), the normal, if the axes are linearly dependent.
     engine::Vector3 from_mesh(const engine::Vector3& v) const;
 };
 
-/// A normal and its tangent at a corner.
+/// Normal and tangent at a corner.
 struct FrameCorner {
     engine::Vector3 normal;
-    Vec4f tangent;  ///< xyz unit, w the sign of the bitangent
+    Vec4f tangent;  ///< xyz: unit vector, w: sign of the bitangent
 };
 
-/// The frame within a triangle: the corners' axes interpolated and made unit, as viewers do it.
+/// The frame at a point of a triangle: the axes of the corners, interpolated and normalized, as viewers do.
+/// \param weights  barycentric coordinates of the point
 TangentFrame blend_frames(const std::array<FrameCorner, 3>& corners, const Vec3& weights);
 
-/// The face's normal by its winding; zero where it has no area.
+/// Unit normal of a face by its winding; zero if it is degenerate.
 engine::Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t);
 
-/// The part's normal at a point: interpolated, the face's where there is none. Zero where there is neither.
+/// Unit normal of a part at a point: interpolated from its vertices or, if they have none, that of the face.
+/// Zero if there is neither.
 engine::Vector3 interpolated_normal(const Part& part, const SurfacePoint& point);
 
-/// The part's normal at a corner of a face, as interpolated_normal().
+/// Unit normal of a part at a corner of a face, as interpolated_normal().
 engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner);
 
-/// Tangents of the corners of all faces whose material has a normal map, in Part's own coordinates: those of
-/// the file where it has them for all corners of a face, else MikkTSpace's, from the texture coordinates with
-/// the texture's transform. Empty where no face has such a material. O(n log n)
+/// Tangents at the corners of all faces whose material has a normal map, in the part's coordinates. Faces
+/// whose corners all have tangents in the source keep them; the other ones get MikkTSpace tangents from the
+/// texture coordinates after the texture transform.
+/// \return by corner; empty if no face has such a material
+/// Complexity: O(n log n).
+/// \throws whatever `check_cancelled` throws
 std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
                                    engine::CancellationCheck check_cancelled = {});
 

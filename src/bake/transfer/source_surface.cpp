@@ -36,7 +36,7 @@ double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std
     return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];
 }
 
-/// The error says which material the image is for: images need not have names.
+// Errors name the material that uses the image, since images may have no names.
 Pixels decode_for(const Asset& asset, Index image, Index material,
                   engine::CancellationCheck check_cancelled) {
     try {
@@ -106,7 +106,7 @@ SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_re
     if (!image) {
         Pixels pixels = decode_for(asset_, texture_ref.image, material, workers.check_cancelled);
         if (pixels.width == 0 || pixels.height == 0) {
-            throw InputError("", "material " + std::to_string(material), "its image has no pixels");
+            throw InputError("", "material " + std::to_string(material), "an image of it has no pixels");
         }
         image = std::make_unique<const MipImage>(std::move(pixels), encoding, workers);
     }
@@ -119,7 +119,7 @@ SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_re
 void SourceSampler::measure_densities(const Part& part, engine::CancellationCheck check_cancelled,
                                       PartDensity& density) const {
     const std::size_t faces = part.triangles.size();
-    std::vector<float> length(faces);  // sqrt of the area
+    std::vector<float> length(faces);  // square root of the area
     double area = 0;
     for (std::size_t f = 0; f < faces; ++f) {
         check_cancelled();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The original's appearance at a point of its surface.
+/// Appearance of the source at a point of its surface.
 
 #include <array>
 #include <map>
@@ -16,23 +16,23 @@
 
 namespace faqem::detail {
 
-/// What a material shows at a point, factors and vertex colours included.
+/// Values of a material at a point, including its factors and the vertex colours.
 struct Appearance {
-    LinearColor base = {1, 1, 1, 1};
+    LinearColor base = {1, 1, 1, 1};  ///< premultiplied
     float metallic = 1, roughness = 1, occlusion = 1;
     Vec3f emissive = {0, 0, 0};
 };
 
-/// Channels of a material that images can hold.
+/// Channels of a material that can be stored in images.
 struct Channels {
     bool base = false, metallic_roughness = false, occlusion = false, emissive = false, normal = false;
-    bool layers = false;         ///< of extensions
-    bool layer_normals = false;  ///< one of these at least has normals
+    bool layers = false;         ///< layers of extension textures, see ExtensionLayer
+    bool layer_normals = false;  ///< at least one of the layers is a normal map
 
     bool any() const { return base || metallic_roughness || occlusion || emissive || normal || layers; }
     bool needs_tangents() const { return normal || layer_normals; }
 
-    /// Those of both.
+    /// Union of the channels.
     Channels operator|(const Channels& o) const {
         return {base || o.base,
                 metallic_roughness || o.metallic_roughness,
@@ -44,58 +44,60 @@ struct Channels {
     }
 };
 
-/// Decodes the images that the asset's materials show and reads them. Immutable once built.
+/// Decodes the images of the asset's materials, and samples them. Immutable once constructed, so that
+/// sampling is thread-safe.
 class SourceSampler {
 public:
     /// \param asset   must outlive this
-    /// \param wanted  channels that will be asked for
-    /// \throws InputError  an image is damaged.
-    /// \throws UnsupportedError  of an unknown format
-    /// \throws what the workers' poll throws
+    /// \param wanted  channels that will be sampled
+    /// \throws InputError if an image is damaged
+    /// \throws UnsupportedError if an image has an unknown format
+    /// \throws whatever `workers.check_cancelled` throws
     SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {});
 
-    /// \param part      into Asset::parts
-    /// \param point     on one of its faces
-    /// \param spacing   distance to the next sample, in the part's units: what is finer is averaged
+    /// Appearance at a point, without normals.
+    /// \param part     index into Asset::parts
+    /// \param point    on a face of the part
+    /// \param spacing  distance between samples, in the part's units; finer detail is averaged
     Appearance sample(Index part, const SurfacePoint& point, double spacing) const;
 
-    /// The normal that the original is lit with, in the part's coordinates: its normal map's where it has
-    /// one. A face that is wound the other way than `face_normal`, and whose normals look away from it too, is seen
-    /// from behind: its normal is turned round, as viewers do.
-    /// \param face_normal  the simplified face's normal
+    /// Shading normal at a point, in the part's coordinates, with the normal map if there is one.
+    /// If both the winding and the normals of the source face are opposite to `face_normal`, it is seen from
+    /// behind, and its normal is reversed, as viewers do.
+    /// \param face_normal  normal of the simplified face
     engine::Vector3 normal(Index part, const SurfacePoint& point, double spacing,
                            const engine::Vector3& face_normal) const;
 
-    /// The material at a point, no_index for the default one.
+    /// Index of the material at a point; `no_index` for the default material.
     Index material(Index part, const SurfacePoint& point) const {
         return face_material(asset_.parts[part], point.face);
     }
 
-    /// What a layer of the material at a point holds there, without its factors.
-    /// \param layer  one of that material's that holds no normals
+    /// Value of an extension layer at a point, without its factors.
+    /// \param layer  of the material at this point, and not a normal map
     LinearColor layer(Index part, const SurfacePoint& point, double spacing,
                       const ExtensionLayer& layer) const;
 
-    /// As normal(), of a layer that holds normals.
+    /// As normal(), for an extension layer that is a normal map.
     engine::Vector3 layer_normal(Index part, const SurfacePoint& point, double spacing,
                                  const engine::Vector3& face_normal, const ExtensionLayer& layer) const;
 
-    /// Texels per length at a face, those of its material's finest texture. Faces without a texture are given
-    /// as many as make two texels per face of the part; those that get a normal map and have none, at least
-    /// as many.
+    /// Texels per unit of length at a face, for the finest texture of its material. For faces without texture
+    /// this is the density with a mean of two texels per face of the part. Faces that will get a normal map
+    /// but have none in the source get at least this density.
     double texel_density(Index part, Index face) const;
 
 private:
-    struct TextureSlot {  // a texture of a material
+    struct TextureSlot {  // a texture of a material; no image: not sampled
         const MipImage* image = nullptr;
         const TextureRef* texture_ref = nullptr;
         double texels_per_uv = 0;
         UvTransform transform;
     };
-    struct MaterialSlots {  // a material
+    struct MaterialSlots {  // a material and its textures
         const Material* material = nullptr;
         TextureSlot base, metallic_roughness, occlusion, emissive, normal;
-        std::vector<TextureSlot> extensions;  // by Material::extension_textures; the first of each layer
+        std::vector<TextureSlot> extensions;  // by Material::extension_textures; only the first of each layer
 
         template <class Visit>
         void for_each_image(const Visit& visit) const {
@@ -106,8 +108,8 @@ private:
         }
     };
     struct PartDensity {
-        std::vector<std::vector<float>>
-            uv_per_length;  // by UV set and face; empty where no texture needs the set
+        // By UV set and face; empty for sets that no texture uses.
+        std::vector<std::vector<float>> uv_per_length;
         double untextured_density = 1;
     };
 
@@ -130,9 +132,9 @@ private:
     const Asset& asset_;
     const Channels wanted_;
     std::map<std::pair<Index, TexelEncoding>, std::unique_ptr<const MipImage>> images_;
-    std::vector<MaterialSlots> material_slots_;  ///< by material, the default one last
+    std::vector<MaterialSlots> material_slots_;  ///< by material, the default material last
     std::vector<PartDensity> densities_;         ///< by part
-    std::vector<std::vector<Vec4f>> tangents_;   ///< by part and corner; empty where there is no normal map
+    std::vector<std::vector<Vec4f>> tangents_;   ///< by part and corner; empty for parts without normal map
 };
 
 }  // namespace faqem::detail

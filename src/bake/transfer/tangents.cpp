@@ -36,7 +36,7 @@ Vec4f any_tangent(const Vector3f& normal) {
     return {tangent.x(), tangent.y(), tangent.z(), 1};
 }
 
-// Equal corners get the number of the first one. -0 and 0 are equal.
+// By corner: index of the first equal corner. -0 and 0 are equal.
 std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners,
                                 engine::CancellationCheck check_cancelled) {
     std::vector<std::uint32_t> order(corners.size()), result(corners.size());
@@ -87,10 +87,10 @@ public:
 
 private:
     struct Face {
-        Vector3f along_u = Vector3f::Zero();     // unit
-        bool is_orientation_preserving = false;  // UVs run as the corners do, v pointing down
-        bool has_tangent = false;                // it has area in the UVs
-        bool is_degenerate = false;              // two corners at one position
+        Vector3f along_u = Vector3f::Zero();     // unit vector
+        bool is_orientation_preserving = false;  // the UVs have the winding of the corners, with v down
+        bool has_tangent = false;                // the area in the UVs is not zero
+        bool is_degenerate = false;              // two corners have equal positions
     };
 
     Vector3f position(std::size_t c) const { return to_vector3f(corners_[c].position); }
@@ -118,7 +118,8 @@ private:
                            is_not_zero(along_v.norm() / std::abs(area)) && std::isfinite(length);
     }
 
-    // Over each edge at most one other face, wound alike: the first one that is free.
+    // Pairs faces across edges. A face has at most one neighbour per edge: the first one with consistent
+    // winding that has no neighbour yet.
     void find_neighbours() {
         struct Edge {
             std::uint32_t low, high, corner;  // the edge from the corner to the next
@@ -138,7 +139,7 @@ private:
         std::vector<std::uint32_t> waiting;
         for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
             check_cancelled_(2);
-            // All that wait run the same way.
+            // All waiting half-edges have the same direction.
             waiting.clear();
             std::size_t first = 0;
             for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
@@ -156,7 +157,7 @@ private:
         }
     }
 
-    // The triangles about a vertex that share a tangent with this corner's.
+    // Makes a group of the corners around a vertex that share a tangent with the corner `seed`.
     void grow_group(std::uint32_t seed) {
         const bool is_orientation_preserving = faces_[seed / 3].is_orientation_preserving;
         const auto number = static_cast<std::uint32_t>(tangents_.size());
@@ -176,14 +177,14 @@ private:
             if (face.is_orientation_preserving != is_orientation_preserving) continue;
             group_[c] = number;
             if (face.has_tangent) sum += weighted_tangent(c);
-            // Depth first, this way round first, as the reference goes: it decides for faces without a
-            // tangent.
+            // Depth-first, in the order of the reference implementation: the order decides which group faces
+            // without a tangent join.
             for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]}) {
                 if (other != none) stack.push_back(other);
             }
         }
         const Vector3f tangent = unit(sum);
-        // glTF's v points down, MikkTSpace's up: UVs that run as the corners do are mirrored ones.
+        // v points down in glTF and up in MikkTSpace: UVs with the winding of the corners are mirrored.
         tangents_.push_back(tangent.isZero(0) ? any_tangent(normal(seed))
                                               : Vec4f{tangent.x(), tangent.y(), tangent.z(),
                                                       is_orientation_preserving ? -1.0f : 1.0f});
@@ -200,7 +201,7 @@ private:
         return std::acos(std::clamp(a.dot(b), -1.0f, 1.0f)) * project_and_normalize(faces_[c / 3].along_u, n);
     }
 
-    // Triangles of no extent take what others have at the same vertex.
+    // Degenerate triangles get the tangents of other triangles at the same vertices.
     void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
         std::vector<std::uint32_t> donor(corners_.size(), none);
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
@@ -217,7 +218,7 @@ private:
     std::span<const TangentCorner> corners_;
     std::vector<std::uint32_t> vertex_;  // by corner
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> adjacent_face_;  // face over the edge from a corner to the next
+    std::vector<std::uint32_t> adjacent_face_;  // by corner: across the edge from the corner to the next one
     std::vector<std::uint32_t> group_;          // by corner
     std::vector<Vec4f> tangents_;               // by group
 };

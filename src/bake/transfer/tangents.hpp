@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Tangents as MikkTSpace defines them (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), which
-/// glTF asks for. Own code after the published algorithm.
+/// MikkTSpace tangents (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), as glTF specifies.
+/// Independent implementation of the published algorithm.
 
 #include <span>
 #include <vector>
@@ -11,26 +11,26 @@
 
 namespace faqem::detail {
 
-/// A corner of a triangle as a file has it. v points down, as in glTF.
+/// A corner of a triangle. v points down, as in glTF.
 struct TangentCorner {
     Vec3f position, normal;  ///< the normal has unit length
     Vec2f uv;
 };
 
-/// Tangents of triangles: unit length, with the sign of the bitangent, cross(normal, tangent) * w, as in
-/// glTF.
+/// Computes the tangents of triangles: unit vectors, with the sign of the bitangent, cross(normal, tangent) *
+/// w, as in glTF.
 ///
-/// Corners that agree in position, normal and UV are one vertex. Around a vertex those triangles share a
-/// tangent that hang together over common edges and are not mirrored against each other; it is the mean of
-/// theirs, weighted by the angles at the vertex. Triangles without area in the UVs join whom they touch;
-/// corners at which nothing has a tangent get some direction across the normal, and w = 1.
+/// Corners with equal position, normal and UV are one vertex. Around a vertex, triangles that are connected
+/// over shared edges and have the same UV orientation share a tangent: the mean of their tangents, weighted
+/// by the angles at the vertex. Triangles without area in the UVs join the group of a neighbour. Corners of
+/// which no triangle has a tangent get an arbitrary direction perpendicular to the normal, and w = 1.
 ///
-/// Unlike the reference, two triangles whose tangents are exactly opposite share one nevertheless: it keeps
-/// the work bounded around vertices with very many triangles.
+/// Unlike in the reference implementation, two triangles whose tangents are exactly opposite can share a
+/// tangent. This bounds the work around high-valence vertices.
 /// \param corners  three per triangle, finite
-/// \return one per corner.
-/// \throws what the poll throws.
-/// O(n log n)
+/// \return one tangent per corner
+/// Complexity: O(n log n).
+/// \throws whatever `check_cancelled` throws
 std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners,
                                  engine::CancellationCheck check_cancelled = {});
 

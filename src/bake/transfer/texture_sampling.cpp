@@ -33,7 +33,7 @@ LinearColor mix(const LinearColor& a, const LinearColor& b, float t) {
     return result;
 }
 
-// Source texels under texel i of a row made half as long, with their shares.
+// Source texels covered by texel i of a downsampled row, with their weights.
 struct Taps {
     std::uint32_t first, count;
     std::array<float, 3> weight;
@@ -79,7 +79,7 @@ LinearColor MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) 
 
 MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
-    // Not a vector: to clear half a gigabyte first would take long, with nobody asked.
+    // Not a vector, since zeroing half a gigabyte takes long and cannot be cancelled.
     result.rgba =
         std::make_unique_for_overwrite<std::uint16_t[]>(std::size_t{result.width} * result.height * 4);
     const auto fill_row = [&](std::uint32_t y) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading textures: wrap modes, bilinear filtering, footprints.
+/// Texture sampling with wrap modes, bilinear filtering and mip levels.
 
 #include <array>
 #include <cstdint>
@@ -12,31 +12,33 @@
 
 namespace faqem::detail {
 
-/// How the numbers of an image are meant.
+/// Interpretation of the values of an image.
 enum class TexelEncoding {
-    color,                 ///< sRGB, alpha counts: filtered premultiplied
-    opaque_color,          ///< sRGB, alpha is ignored and read as 1
-    color_and_data_alpha,  ///< sRGB; alpha is a number of its own
-    data,                  ///< linear numbers in RGBA
+    color,                 ///< sRGB with alpha, filtered premultiplied
+    opaque_color,          ///< sRGB; alpha is ignored and read as 1
+    color_and_data_alpha,  ///< sRGB; alpha is an independent linear value
+    data,                  ///< linear values in RGBA
 };
 
-/// RGBA in linear light, premultiplied where the encoding says so.
+/// RGBA in linear light, premultiplied with TexelEncoding::color.
 using LinearColor = std::array<float, 4>;
 
-/// An image with its mip pyramid: level 0 as decoded, the others 16 bits per channel in linear light,
-/// premultiplied. 4 + 8 / 3 bytes per texel.
+/// An image with its mip levels. Level 0 is stored as decoded, the others with 16 bits per channel in linear
+/// light, premultiplied. Memory: 4 + 8/3 bytes per texel.
 class MipImage {
 public:
     /// \param pixels  at least one texel
-    /// \throws what the workers' poll throws
+    /// \throws whatever `workers.check_cancelled` throws
     MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers = {});
 
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
 
-    /// \param texture_ref  wrap modes and filter; its transform is not applied here
-    /// \param u,v  texture coordinates, v down; what is not finite or beyond 1e9 reads as 0
-    /// \param lod  log2 of the footprint in texels of level 0; below 0 as 0
+    /// Samples the image, with linear interpolation between mip levels.
+    /// \param texture_ref  wrap modes and filter; its transform is not applied
+    /// \param u            texture coordinate; replaced by 0 if it is not finite or beyond 1e9
+    /// \param v            likewise, pointing down
+    /// \param lod          log2 of the footprint in texels of level 0; clamped to the existing levels
     LinearColor sample(const TextureRef& texture_ref, double u, double v, double lod) const;
 
 private:
@@ -55,7 +57,7 @@ private:
 
     Pixels pixels_;
     TexelEncoding encoding_;
-    std::vector<Level> levels_;  ///< from level 1 on
+    std::vector<Level> levels_;  ///< starting with level 1
 };
 
 /// An affine map of texture coordinates.
@@ -67,14 +69,14 @@ struct UvTransform {
     }
 };
 
-/// KHR_texture_transform: scaled, rotated, moved. A positive rotation turns UVs counter-clockwise as seen on
-/// an image whose v points down.
+/// The transform of KHR_texture_transform: scale, then rotation, then offset. A positive rotation rotates UVs
+/// counter-clockwise, as seen on an image with v down.
 UvTransform uv_transform(const TextureRef& texture_ref);
 
-/// 0..1 linear light to an sRGB byte. NaN gives 0.
+/// Encodes linear light in [0, 1] as an sRGB byte. Other values are clamped; NaN gives 0.
 std::uint8_t srgb_byte(double linear);
 
-/// 0..1 to a byte. NaN gives 0.
+/// Encodes a value in [0, 1] as a byte. Other values are clamped; NaN gives 0.
 std::uint8_t linear_byte(double value);
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals and tangents between the arrays of files and Eigen.
+/// Conversions between the float arrays of assets and Eigen vectors.
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ inline Vec3f to_vec3f(const engine::Vector3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// Zero where there is no direction.
+/// The normalized vector; zero if its length is zero or not finite.
 inline engine::Vector3 unit_or_zero(const engine::Vector3& v) {
     const double length = v.norm();
     return length > 0 && std::isfinite(length) ? engine::Vector3(v / length) : engine::Vector3::Zero();

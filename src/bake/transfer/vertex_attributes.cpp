@@ -70,7 +70,7 @@ double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
     return least;
 }
 
-// Sums of premultiplied colours, so that clear corners do not tint the others.
+// Sum of premultiplied colours, so that transparent corners do not tint the others.
 struct ColorSum {
     LinearColor premultiplied{};
     float count = 0;
@@ -129,7 +129,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
                         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
                             check_cancelled(map_query_cost);
                             const Index face = static_cast<Index>(c / 3);
-                            // A vertex speaks for the surface about it, a quarter of an edge each way.
+                            // A vertex represents the surface around it: a quarter of an edge on each side.
                             const double spacing = shortest_edge(mesh, face) / 4;
                             raw[c] = sampler
                                          .sample(part.index,

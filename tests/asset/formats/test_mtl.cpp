@@ -18,7 +18,7 @@ const std::string png = "\x89PNG\r\n\x1a\n and so on";
 const std::string jpeg = "\xFF\xD8\xFF and so on";
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
 
-/// The only material of a library.
+/// Reads a library with exactly one material.
 MtlMaterial one(const std::string& text, std::vector<std::string>* warnings = nullptr) {
     std::vector<std::string> own;
     const auto materials = read_mtl(bytes_of(text), "a.mtl", warnings ? *warnings : own);
@@ -30,7 +30,7 @@ float linear(double display) { return static_cast<float>(linear_from_srgb(displa
 
 }  // namespace
 
-TEST_CASE("Kd is sRGB, a material is not metallic by default", "[mtl]") {
+TEST_CASE("Kd is read as sRGB and the default metallic factor is 0", "[mtl]") {
     const Material m = one("newmtl a b\nKd 0.5 0.25 1\nKa 1 1 1\nKs 0 0 0\nNi 1.45\nillum 2\n").values;
     CHECK(m.name == "a b");
     CHECK(m.base_color == Vec4f{linear(0.5), linear(0.25), 1, 1});
@@ -41,7 +41,7 @@ TEST_CASE("Kd is sRGB, a material is not metallic by default", "[mtl]") {
     CHECK(one("newmtl a\nKd 0.5\n").values.base_color == Vec4f{linear(0.5), linear(0.5), linear(0.5), 1});
 }
 
-TEST_CASE("d and Tr are the alpha, d counts where both are there", "[mtl]") {
+TEST_CASE("d and Tr set the alpha and d takes precedence", "[mtl]") {
     CHECK(one("newmtl a\nd 0.25\n").values.base_color[3] == 0.25f);
     CHECK(one("newmtl a\nd -halo 0.25\n").values.base_color[3] == 0.25f);
     CHECK(one("newmtl a\nTr 0.25\n").values.base_color[3] == 0.75f);
@@ -50,7 +50,7 @@ TEST_CASE("d and Tr are the alpha, d counts where both are there", "[mtl]") {
     CHECK(one("newmtl a\nd 1.0\n").values.alpha_mode == AlphaMode::opaque);
 }
 
-TEST_CASE("roughness comes from Pr, else from Ns", "[mtl]") {
+TEST_CASE("the roughness is Pr or else computed from Ns", "[mtl]") {
     CHECK(one("newmtl a\nNs 30\n").values.roughness == Approx(0.5));  // (2 / 32)^(1/4)
     CHECK(one("newmtl a\nNs 0\n").values.roughness == 1);
     const Material m = one("newmtl a\nPr 0.3\nPm 0.7\nNs 30\n").values;
@@ -58,7 +58,7 @@ TEST_CASE("roughness comes from Pr, else from Ns", "[mtl]") {
     CHECK(m.metallic == 0.7f);
 }
 
-TEST_CASE("a black Kd beside a texture means white, with a warning", "[mtl]") {
+TEST_CASE("a black Kd with a texture is read as white with a warning", "[mtl]") {
     std::vector<std::string> warnings;
     CHECK(one("newmtl a\nKd 0 0 0\nmap_Kd a.png\n", &warnings).values.base_color == Vec4f{1, 1, 1, 1});
     CHECK(any_contains(warnings, "Kd 0 0 0"));
@@ -67,13 +67,13 @@ TEST_CASE("a black Kd beside a texture means white, with a warning", "[mtl]") {
     CHECK(warnings.empty());
 }
 
-TEST_CASE("emission is white where only its texture is given", "[mtl]") {
+TEST_CASE("the emissive factor is white if only the texture is given", "[mtl]") {
     CHECK(one("newmtl a\nKe 0.5 0 0\n").values.emissive == Vec3f{linear(0.5), 0, 0});
     CHECK(one("newmtl a\nmap_Ke e.png\n").values.emissive == Vec3f{1, 1, 1});
     CHECK(one("newmtl a\n").values.emissive == Vec3f{0, 0, 0});
 }
 
-TEST_CASE("texture statements: options, blanks in names, names like numbers", "[mtl]") {
+TEST_CASE("texture statements may have options, and file names with blanks or like numbers", "[mtl]") {
     const auto texture = [](const std::string& statement) {
         return one("newmtl a\nmap_Kd " + statement + "\n").color;
     };
@@ -97,21 +97,21 @@ TEST_CASE("texture statements: options, blanks in names, names like numbers", "[
     CHECK(texture("-s").file == "-s");
 }
 
-TEST_CASE("statements without a place are skipped, others counted, bad numbers are errors", "[mtl]") {
+TEST_CASE("unused statements are ignored, unknown ones counted and invalid numbers are errors", "[mtl]") {
     std::vector<std::string> warnings;
     one("newmtl a\nmap_Bump b.png\ndisp d.png\ndisp e.png\nmap_Ka k.png\nillum 2\n", &warnings);
     REQUIRE(warnings.size() == 2);
-    CHECK(contains(warnings[0], "a.mtl: 'disp' is not used (2 statements)"));
+    CHECK(contains(warnings[0], "a.mtl: 'disp' is not supported (2 statements)"));
     CHECK(contains(warnings[1], "'map_Bump'"));
     CHECK(contains(message_of([] { one("newmtl a\nKd 1,0 0 0\n"); }), "a.mtl: line 2: '1,0'"));
     warnings.clear();
     CHECK(one("newmtl a\nKd 2 -1 nan\n", &warnings).values.base_color == Vec4f{1, 0, 1, 1});
     CHECK(any_contains(warnings, "line 2"));
-    // The word of the next line is not the argument of this one.
+    // A material named xyz does not change the colour space of Kd.
     CHECK(one("newmtl xyz\nKd 1 0 0\n").values.base_color == Vec4f{1, 0, 0, 1});
 }
 
-TEST_CASE("the transform of a texture turns v round", "[mtl]") {
+TEST_CASE("the offset and scale of a texture are converted to v pointing down", "[mtl]") {
     const TemporaryFolder folder;
     put(folder / "t.png", png);
     put(folder / "a.mtl", "newmtl m\nmap_Kd -s 2 4 -o 0.5 0.25 t.png\n");
@@ -119,12 +119,13 @@ TEST_CASE("the transform of a texture turns v round", "[mtl]") {
     const Asset asset = read_obj(folder / "a.obj");
     const TextureRef& ref = asset.materials.at(0).base_color_texture;
     REQUIRE(ref);
-    // At v = 0.3 (up) the file means 0.25 + 4 * 0.3 = 1.45 up, which is -0.45 down.
+    // At v = 0.3, v pointing up, the transformed v is 0.25 + 4 * 0.3 = 1.45, which is -0.45 with v pointing
+    // down.
     CHECK(ref.offset[1] + ref.scale[1] * (1 - 0.3f) == Approx(1 - 1.45));
     CHECK(ref.offset[0] + ref.scale[0] * 0.3f == Approx(1.1));
 }
 
-TEST_CASE("materials and their images are loaded in the order of use, each once", "[mtl]") {
+TEST_CASE("used materials and images are loaded once in the order of use", "[mtl]") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "tex");
     put(folder / "tex/wood.png", png);
@@ -149,10 +150,10 @@ TEST_CASE("materials and their images are loaded in the order of use, each once"
     CHECK(std::string(asset.images[1].encoded.begin(), asset.images[1].encoded.end()) == png);
     CHECK(asset.materials[2].base_color_texture.image == 1);
     CHECK(asset.warnings.size() == 1);
-    CHECK(any_contains(asset.warnings, "map_d is read only where it is the map_Kd"));
+    CHECK(any_contains(asset.warnings, "map_d is supported only if it is the same image as map_Kd"));
 }
 
-TEST_CASE("several libraries may share one statement", "[mtl]") {
+TEST_CASE("one mtllib statement may name several libraries", "[mtl]") {
     const TemporaryFolder folder;
     put(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
     put(folder / "b c.mtl", "newmtl b\nKd 0 1 0\n");
@@ -199,7 +200,7 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
     }
     put(folder / "in/a.obj", "mtllib ../secret.mtl\nusemtl m\n" + triangle);
     CHECK(read_obj(folder / "in/a.obj").materials.at(0).base_color == Vec4f{1, 1, 1, 1});
-    // A library in a folder of its own may refer to what lies above it, inside the model's folder.
+    // A library in a subfolder may refer to files above it that are inside the folder of the model.
     put(folder / "in/lib/a.mtl", "newmtl m\nmap_Kd ../inside.png\n");
     put(folder / "in/a.obj", "mtllib lib/a.mtl\nusemtl m\n" + triangle);
     const Asset asset = read_obj(folder / "in/a.obj");
@@ -208,7 +209,7 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("a library that no face uses is told of", "[mtl]") {
+TEST_CASE("a material library without used materials gives a warning", "[mtl]") {
     const TemporaryFolder folder;
     put(folder / "a.mtl", "newmtl m\nKd 1 0 0\n");
     put(folder / "a.obj", "mtllib a.mtl\n" + triangle);

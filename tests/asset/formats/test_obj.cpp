@@ -22,11 +22,11 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("vertices and faces keep their order and numbers", "[obj]") {
+TEST_CASE("vertices and faces keep their order and indices", "[obj]") {
     const Asset asset = parse(square + "v 9 9 9\nf 1 2 3\nf 1 3 4\n");
     REQUIRE(asset.parts.size() == 1);
     const Part& part = asset.parts[0];
-    CHECK(part.positions.size() == 5);  // the one nobody uses stays
+    CHECK(part.positions.size() == 5);  // the unreferenced vertex is kept
     CHECK(part.positions[2] == Vec3{1, 1, 0});
     CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
     CHECK(part.face_material == std::vector<Index>{no_index, no_index});
@@ -38,7 +38,7 @@ TEST_CASE("vertices and faces keep their order and numbers", "[obj]") {
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("all four forms of corners are read", "[obj]") {
+TEST_CASE("face corners with and without UVs and normals are read", "[obj]") {
     const std::string attributes = square + "vt 0.25 0.75\nvt 0.5 1\nvn 0 0 1\nvn 0 1 0\n";
     const Part plain = parse(attributes + "f 1 2 3\n").parts[0];
     CHECK(plain.uvs.empty());
@@ -51,16 +51,16 @@ TEST_CASE("all four forms of corners are read", "[obj]") {
     const Part normal = parse(attributes + "f 1//1 2//2 3//1\n").parts[0];
     CHECK(normal.uvs.empty());
     CHECK(normal.normals[1] == Vec3f{0, 1, 0});
-    CHECK(normal.normals[3] == Vec3f{0, 0, 0});  // no corner gives it one
+    CHECK(normal.normals[3] == Vec3f{0, 0, 0});  // unreferenced vertex
     const Part both = parse(attributes + "f 1/1/2 2/2/1 3/1/2\n").parts[0];
     CHECK(both.uvs[0][1] == Vec2f{0.5f, 0});
     CHECK(both.normals[0] == Vec3f{0, 1, 0});
-    // Slashes that nothing follows, as some exporters leave them.
+    // Trailing slashes, which some exporters write.
     CHECK(parse(attributes + "f 1/ 2/ 3/\n").parts[0].uvs.empty());
     CHECK(parse(attributes + "f 1/1/ 2/1/ 3/1/\n").parts[0].normals.empty());
 }
 
-TEST_CASE("a vertex with several UVs or normals becomes several, each once", "[obj]") {
+TEST_CASE("a position with several UVs or normals gives one vertex per combination", "[obj]") {
     const Part part =
         parse(square + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1/2 3/3 4/1\nf 1/2 2/2 4/1\n").parts[0];
     CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {4, 2, 3}, {4, 1, 3}});
@@ -69,7 +69,7 @@ TEST_CASE("a vertex with several UVs or normals becomes several, each once", "[o
     CHECK(part.uvs[0][4] == Vec2f{1, 1});
 }
 
-TEST_CASE("a fan of many faces with their own normals is not slow and shares nothing wrongly", "[obj]") {
+TEST_CASE("a fan of 20000 faces with different normals at its centre is split correctly", "[obj]") {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     const int n = 20000;
     for (int i = 0; i < n; ++i) text += "vn 0 " + std::to_string(i + 1) + " 1\n";
@@ -81,7 +81,7 @@ TEST_CASE("a fan of many faces with their own normals is not slow and shares not
     CHECK(right);
 }
 
-TEST_CASE("negative indices count back from the place they stand at", "[obj]") {
+TEST_CASE("negative indices are relative to the elements read so far", "[obj]") {
     const std::string text =
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 0 1\nf -3/-2 -2/-1 -1/1\n"
         "v 5 0 0\nv 6 0 0\nv 6 1 0\nf -3 -2 -1\nf 1 -2 2\n";
@@ -91,13 +91,13 @@ TEST_CASE("negative indices count back from the place they stand at", "[obj]") {
     CHECK(part.uvs[0][1] == Vec2f{0, 0});
 }
 
-TEST_CASE("positive indices may refer to what comes later", "[obj]") {
+TEST_CASE("positive indices may refer to later elements", "[obj]") {
     CHECK(parse("f 1 2 3\n" + square).parts[0].triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(contains(error_of("f 1 2 5\n" + square),
                    "a.obj: line 1: index 5 of a position is out of range: there are 4"));
 }
 
-TEST_CASE("indices out of range are errors with their line", "[obj]") {
+TEST_CASE("indices out of range are errors that name the line", "[obj]") {
     CHECK(contains(error_of(square + "f 1 2 0\n"), "a.obj: line 5: index 0 of a position"));
     CHECK(contains(error_of(square + "f 1 2 5\n"), "a.obj: line 5: index 5 of a position"));
     CHECK(contains(error_of(square + "f 1 2 -5\n"), "a.obj: line 5: index -5 of a position"));
@@ -108,19 +108,19 @@ TEST_CASE("indices out of range are errors with their line", "[obj]") {
     CHECK(contains(error_of(square + "f 1 2 99999999999999999999\n"), "line 5: "));
 }
 
-TEST_CASE("what is not a number is an error with its line", "[obj]") {
+TEST_CASE("invalid numbers are errors that name the line", "[obj]") {
     CHECK(contains(error_of("v 0 0 0\nv 1,5 0 0\n"), "a.obj: line 2: '1,5' is not a number"));
     CHECK(contains(error_of("v 0 0\n"), "line 1: v has 2 numbers"));
     CHECK(contains(error_of("v 0 0 0 1 1\n"), "line 1: v has 5 numbers"));
-    CHECK(contains(error_of("vn 0 0\n"), "line 1: a number is missing"));
-    CHECK(contains(error_of("vt\n"), "line 1: a number is missing"));
+    CHECK(contains(error_of("vn 0 0\n"), "line 1: expected a number"));
+    CHECK(contains(error_of("vt\n"), "line 1: expected a number"));
     CHECK(contains(error_of("vn 0 0 1 1\n"), "line 1: unexpected '1'"));
     CHECK(contains(error_of(square + "f 1 2 x\n"), "line 5: 'x' is not an index"));
-    CHECK(contains(error_of(square + "f 1 2 3.5\n"), "line 5: '.5' does not belong in a corner"));
+    CHECK(contains(error_of(square + "f 1 2 3.5\n"), "line 5: '.5' is not part of a valid face corner"));
     CHECK(contains(error_of(square + "f 1/1/1/1 2 3\n"), "line 5: "));
 }
 
-TEST_CASE("line ends, byte order mark, comments and continuation change nothing", "[obj]") {
+TEST_CASE("line ends, byte order mark, comments and continuation lines do not change the result", "[obj]") {
     const std::string text = square + "vt 0 1\nf 1/1 2/1 3/1 4/1\n";
     const Part expected = parse(text).parts[0];
     const auto replaced = [&](const std::string& line_end) {
@@ -140,7 +140,7 @@ TEST_CASE("line ends, byte order mark, comments and continuation change nothing"
     }
 }
 
-TEST_CASE("errors after continued lines name the right line", "[obj]") {
+TEST_CASE("errors after continuation lines name the correct line", "[obj]") {
     CHECK(contains(error_of("v 0 \\\n0 \\\r\n0\nv 1 x 0\n"), "line 4: 'x'"));
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("a line of ten megabytes is read", "[obj]") {
     CHECK(part.triangles.size() == 3u * n - 2);
 }
 
-TEST_CASE("concave polygons are split inside", "[obj]") {
+TEST_CASE("concave polygons are triangulated inside", "[obj]") {
     const Part part = parse("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\n").parts[0];
     REQUIRE(part.triangles.size() == 2);
     for (const Triangle& t : part.triangles) {
@@ -164,7 +164,7 @@ TEST_CASE("concave polygons are split inside", "[obj]") {
     }
 }
 
-TEST_CASE("vertex colours are sRGB, missing ones white", "[obj]") {
+TEST_CASE("vertex colours are read as sRGB and missing ones are white", "[obj]") {
     const Part part = parse("v 0 0 0\nv 1 0 0 1 0.5 0\nv 1 1 0\nf 1 2 3\n").parts[0];
     REQUIRE(part.colors.size() == 3);
     CHECK(part.colors[0] == Vec4f{1, 1, 1, 1});
@@ -173,12 +173,12 @@ TEST_CASE("vertex colours are sRGB, missing ones white", "[obj]") {
     CHECK(part.colors[1] == Vec4f{1, static_cast<float>(linear_from_srgb(0.5)), 0, 1});
 }
 
-TEST_CASE("a weight of 1 is nothing to warn of, another is", "[obj]") {
+TEST_CASE("weights other than 1 give a warning", "[obj]") {
     CHECK(parse("v 0 0 0 1\nv 1 0 0 1.0\nv 1 1 0\nf 1 2 3\n").warnings.empty());
     CHECK(any_contains(parse("v 0 0 0 2\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").warnings, "1 position with a weight"));
 }
 
-TEST_CASE("all objects and groups make one part with the name of the first object", "[obj]") {
+TEST_CASE("all objects and groups are joined to one part named after the first object", "[obj]") {
     const Asset asset =
         parse("g group\no first one\n" + square + "f 1 2 3\no second\ng x\ns 1\nf 1 3 4\ns off\n");
     REQUIRE(asset.parts.size() == 1);
@@ -187,15 +187,15 @@ TEST_CASE("all objects and groups make one part with the name of the first objec
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("lines, points and unknown statements are counted", "[obj]") {
+TEST_CASE("warnings count lines, points and unknown statements", "[obj]") {
     const Asset asset = parse(square + "l 1 2\nl 2 3\np 1\ncurv 0 1\\\n 2 3\nfoo\nf 1 2 3\nf 1 2\n");
     CHECK(asset.parts[0].triangles.size() == 1);
     CHECK(any_contains(asset.warnings, "3 line or point statements"));
-    CHECK(any_contains(asset.warnings, "2 unknown statements not read, first 'curv' in line 8"));
-    CHECK(any_contains(asset.warnings, "1 face of fewer than three corners"));
+    CHECK(any_contains(asset.warnings, "2 unknown statements ignored, first 'curv' in line 8"));
+    CHECK(any_contains(asset.warnings, "1 face with fewer than three corners"));
 }
 
-TEST_CASE("numbers that are not finite are repaired and counted", "[obj]") {
+TEST_CASE("non-finite numbers are repaired and counted", "[obj]") {
     const std::string text =
         "v 0 0 0\nv nan 0 0\nv 1 0 0\nv 1 1 0\nv 0 1e999 0\nvt nan 0\nvn inf 0 0\n"
         "f 1/1/1 3/1/1 4/1/1\nf 1 2 3 4\nf 1 3 5\n";
@@ -206,21 +206,21 @@ TEST_CASE("numbers that are not finite are repaired and counted", "[obj]") {
     CHECK(part.uvs[0][0] == Vec2f{0, 0});
     CHECK(part.normals[0] == Vec3f{0, 0, 0});
     CHECK(
-        any_contains(asset.warnings, "2 vertices with a position that is not finite: left out, and 2 faces"));
-    CHECK(any_contains(asset.warnings, "3 texture coordinates not finite"));
-    CHECK(any_contains(asset.warnings, "3 normals not finite"));
+        any_contains(asset.warnings, "2 vertices with a non-finite position and 2 adjacent faces left out"));
+    CHECK(any_contains(asset.warnings, "3 texture coordinates with non-finite values"));
+    CHECK(any_contains(asset.warnings, "3 normals with non-finite values"));
     for (const Vec3& p : part.positions)
         for (const double x : p) CHECK(std::isfinite(x));
     CHECK(contains(error_of("v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"),
                    "a.obj: no faces with finite positions"));
 }
 
-TEST_CASE("a file without a face is an error", "[obj]") {
+TEST_CASE("a file without faces is an error", "[obj]") {
     for (const std::string text : {"", "# nothing\n", "v 0 0 0\n", "\xEF\xBB\xBF", "hello world\n"})
         CHECK(contains(error_of(text), "a.obj: no faces"));
 }
 
-TEST_CASE("scales from 1e-30 to 1e30 are read exactly", "[obj]") {
+TEST_CASE("coordinates from 1e-30 to 1e30 are read exactly", "[obj]") {
     const Part part = parse("v 1e30 1e-30 -0.1\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").parts[0];
     CHECK(part.positions[0] == Vec3{1e30, 1e-30, -0.1});
 }

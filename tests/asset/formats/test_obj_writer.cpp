@@ -59,7 +59,7 @@ std::size_t count_lines(const std::string& text, const std::string& start) {
 
 }  // namespace
 
-TEST_CASE("an OBJ file comes with its library and images", "[obj_writer]") {
+TEST_CASE("an OBJ file is written with its material library and images", "[obj_writer]") {
     const TemporaryFolder folder;
     CHECK(write_obj(textured(), folder / "my model.obj", Overwrite::no).empty());
     const std::string obj = get(folder / "my model.obj");
@@ -77,7 +77,7 @@ TEST_CASE("an OBJ file comes with its library and images", "[obj_writer]") {
     CHECK(contains(mtl, "Kd 0.735357 0.537099 0.388573\n"));  // the sRGB of 1/2, 1/4, 1/8
 }
 
-TEST_CASE("a textured OBJ file reads back as it was, and written again is the same", "[obj_writer]") {
+TEST_CASE("a textured OBJ file is unchanged by reading and writing", "[obj_writer]") {
     const TemporaryFolder first, second;
     const Asset asset = textured();
     write_obj(asset, first / "a.obj", Overwrite::no);
@@ -109,7 +109,7 @@ TEST_CASE("a textured OBJ file reads back as it was, and written again is the sa
         CHECK(get(first / name) == get(second / name));
 }
 
-TEST_CASE("random meshes written, read and written again are the same", "[obj_writer]") {
+TEST_CASE("OBJ files of random meshes are unchanged by reading and writing", "[obj_writer]") {
     const TemporaryFolder folder;
     std::mt19937 random(11);
     const auto number = [&] {
@@ -141,7 +141,7 @@ TEST_CASE("random meshes written, read and written again are the same", "[obj_wr
     }
 }
 
-TEST_CASE("doubles are written as doubles, floats short", "[obj_writer]") {
+TEST_CASE("OBJ positions have float precision if all are floats, else double precision", "[obj_writer]") {
     const TemporaryFolder folder;
     write_obj(one_part({{0.1f, 0, 0}, {1, 0, 0}, {1, 1e10f, 0}}, {{0, 1, 2}}), folder / "a.obj",
               Overwrite::yes);
@@ -152,7 +152,7 @@ TEST_CASE("doubles are written as doubles, floats short", "[obj_writer]") {
     CHECK(read_obj(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
 }
 
-TEST_CASE("a plain mesh has no library, a face without a material beside others gets a default",
+TEST_CASE("a mesh without materials has no library, a face without a material gets a default one",
           "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});
@@ -166,7 +166,7 @@ TEST_CASE("a plain mesh has no library, a face without a material beside others 
     CHECK(contains(get(folder / "b.obj"), "usemtl default\nf 1 2 3\nusemtl default_2\nf 3 2 1\n"));
 }
 
-TEST_CASE("names that would break a statement are changed", "[obj_writer]") {
+TEST_CASE("names that are invalid in OBJ statements are replaced", "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = textured();
     asset.parts[0].name = " a\nf 1 2 3\\ ";
@@ -176,7 +176,7 @@ TEST_CASE("names that would break a statement are changed", "[obj_writer]") {
     CHECK(read_obj(folder / "a.obj").materials.at(0).name == "x__Kd 0 0 0");
 }
 
-TEST_CASE("the UV set and transform of the leading texture are baked into the UVs", "[obj_writer]") {
+TEST_CASE("the UV set and transform of the leading texture are applied to the UVs", "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = textured();
     Part& part = asset.parts[0];
@@ -188,14 +188,15 @@ TEST_CASE("the UV set and transform of the leading texture are baked into the UV
     ref.rotation = static_cast<float>(std::acos(-1.0) / 2);
     const auto losses = write_obj(asset, folder / "a.obj", Overwrite::no);
     const Asset back = read_obj(folder / "a.obj");
-    // Scaled (1, 1); a quarter turn, v pointing down: (u, v) -> (v, -u); moved: (1.25, -0.5).
+    // Scaling gives (1, 1). Rotation by 90 degrees, with v pointing down, maps (u, v) to (v, -u). Translation
+    // gives (1.25, -0.5).
     const Vec2f uv = back.parts[0].uvs.at(0)[back.parts[0].triangles[0][0]];
     CHECK(uv[0] == Approx(1.25));
     CHECK(uv[1] == Approx(-0.5));
     CHECK(any_contains(losses, "different UVs for the textures of a material (1 material)"));
 }
 
-TEST_CASE("the OBJ writer says what it leaves out", "[obj_writer]") {
+TEST_CASE("the OBJ writer reports what it leaves out", "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = textured();
     Material& m = asset.materials[0];
@@ -215,7 +216,7 @@ TEST_CASE("the OBJ writer says what it leaves out", "[obj_writer]") {
     }
 }
 
-TEST_CASE("an OBJ file that exists, or whose images do, is not replaced unasked, and nothing is left behind",
+TEST_CASE("an existing OBJ, MTL or image file is not replaced by default and nothing is written",
           "[obj_writer]") {
     for (const char* existing : {"a.obj", "a.mtl", "a_1.png"}) {
         const TemporaryFolder folder;

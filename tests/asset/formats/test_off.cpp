@@ -21,7 +21,7 @@ const std::string three = "0 0 0\n1 0 0\n1 1 0\n";
 
 }  // namespace
 
-TEST_CASE("every form of the OFF header", "[off]") {
+TEST_CASE("all variants of the OFF header are read", "[off]") {
     for (const std::string header :
          {"OFF\n3 1 3\n", "OFF\n3 1\n", "OFF 3 1 3\n", "3 1 3\n", "# c\nOFF # c\n# c\n\n3 1 0 # c\n",
           "OFF\n3\n1\n", "\xEF\xBB\xBFOFF\n3 1 0\n"}) {
@@ -34,7 +34,7 @@ TEST_CASE("every form of the OFF header", "[off]") {
     }
 }
 
-TEST_CASE("comments, blank lines and line ends may stand anywhere", "[off]") {
+TEST_CASE("comments and blank lines are allowed anywhere in an OFF file", "[off]") {
     const std::string text =
         "OFF\n# x\n3 1 0\n0 0 0 # first\n\n# 9 9 9\n1 0 0\n\t1 1 0\n#\n3 0 1 2 # the face\n# end";
     for (const std::string end : {"\n", "\r", "\r\n"}) {
@@ -45,7 +45,7 @@ TEST_CASE("comments, blank lines and line ends may stand anywhere", "[off]") {
     }
 }
 
-TEST_CASE("normals, colours and UVs come in the order N, C, ST", "[off]") {
+TEST_CASE("OFF normals, colours and UVs are read in the order N, C, ST", "[off]") {
     const Part normals = parse("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 1 0\n3 0 1 2\n").parts.at(0);
     CHECK(normals.normals.at(2) == Vec3f{0, 1, 0});
     const Part colors =
@@ -65,26 +65,27 @@ TEST_CASE("normals, colours and UVs come in the order N, C, ST", "[off]") {
     CHECK(all.uvs.at(0).at(1) == Vec2f{1, 1});
 }
 
-TEST_CASE("polygons are split, colours of faces warned of, small faces left out", "[off]") {
+TEST_CASE("OFF polygons are triangulated, face colours ignored and faces with two corners left out",
+          "[off]") {
     const Asset asset = parse(
         "OFF\n4 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n3 0 1 2 0.5 0.5 0.5 1\n2 0 1\n1 0\n");
     CHECK(asset.parts[0].triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
-    CHECK(any_contains(asset.warnings, "colours of 2 faces not read"));
-    CHECK(any_contains(asset.warnings, "2 faces of fewer than three"));
+    CHECK(any_contains(asset.warnings, "colours of 2 faces ignored"));
+    CHECK(any_contains(asset.warnings, "2 faces with fewer than three"));
 }
 
-TEST_CASE("other kinds of OFF are unsupported, not wrong", "[off]") {
+TEST_CASE("other kinds of OFF are reported as unsupported", "[off]") {
     for (const std::string keyword : {"4OFF", "nOFF", "4nOFF", "C4OFF", "OFF BINARY", "COFF BINARY"}) {
         CAPTURE(keyword);
         CHECK_THROWS_AS(parse(keyword + "\n3 1 0\n"), UnsupportedError);
     }
 }
 
-TEST_CASE("errors have their line", "[off]") {
+TEST_CASE("OFF errors name the line", "[off]") {
     CHECK(contains(error_of("PLY\n"), "a.off: line 1: is not an OFF file: 'PLY'"));
-    CHECK(contains(error_of(""), "a.off: line 1: is empty"));
+    CHECK(contains(error_of(""), "a.off: line 1: the file is empty"));
     CHECK(contains(error_of("OFF\n3 1 0\n0 0 0\n1,5 0 0\n1 1 0\n3 0 1 2\n"), "a.off: line 4: '1,5'"));
-    CHECK(contains(error_of("OFF\n3 1 0\n0 0 0\n1 0\n1 1 0\n3 0 1 2\n"), "line 4: a number is missing"));
+    CHECK(contains(error_of("OFF\n3 1 0\n0 0 0\n1 0\n1 1 0\n3 0 1 2\n"), "line 4: expected a number"));
     CHECK(contains(error_of("OFF\n3 1 0\n0 0 0 1\n1 0 0\n1 1 0\n3 0 1 2\n"), "line 3: unexpected '1'"));
     CHECK(
         contains(error_of("OFF\n3 1 0\n" + three + "3 0 1 3\n"), "line 6: face 0: vertex 3 is out of range"));
@@ -99,9 +100,9 @@ TEST_CASE("errors have their line", "[off]") {
                    "too short for 4000000000 corners"));
 }
 
-TEST_CASE("what is left over is warned of, non-finite positions are repaired", "[off]") {
+TEST_CASE("trailing bytes of an OFF file give a warning and non-finite positions are repaired", "[off]") {
     CHECK(any_contains(parse("OFF\n3 1 0\n" + three + "3 0 1 2\n3 0 1 2").warnings, "7 bytes after"));
     const Asset asset = parse("OFF\n4 2 0\n" + three + "inf 0 0\n3 0 1 2\n3 0 1 3\n");
     CHECK(asset.parts[0].triangles.size() == 1);
-    CHECK(any_contains(asset.warnings, "1 vertex with a position that is not finite"));
+    CHECK(any_contains(asset.warnings, "1 vertex with a non-finite position"));
 }

@@ -21,7 +21,7 @@ std::string error_of(const std::string& text) {
     return message_of([&] { parse(text); });
 }
 
-/// The bytes of values one after the other, little or big end first.
+/// Concatenates the bytes of values in little-endian or big-endian order.
 class Binary {
 public:
     explicit Binary(bool big) : big_(big) {}
@@ -52,7 +52,7 @@ const std::string three = "0 0 0\n1 0 0\n1 1 0\n";
 
 }  // namespace
 
-TEST_CASE("ASCII PLY", "[ply]") {
+TEST_CASE("an ASCII PLY file is read", "[ply]") {
     const Asset asset = parse(ascii("", indices, three + "3 0 1 2\n"));
     CHECK(asset.parts.at(0).positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
     CHECK(asset.parts[0].triangles == std::vector<Triangle>{{0, 1, 2}});
@@ -61,7 +61,7 @@ TEST_CASE("ASCII PLY", "[ply]") {
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("header variants: CRLF, CR, comments, obj_info, other names of types and lists", "[ply]") {
+TEST_CASE("PLY headers with other line ends, comments, obj_info and other type names are read", "[ply]") {
     const std::string text =
         "ply\ncomment made by hand\nformat ascii 1.0\nobj_info num 1\nelement vertex 3\nproperty float64 x\n"
         "property double y\nproperty float32 z\ncomment between\nelement face 1\n"
@@ -75,7 +75,7 @@ TEST_CASE("header variants: CRLF, CR, comments, obj_info, other names of types a
     }
 }
 
-TEST_CASE("binary PLY of both byte orders with every type of number and of list", "[ply]") {
+TEST_CASE("binary PLY files of both byte orders with all number and list types are read", "[ply]") {
     for (const bool big : {false, true}) {
         CAPTURE(big);
         const std::string header =
@@ -108,7 +108,7 @@ TEST_CASE("binary PLY of both byte orders with every type of number and of list"
     }
 }
 
-TEST_CASE("data after a CR-only header may start with a line feed", "[ply]") {
+TEST_CASE("PLY data after a header with CR line ends may start with a line feed", "[ply]") {
     std::string header =
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
         "property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
@@ -117,7 +117,7 @@ TEST_CASE("data after a CR-only header may start with a line feed", "[ply]") {
     CHECK(part.positions[0] == Vec3{10, 0, 0});
 }
 
-TEST_CASE("normals, colours and UVs of vertices", "[ply]") {
+TEST_CASE("PLY vertex normals, colours and UVs are read", "[ply]") {
     const std::string properties =
         "property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n"
         "property uchar blue\nproperty uchar alpha\nproperty float s\nproperty float t\n";
@@ -130,7 +130,7 @@ TEST_CASE("normals, colours and UVs of vertices", "[ply]") {
     CHECK(part.uvs.at(0).at(0) == Vec2f{0.5f, 0.75f});
 }
 
-TEST_CASE("other names and types of colours and UVs", "[ply]") {
+TEST_CASE("alternative names and types of PLY colours and UVs are read", "[ply]") {
     const std::string data = "0 0 0 1 0.5 0 0.5 1\n1 0 0 1 0.5 0 0 0\n1 1 0 1 0.5 0 0 0\n3 0 1 2\n";
     for (const std::string names :
          {"r g b u v", "red green blue texture_u texture_v", "diffuse_red diffuse_green diffuse_blue s t"}) {
@@ -146,7 +146,7 @@ TEST_CASE("other names and types of colours and UVs", "[ply]") {
     CHECK(wide.colors.at(0) == Vec4f{1, 0, 0, 1});
 }
 
-TEST_CASE("colours and UVs of faces are warned of", "[ply]") {
+TEST_CASE("PLY face colours and face UVs give a warning", "[ply]") {
     const Asset asset = parse(ascii("", indices + "property list uchar float texcoord\nproperty uchar red\n",
                                     three + "3 0 1 2 2 0.5 0.5 255\n"));
     CHECK(asset.warnings.size() == 2);
@@ -154,19 +154,19 @@ TEST_CASE("colours and UVs of faces are warned of", "[ply]") {
     CHECK(any_contains(asset.warnings, "red"));
 }
 
-TEST_CASE("polygons are split, faces of two corners left out, faces may come before vertices", "[ply]") {
+TEST_CASE("PLY polygons are triangulated, and faces may precede vertices", "[ply]") {
     const Asset asset = parse("ply\nformat ascii 1.0\nelement face 2\n" + indices + "element vertex 4\n" +
                               xyz + "end_header\n4 0 1 2 3\n2 0 1\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n");
     REQUIRE(asset.parts.at(0).triangles.size() == 2);
-    CHECK(any_contains(asset.warnings, "1 face of fewer than three"));
-    // Corner 2 is reflex: the cut goes through it, not from 1 to 3.
+    CHECK(any_contains(asset.warnings, "1 face with fewer than three"));
+    // Corner 2 is reflex: the diagonal starts at it and does not connect 1 and 3.
     for (const Triangle& t : asset.parts[0].triangles) CHECK(std::count(t.begin(), t.end(), 2u) == 1);
 }
 
-//  0---2---4        strip 0 1 2 3 4 5; every second triangle is turned round to keep one side up
+//  0---2---4        strip 0 1 2 3 4 5: the winding of every second triangle is reversed
 //   \ / \ / \       .
 //    1---3---5
-TEST_CASE("triangle strips", "[ply]") {
+TEST_CASE("PLY triangle strips are read with consistent winding", "[ply]") {
     const std::string header = "ply\nformat ascii 1.0\nelement vertex 6\n" + xyz +
                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
     const Part part =
@@ -175,7 +175,7 @@ TEST_CASE("triangle strips", "[ply]") {
     CHECK(contains(error_of(header + three + three + "3 0 1 -2\n"), "vertex -2 is out of range"));
 }
 
-TEST_CASE("counts are checked against the size of the file before memory is taken", "[ply]") {
+TEST_CASE("PLY counts are checked against the file size before memory is allocated", "[ply]") {
     const auto file = [](const std::string& format, const std::string& vertices, const std::string& faces) {
         return "ply\nformat " + format + " 1.0\nelement vertex " + vertices + "\n" + xyz + "element face " +
                faces + "\n" + indices + "end_header\n";
@@ -195,13 +195,13 @@ TEST_CASE("counts are checked against the size of the file before memory is take
                                   "vertex_indices\nend_header\n";
     CHECK(contains(error_of(long_list + std::string("\xFF\xFF\xFF\xFF\0\0\0\0", 8)),
                    "a.ply: the file is too short for a list of 4294967295 (face 0)"));
-    // Rows without properties take no bytes; there may be any number of them.
+    // Rows without properties take no bytes, so any number of them is valid.
     CHECK(parse("ply\nformat ascii 1.0\nelement nothing 4000000000\nelement vertex 3\n" + xyz +
                 "element face 1\n" + indices + "end_header\n" + three + "3 0 1 2\n")
               .parts.size() == 1);
 }
 
-TEST_CASE("errors name the element and its number", "[ply]") {
+TEST_CASE("PLY errors name the element and its index", "[ply]") {
     CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")),
                    "a.ply: line 11: 'x' is not a number (vertex 1)"));
     CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0\n1 1 0\n3 0 1 2\n")), "(vertex 1)"));
@@ -216,7 +216,7 @@ TEST_CASE("errors name the element and its number", "[ply]") {
                    "negative length (face 0)"));
 }
 
-TEST_CASE("headers that make no sense are errors with their line", "[ply]") {
+TEST_CASE("invalid PLY headers are errors that name the line", "[ply]") {
     const std::string good = ascii("", indices, three + "3 0 1 2\n");
     const auto with = [&](const std::string& what, const std::string& by) {
         std::string text = good;
@@ -228,34 +228,34 @@ TEST_CASE("headers that make no sense are errors with their line", "[ply]") {
     CHECK(contains(with("ascii", "text"), "line 2: unknown format 'text'"));
     CHECK(contains(with("format ascii 1.0\n", ""), "no format"));
     CHECK(contains(with("float x", "quad x"), "line 4: unknown type 'quad'"));
-    CHECK(contains(with("float x", "float q"), "lacks x, y or z"));
+    CHECK(contains(with("float x", "float q"), "must have the properties x, y and z"));
     CHECK(contains(with("element vertex 3", "property float w"), "line 3: a property before"));
     CHECK(contains(with("element vertex 3", "element points 3"), "no element vertex"));
     CHECK(contains(with("element face 1", "element vertex 1"), "more than one element vertex"));
     CHECK(contains(with("end_header", "end_headers"), "unknown statement 'end_headers'"));
     CHECK(contains(with("list uchar int", "list float int"), "must be an integer"));
-    CHECK(contains(with("list uchar int", "list uchar float"), "lacks a list vertex_indices of integers"));
-    CHECK(contains(with("vertex_indices", "indices"), "lacks a list vertex_indices"));
+    CHECK(contains(with("list uchar int", "list uchar float"),
+                   "must have an integer list property vertex_indices"));
+    CHECK(contains(with("vertex_indices", "indices"), "must have an integer list property"));
     CHECK(contains(error_of("ply\nformat ascii 1.0\n"), "no end_header"));
 }
 
-TEST_CASE("bytes that are left over are warned of", "[ply]") {
+TEST_CASE("trailing bytes of a PLY file give a warning", "[ply]") {
     CHECK(any_contains(parse(ascii("", indices, three + "3 0 1 2\n3 0 1 2\n")).warnings, "8 bytes after"));
     CHECK(parse(ascii("", indices, three + "3 0 1 2\n\n \n")).warnings.empty());
 }
 
-TEST_CASE("no faces is an error, non-finite positions are repaired", "[ply]") {
+TEST_CASE("a PLY file without faces is an error and non-finite positions are repaired", "[ply]") {
     CHECK(contains(error_of(ascii("", indices, three, 3, 0)), "a.ply: no faces"));
     CHECK(contains(error_of("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "end_header\n" + three),
                    "a.ply: no faces"));
     const Asset asset = parse(ascii("", indices, "0 0 0\n1 0 0\n1 1 0\nnan 0 0\n3 0 1 2\n4 0 1 2 3\n", 4, 2));
     CHECK(asset.parts[0].triangles.size() == 1);
     CHECK(asset.parts[0].positions.size() == 3);
-    CHECK(any_contains(asset.warnings,
-                       "1 vertex with a position that is not finite: left out, and 1 face there"));
+    CHECK(any_contains(asset.warnings, "1 vertex with a non-finite position and 1 adjacent face left out"));
 }
 
-TEST_CASE("PLY written, read and written again is the same", "[ply]") {
+TEST_CASE("a PLY file is unchanged by reading and writing", "[ply]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {0.5f, 0.25f, 0}, {1, 1, 0}, {0.1f, 7, 9}}, {{0, 1, 2}, {2, 1, 0}});
     Part& part = asset.parts[0];
@@ -279,7 +279,7 @@ TEST_CASE("PLY written, read and written again is the same", "[ply]") {
     }
 }
 
-TEST_CASE("all 256 levels of a colour come back from a PLY file", "[ply]") {
+TEST_CASE("PLY files keep all 256 values of a colour channel", "[ply]") {
     const TemporaryFolder folder;
     std::vector<Vec3> positions(256, Vec3{0, 0, 0});
     Asset asset = one_part(positions, {{0, 1, 2}});
@@ -291,7 +291,7 @@ TEST_CASE("all 256 levels of a colour come back from a PLY file", "[ply]") {
     CHECK(read_ply(folder / "a.ply").parts[0].colors == asset.parts[0].colors);
 }
 
-TEST_CASE("the PLY writer says what it leaves out", "[ply]") {
+TEST_CASE("the PLY writer reports what it leaves out", "[ply]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
     asset.materials.emplace_back();

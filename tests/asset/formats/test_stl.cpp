@@ -44,7 +44,7 @@ const std::string ascii_facet =
 
 }  // namespace
 
-TEST_CASE("binary STL shares equal positions, -0 being 0", "[stl]") {
+TEST_CASE("binary STL corners at equal positions share a vertex, and -0 equals 0", "[stl]") {
     for (const std::string start : {"", "solid like a text"}) {
         const Asset asset = parse(
             binary(start, {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({-0.0f, 0, -0.0f, 1, 1, 0, 0, 1, 0})}));
@@ -57,7 +57,7 @@ TEST_CASE("binary STL shares equal positions, -0 being 0", "[stl]") {
     }
 }
 
-TEST_CASE("binary STL of another size than its count says is an error", "[stl]") {
+TEST_CASE("a binary STL file whose size does not match its facet count is an error", "[stl]") {
     const std::string good = binary("x", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0})});
     CHECK(contains(error_of(good.substr(0, good.size() - 1)),
                    "a.stl: header: 1 facet need 134 bytes, the file has 133"));
@@ -70,7 +70,7 @@ TEST_CASE("binary STL of another size than its count says is an error", "[stl]")
     CHECK(contains(error_of(binary("", {})), "a.stl: no faces"));
 }
 
-TEST_CASE("ASCII STL: several solids, any case of letters, any line end", "[stl]") {
+TEST_CASE("ASCII STL files with several solids, any letter case and any line end are read", "[stl]") {
     const std::string text =
         "solid a b c\n" + ascii_facet + ascii_facet + "endsolid a b c\n\nsolid\n" + ascii_facet + "endsolid";
     std::string upper = text;
@@ -89,7 +89,7 @@ TEST_CASE("ASCII STL: several solids, any case of letters, any line end", "[stl]
               .positions[0] == Vec3{0.001, 0, 0});
 }
 
-TEST_CASE("broken ASCII STL is an error with its line", "[stl]") {
+TEST_CASE("invalid ASCII STL is an error that names the line", "[stl]") {
     const std::string good = "solid\n" + ascii_facet + "endsolid\n";
     const auto with = [&](const std::string& what, const std::string& by) {
         std::string text = good;
@@ -105,7 +105,7 @@ TEST_CASE("broken ASCII STL is an error with its line", "[stl]") {
     CHECK(contains(error_of("hello"), "'hello' instead of 'solid'"));
 }
 
-TEST_CASE("non-finite positions are repaired, colours in the header warned of", "[stl]") {
+TEST_CASE("non-finite STL positions are repaired and facet colours give a warning", "[stl]") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Asset asset = parse(
         binary("COLOR=abcd", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({0, 0, 0, 1, 0, 0, nan, 1, 0})}));
@@ -114,13 +114,13 @@ TEST_CASE("non-finite positions are repaired, colours in the header warned of", 
     CHECK(asset.warnings.size() == 2);
 }
 
-TEST_CASE("STL written, read and written again is the same", "[stl]") {
+TEST_CASE("an STL file is unchanged by reading and writing", "[stl]") {
     const TemporaryFolder folder;
     const Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.25, 3}}, {{0, 1, 2}, {0, 2, 3}});
     CHECK(write_stl(asset, folder / "a.stl", Overwrite::no).empty());
     const std::string bytes = get(folder / "a.stl");
     CHECK(bytes.size() == 84 + 2 * 50);
-    CHECK(bytes.substr(84, 12) == u32(0) + u32(0) + u32(std::bit_cast<std::uint32_t>(1.0f)));  // its normal
+    CHECK(bytes.substr(84, 12) == u32(0) + u32(0) + u32(std::bit_cast<std::uint32_t>(1.0f)));  // facet normal
     const Asset back = read_stl(folder / "a.stl");
     CHECK(back.parts[0].positions == asset.parts[0].positions);
     CHECK(back.parts[0].triangles == asset.parts[0].triangles);
@@ -128,7 +128,7 @@ TEST_CASE("STL written, read and written again is the same", "[stl]") {
     CHECK(get(folder / "b.stl") == bytes);
 }
 
-TEST_CASE("the STL writer says what it leaves out, and does not write infinities", "[stl]") {
+TEST_CASE("the STL writer reports what it leaves out and rejects coordinates too large for float", "[stl]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0.1, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
     asset.materials.emplace_back();

@@ -39,8 +39,8 @@ std::vector<Triangle> split(const Ring& ring) {
     return triangles;
 }
 
-/// A triangulation of a simple polygon: n - 2 triangles with positive areas that sum up to the polygon's,
-/// each inner edge used once in each direction, each edge of the ring once.
+/// Checks a triangulation of a simple polygon: n - 2 triangles with positive areas that sum to the area of
+/// the polygon; each interior edge is used once in each direction, each polygon edge once.
 void check_triangulation(const Ring& ring, double tolerance = 1e-12) {
     const std::vector<Triangle> triangles = split(ring);
     REQUIRE(triangles.size() == ring.size() - 2);
@@ -65,7 +65,7 @@ void check_triangulation(const Ring& ring, double tolerance = 1e-12) {
 
 }  // namespace
 
-TEST_CASE("a convex polygon is a fan around its first corner", "[polygon]") {
+TEST_CASE("a convex polygon becomes a fan around its first corner", "[polygon]") {
     CHECK(split(flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}})) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
     Ring circle;
     for (int i = 0; i < 100; ++i) circle.push_back({std::cos(i * 0.0628), std::sin(i * 0.0628), 0});
@@ -74,8 +74,8 @@ TEST_CASE("a convex polygon is a fan around its first corner", "[polygon]") {
 }
 
 //  3-------2
-//   \  1'/      the reflex corner of a dart lies inside the fan of corner 0
-TEST_CASE("concave quads are cut along the inner diagonal", "[polygon]") {
+//   \  1'/      the reflex corner of the quad lies inside the fan of corner 0
+TEST_CASE("concave quads are split along the inner diagonal", "[polygon]") {
     const Ring dart = flat({{0, 0}, {4, 0}, {1, 1}, {0, 4}});
     for (std::size_t shift = 0; shift < 4; ++shift) {
         Ring turned;
@@ -84,7 +84,7 @@ TEST_CASE("concave quads are cut along the inner diagonal", "[polygon]") {
     }
 }
 
-TEST_CASE("combs, spirals and stars are split without overlap", "[polygon]") {
+TEST_CASE("combs, spirals and stars are triangulated without overlap", "[polygon]") {
     Ring comb = flat({{0, 0}, {20, 0}});
     for (int i = 20; i >= 0; --i) comb.push_back({double(i), i % 2 ? 1.0 : 10.0, 0});
     check_triangulation(comb);
@@ -106,7 +106,7 @@ TEST_CASE("combs, spirals and stars are split without overlap", "[polygon]") {
     check_triangulation(band, 1e-9);
 }
 
-TEST_CASE("random star-shaped polygons are split without overlap", "[polygon]") {
+TEST_CASE("random star-shaped polygons are triangulated without overlap", "[polygon]") {
     std::mt19937 random(7);
     for (int round = 0; round < 50; ++round) {
         Ring ring;
@@ -120,18 +120,18 @@ TEST_CASE("random star-shaped polygons are split without overlap", "[polygon]") 
     }
 }
 
-TEST_CASE("corners in the middle of an edge get no triangle without area", "[polygon]") {
+TEST_CASE("collinear corners do not give degenerate triangles", "[polygon]") {
     check_triangulation(flat({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}));
     check_triangulation(flat({{0, 0}, {1, 0}, {2, 0}, {1, 2}}));
 }
 
-// Outer square and inner square, joined by a bridge that is walked twice.
-TEST_CASE("a hole joined by a bridge stays a hole", "[polygon]") {
+// An outer and an inner square, connected by a bridge edge that is traversed twice.
+TEST_CASE("a hole connected by a bridge edge is kept", "[polygon]") {
     check_triangulation(
         flat({{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0}, {2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}));
 }
 
-TEST_CASE("the plane of the polygon and its scale do not matter", "[polygon]") {
+TEST_CASE("the triangulation is independent of the plane and the scale of the polygon", "[polygon]") {
     const Ring flat_l = flat({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
     const std::vector<Triangle> expected = split(flat_l);
     for (const double scale : {1e-160, 1e-30, 1.0, 1e30, 1e150})
@@ -149,7 +149,7 @@ TEST_CASE("the plane of the polygon and its scale do not matter", "[polygon]") {
         }
 }
 
-TEST_CASE("the winding is kept", "[polygon]") {
+TEST_CASE("triangulation keeps the winding", "[polygon]") {
     const Ring l = flat({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
     const Ring turned(l.rbegin(), l.rend());
     double sum = 0;
@@ -161,7 +161,7 @@ TEST_CASE("the winding is kept", "[polygon]") {
     CHECK(sum == Approx(-5));
 }
 
-TEST_CASE("any ring gives size - 2 triangles with valid corners", "[polygon]") {
+TEST_CASE("any polygon of n corners gives n - 2 triangles with valid corners", "[polygon]") {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  inf = std::numeric_limits<double>::infinity();
     std::vector<Ring> rings = {
@@ -187,13 +187,13 @@ TEST_CASE("any ring gives size - 2 triangles with valid corners", "[polygon]") {
     CHECK(split({}).empty());
 }
 
-TEST_CASE("a comb of 60000 corners is split", "[polygon]") {
+TEST_CASE("a comb of 60000 corners is triangulated", "[polygon]") {
     Ring comb = flat({{0, 0}, {60000, 0}});
     for (int i = 60000; i >= 0; --i) comb.push_back({double(i), i % 2 ? 1.0 : 10.0, 0});
     check_triangulation(comb, 1e-9);
 }
 
-TEST_CASE("polygons of a file keep their order, and unusable ones are counted", "[polygon]") {
+TEST_CASE("polygons keep their order and unusable ones are counted", "[polygon]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {nan, 0, 0}};
     Polygons polygons;

@@ -46,7 +46,7 @@ TEST_CASE("without a decoder the error names the extension and the library") {
 
 #ifdef FAQEM_WITH_MESHOPT
 
-TEST_CASE("meshopt: compressed vertices and triangles are read, and written plain") {
+TEST_CASE("meshopt: compressed vertices and triangles are read, and written uncompressed") {
     const Asset asset = load_glb(packed_square());
     check_square(asset);
     const std::string out = saved(asset);
@@ -56,26 +56,26 @@ TEST_CASE("meshopt: compressed vertices and triangles are read, and written plai
     check_square(load_glb(out));
 }
 
-TEST_CASE("meshopt: damaged data is refused, by view") {
+TEST_CASE("meshopt: damaged data is rejected with the buffer view") {
     GltfBuilder builder = packed_square();
     const std::size_t offset = packed_of(builder, 0)["byteOffset"].get<std::size_t>();
     builder.bin[offset] = 'x';
     CHECK(contains(refusal(builder), "/bufferViews/0: EXT_meshopt_compression: the data is damaged"));
 }
 
-TEST_CASE("meshopt: what the extension says must fit the view, the buffer and the mode") {
+TEST_CASE("meshopt: the extension must be consistent with the view, the buffer and the mode") {
     const auto refused = [](std::size_t view, const char* key, const Json& value) {
         GltfBuilder builder = packed_square();
         packed_of(builder, view)[key] = value;
         return refusal(builder);
     };
     CHECK(contains(refused(0, "buffer", 2), "refers to /buffers/2"));
-    CHECK(contains(refused(0, "buffer", 1), "has no bytes"));
+    CHECK(contains(refused(0, "buffer", 1), "is a buffer without data"));
     CHECK(contains(refused(0, "byteOffset", 100000), "needs"));
     CHECK(contains(refused(0, "byteLength", std::uint64_t{1} << 63), "needs"));
-    CHECK(contains(refused(0, "count", 5), "makes 5 times 12"));
+    CHECK(contains(refused(0, "count", 5), "decodes to 5 times 12"));
     CHECK(contains(refused(0, "count", std::uint64_t{1} << 62),
-                   "makes 4611686018427387904 times 12 bytes, the bufferView has 48"));
+                   "decodes to 4611686018427387904 times 12 bytes, the bufferView has 48"));
     CHECK(contains(refused(0, "byteStride", 6), "byteStride"));
     CHECK(contains(refused(1, "byteStride", 3), "byteStride"));
     CHECK(contains(refused(0, "mode", "TRIANGLES"), "byteStride"));
@@ -85,16 +85,16 @@ TEST_CASE("meshopt: what the extension says must fit the view, the buffer and th
     CHECK(contains(refused(1, "count", 5), "multiple of 3"));
 }
 
-TEST_CASE("meshopt: a view in a buffer without bytes must be compressed, an image may not lie there") {
+TEST_CASE("meshopt: views of a buffer without data must be compressed and must not be images") {
     GltfBuilder builder = packed_square();
     builder.json["bufferViews"][0].erase("extensions");
-    CHECK(contains(refusal(builder), "/bufferViews/0: lies in a buffer that has no bytes"));
+    CHECK(contains(refusal(builder), "/bufferViews/0: refers to a buffer without data"));
     builder = packed_square();
     builder.add("images", {{"bufferView", 0}, {"mimeType", "image/png"}});
-    CHECK(contains(refusal(builder), "/images/0: lies in a buffer that has no bytes"));
+    CHECK(contains(refusal(builder), "/images/0: refers to a buffer without data"));
 }
 
-TEST_CASE("meshopt: sizes that so few bytes cannot hold are refused before there is memory for them") {
+TEST_CASE("meshopt: implausible sizes are rejected before memory is allocated") {
     GltfBuilder builder = packed_square();
     const std::uint64_t count = std::uint64_t{1} << 40;
     builder.json["buffers"][1]["byteLength"] = 12 * count;
@@ -103,7 +103,7 @@ TEST_CASE("meshopt: sizes that so few bytes cannot hold are refused before there
     builder.json["accessors"][0]["count"] = count;
     packed_of(builder, 0)["count"] = count;
     CHECK(contains(refusal(builder), "cannot hold"));
-    // Nor does the placeholder vouch for an accessor without a view.
+    // The length of the placeholder buffer does not raise the limit for accessors without a view either.
     builder = packed_square();
     builder.json["buffers"][1]["byteLength"] = 12 * count;
     builder.json["accessors"][0].erase("bufferView");
@@ -111,14 +111,15 @@ TEST_CASE("meshopt: sizes that so few bytes cannot hold are refused before there
     CHECK(contains(refusal(builder), "/accessors/0/count"));
 }
 
-TEST_CASE("meshopt: the same bytes are not unpacked again and again") {
+TEST_CASE("meshopt: the total size of views that share the same bytes is limited") {
     GltfBuilder builder = packed_square();
     const Json view = builder.json["bufferViews"][0];
     for (int i = 0; i < 1000; ++i) builder.json["bufferViews"].push_back(view);
-    CHECK(contains(refusal(builder), "EXT_meshopt_compression: is more than all buffers can hold"));
+    CHECK(
+        contains(refusal(builder), "EXT_meshopt_compression: the total decompressed size exceeds the limit"));
 }
 
-TEST_CASE("meshopt: every truncation and every changed byte is an error or a mesh, never a crash") {
+TEST_CASE("meshopt: data truncated or changed at any byte gives an error or a mesh") {
     const GltfBuilder good = packed_square();
     for (const std::size_t view : {0u, 1u}) {
         GltfBuilder of_view = good;
@@ -142,7 +143,7 @@ TEST_CASE("meshopt: every truncation and every changed byte is an error or a mes
     }
 }
 
-TEST_CASE("meshopt: octahedral normals and exponential positions are filtered") {
+TEST_CASE("meshopt: the filter of octahedral normals is applied") {
     const float x = 0.6f, y = -0.8f;
     const float normal[4] = {x, y, 0, 0};
     std::vector<unsigned char> raw(8), packed(meshopt_encodeVertexBufferBound(1, 8));
@@ -160,7 +161,7 @@ TEST_CASE("meshopt: octahedral normals and exponential positions are filtered") 
 #endif
 #ifdef FAQEM_WITH_DRACO
 
-TEST_CASE("draco: compressed meshes are read, and written plain") {
+TEST_CASE("draco: compressed meshes are read, and written uncompressed") {
     for (const Method method : {Method::edgebreaker, Method::sequential}) {
         const Asset asset = load_glb(draco_square(method));
         check_square(asset);
@@ -170,23 +171,23 @@ TEST_CASE("draco: compressed meshes are read, and written plain") {
     }
 }
 
-TEST_CASE("draco: counts that differ from the accessors' are refused before anything is decoded") {
+TEST_CASE("draco: counts that differ from the accessors are rejected before decoding") {
     for (const Method method : {Method::edgebreaker, Method::sequential}) {
         GltfBuilder builder = draco_square(method);
         builder.json["accessors"][1]["count"] = 9;
-        CHECK(contains(refusal(builder), "has 2 faces, the indices are 9"));
+        CHECK(contains(refusal(builder), "has 2 faces, the number of indices is 9"));
         builder = draco_square(method);
         builder.json["accessors"][0]["count"] = 3;
-        CHECK(contains(refusal(builder), "vertices, the accessors 3"));
+        CHECK(contains(refusal(builder), "vertices, the accessors have 3"));
         builder = draco_square(method);
         builder.json["accessors"][0]["count"] = 5;
-        CHECK(contains(refusal(builder), "not what the accessors say"));
+        CHECK(contains(refusal(builder), "which differs from the accessors"));
         builder.json["accessors"][0]["count"] = std::uint64_t{1} << 40;
         CHECK(contains(refusal(builder), "/accessors/0/count"));
     }
 }
 
-TEST_CASE("draco: counts and ids that no file has are refused, by element") {
+TEST_CASE("draco: invalid counts and attribute ids are rejected with the element") {
     for (const std::uint64_t huge : {std::uint64_t{1} << 62, UINT64_MAX}) {
         for (const std::size_t accessor : {0u, 1u}) {
             GltfBuilder builder = draco_square(Method::sequential);
@@ -204,29 +205,29 @@ TEST_CASE("draco: counts and ids that no file has are refused, by element") {
     }
     GltfBuilder builder = draco_square(Method::sequential);
     builder.json["accessors"][1]["count"] = 3'000'000;
-    CHECK(contains(refusal(builder), "has 2 faces, the indices are 3000000"));
+    CHECK(contains(refusal(builder), "has 2 faces, the number of indices is 3000000"));
     builder.json["accessors"][1]["count"] = 5'000'000;
     CHECK(contains(refusal(builder), "/accessors/1/count"));
 }
 
-TEST_CASE("draco: what is unpacked may not grow with how often the same bytes are referred to") {
+TEST_CASE("draco: the total decompressed size is limited") {
     const std::string file = "a.glb";
     detail::DecompressionBudget budget(10, file);
     budget.consume(7, "/meshes/0", "X");
     budget.consume(3, "/meshes/1", "X");
     CHECK_THROWS_WITH(budget.consume(1, "/meshes/2", "X"),
-                      "a.glb: /meshes/2: X: is more than all buffers can hold, with what is before it");
+                      "a.glb: /meshes/2: X: the total decompressed size exceeds the limit for this file");
     CHECK_THROWS_AS(budget.consume(UINT64_MAX, "", ""), InputError);
 }
 
-TEST_CASE("draco: corners that the type of the indices cannot name are refused, not cut off") {
+TEST_CASE("draco: indices out of the range of the index type are rejected") {
     GltfBuilder strip = draco_strip(300);
     CHECK(load_glb(strip).parts[0].triangles.size() == 300);
     strip.json["accessors"][1]["componentType"] = u8;
-    CHECK(contains(refusal(strip), "has vertices beyond the type of the indices"));
+    CHECK(contains(refusal(strip), "has more vertices than the index type can address"));
 }
 
-TEST_CASE("draco: damaged and contradictory data is refused, by primitive") {
+TEST_CASE("draco: damaged and inconsistent data is rejected with the primitive") {
     GltfBuilder builder = draco_square(Method::edgebreaker);
     builder.bin[0] = 'X';
     CHECK(contains(refusal(builder), "/meshes/0/primitives/0: KHR_draco_mesh_compression: the header"));
@@ -237,7 +238,7 @@ TEST_CASE("draco: damaged and contradictory data is refused, by primitive") {
     draco_of(builder)["attributes"]["POSITION"] = 77;
     CHECK(contains(refusal(builder), "has no attribute 77"));
     draco_of(builder)["attributes"] = {{"NORMAL", 0}};
-    CHECK(contains(refusal(builder), "NORMAL: is no attribute of the primitive"));
+    CHECK(contains(refusal(builder), "NORMAL: is not an attribute of the primitive"));
     draco_of(builder).erase("attributes");
     CHECK(contains(refusal(builder), "has no attributes"));
     builder = draco_square(Method::edgebreaker);
@@ -248,7 +249,7 @@ TEST_CASE("draco: damaged and contradictory data is refused, by primitive") {
     CHECK(contains(refusal(builder), "no indices"));
 }
 
-TEST_CASE("draco: every truncation and every changed byte is an error or a mesh, never a crash") {
+TEST_CASE("draco: data truncated or changed at any byte gives an error or a mesh") {
     for (const Method method : {Method::edgebreaker, Method::sequential}) {
         const GltfBuilder good = draco_square(method);
         for (std::size_t i = 0; i < good.bin.size(); ++i) {
@@ -274,7 +275,7 @@ TEST_CASE("draco: every truncation and every changed byte is an error or a mesh,
 
 #endif
 
-TEST_CASE("textures whose only image is WebP are read where OpenImageIO can, and stay WebP") {
+TEST_CASE("WebP textures are read if OpenImageIO supports WebP, and are written as WebP") {
     const GltfBuilder builder = webp_square();
     if (!detail::can_decode_image("image/webp")) {
         CHECK(contains(refusal<UnsupportedError>(builder), "EXT_texture_webp"));

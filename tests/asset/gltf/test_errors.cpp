@@ -1,4 +1,4 @@
-// Every glTF input that must be refused, with the message that says why.
+// Invalid glTF input and the error messages for it.
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@ using namespace faqem::testing;
 
 namespace {
 
-/// Refused as InputError with all these words in the message.
+/// Checks that loading throws InputError and that the message contains all given texts.
 void check_refused(const std::string& glb, const std::vector<std::string>& words) {
     const std::string message = refusal(glb);
     INFO(message);
@@ -26,7 +26,7 @@ void check_refused(const GltfBuilder& builder, const std::vector<std::string>& w
 
 }  // namespace
 
-TEST_CASE("a GLB cut off anywhere is refused") {
+TEST_CASE("a GLB truncated at any byte is rejected") {
     const std::string glb = square_gltf().glb();
     REQUIRE_NOTHROW(load_glb(glb));
     for (std::size_t size = 4; size < glb.size(); ++size) {
@@ -42,7 +42,7 @@ TEST_CASE("the GLB version must be 2") {
     CHECK(contains(refusal<UnsupportedError>(glb), "version 1 is not supported"));
 }
 
-TEST_CASE("a BIN chunk 8 bytes longer than the file is refused") {
+TEST_CASE("a BIN chunk longer than the file is rejected") {
     const GltfBuilder builder = square_gltf();
     std::string glb = builder.glb();
     const std::size_t bin_header = glb.size() - builder.bin.size() - 8;
@@ -50,7 +50,7 @@ TEST_CASE("a BIN chunk 8 bytes longer than the file is refused") {
     check_refused(glb, {"GLB chunk 1", "needs 68 bytes, 60 bytes are left"});
 }
 
-TEST_CASE("a BIN chunk longer than its buffer loses the rest, with a warning beyond the padding") {
+TEST_CASE("excess bytes of a BIN chunk are ignored, with a warning beyond the padding") {
     GltfBuilder builder = square_gltf();
     builder.json["buffers"] = {{{"byteLength", builder.bin.size() + 1}}};
     builder.bin += "abcd";
@@ -61,13 +61,13 @@ TEST_CASE("a BIN chunk longer than its buffer loses the rest, with a warning bey
     CHECK(any_contains(asset.warnings, "11 bytes more than the buffer"));
 }
 
-TEST_CASE("a BIN chunk shorter than its buffer is refused") {
+TEST_CASE("a BIN chunk shorter than its buffer is rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["buffers"] = {{{"byteLength", 1000}}};
     check_refused(builder, {"/buffers/0", "needs 1000 bytes, there are 60"});
 }
 
-TEST_CASE("an empty BIN chunk is legal") {
+TEST_CASE("an empty BIN chunk is valid") {
     std::string glb = GltfBuilder().glb();
     GltfBuilder::put_u32(glb, 0);
     glb += std::string("BIN\0", 4);
@@ -75,7 +75,7 @@ TEST_CASE("an empty BIN chunk is legal") {
     CHECK(load_glb(glb).parts.empty());
 }
 
-TEST_CASE("brackets nested 20000 deep are refused, inside strings they are not counted") {
+TEST_CASE("brackets nested 20000 deep are rejected except inside strings") {
     const std::string many(20000, '[');
     check_refused(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"extras":)" + many, ""),
                   {"nested deeper than 64"});
@@ -83,14 +83,14 @@ TEST_CASE("brackets nested 20000 deep are refused, inside strings they are not c
         load_glb(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"extras":"\")" + many + "\"}", "")));
 }
 
-TEST_CASE("broken JSON is refused") {
+TEST_CASE("invalid JSON is rejected") {
     check_refused(GltfBuilder::glb_of("{\"asset\":", ""), {"JSON", "parse error"});
     check_refused(GltfBuilder::glb_of("[1]", ""), {"neither a GLB nor a JSON object"});
     check_refused(GltfBuilder::glb_of(R"({"asset":{"version":"2.0"},"nodes":[7]})", ""),
                   {"/nodes/0", "object"});
 }
 
-TEST_CASE("only glTF 2 is read") {
+TEST_CASE("glTF versions other than 2 are unsupported") {
     GltfBuilder builder;
     builder.json["asset"]["version"] = "1.0";
     CHECK(contains(refusal<UnsupportedError>(builder), "/asset/version: '1.0' is not supported"));
@@ -100,13 +100,13 @@ TEST_CASE("only glTF 2 is read") {
     check_refused(builder, {"/asset", "missing"});
 }
 
-TEST_CASE("accessors beyond their view are refused with both sizes") {
+TEST_CASE("accessors larger than their buffer view are rejected with both sizes") {
     GltfBuilder builder = square_gltf();
     SECTION("too many elements") {
         builder.json["accessors"][0]["count"] = 5;
         check_refused(builder, {"/accessors/0", "needs 60 bytes, bufferView 0 has 48"});
     }
-    SECTION("offset") {
+    SECTION("an offset beyond the end") {
         builder.json["accessors"][0]["byteOffset"] = 4;
         check_refused(builder, {"/accessors/0", "needs 52 bytes, bufferView 0 has 48"});
     }
@@ -118,57 +118,57 @@ TEST_CASE("accessors beyond their view are refused with both sizes") {
         builder.json["accessors"][0]["byteOffset"] = UINT64_MAX - 7;
         check_refused(builder, {"/accessors/0", "bufferView 0 has 48"});
     }
-    SECTION("without a view, no bytes vouch for a large count") {
+    SECTION("a large count without a buffer view") {
         builder.json["accessors"][0] = {
             {"componentType", f32}, {"type", "VEC3"}, {"count", std::uint64_t{1} << 40}};
         check_refused(builder, {"/accessors/0/count", "without a bufferView"});
     }
-    SECTION("count 0") {
+    SECTION("a count of 0") {
         builder.json["accessors"][0]["count"] = 0;
         check_refused(builder, {"/accessors/0/count", "is 0"});
     }
-    SECTION("negative") {
+    SECTION("a negative count") {
         builder.json["accessors"][0]["count"] = -4;
         check_refused(builder, {"/accessors/0/count", "not an unsigned integer"});
     }
-    SECTION("component type") {
+    SECTION("an unknown component type") {
         builder.json["accessors"][0]["componentType"] = 5130;
         check_refused(builder, {"/accessors/0/componentType", "5130"});
     }
-    SECTION("type") {
+    SECTION("an unknown accessor type") {
         builder.json["accessors"][0]["type"] = "VEC5";
         check_refused(builder, {"/accessors/0/type", "'VEC5'"});
     }
 }
 
-TEST_CASE("views beyond their buffer are refused") {
+TEST_CASE("buffer views larger than their buffer are rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["bufferViews"][1]["byteLength"] = 13;
-    check_refused(builder, {"/bufferViews/1", "needs 13 bytes from byte 48, buffer 0 has 60"});
+    check_refused(builder, {"/bufferViews/1", "needs 13 bytes at offset 48, buffer 0 has 60"});
     builder.json["bufferViews"][1]["byteLength"] = UINT64_MAX - 40;
     check_refused(builder, {"/bufferViews/1", "buffer 0 has 60"});
 }
 
-TEST_CASE("strides less than the element or out of range are refused") {
+TEST_CASE("strides smaller than the element or out of range are rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["bufferViews"][0]["byteStride"] = 8;
-    check_refused(builder, {"/accessors/0", "elements of 12 bytes, bufferView 0 a stride of 8"});
+    check_refused(builder, {"/accessors/0", "elements of 12 bytes, bufferView 0 has a stride of 8"});
     builder.json["bufferViews"][0]["byteStride"] = 256;
     check_refused(builder, {"/bufferViews/0/byteStride", "256"});
 }
 
-TEST_CASE("sparse indices must be in range and increase") {
+TEST_CASE("sparse indices must be in range and strictly increasing") {
     GltfBuilder builder = square_gltf();
     const auto values = builder.view(std::vector<Vec3f>{{5, 5, 5}, {6, 6, 6}});
     const auto sparse = [&](std::vector<std::uint16_t> indices) {
-        const auto places = builder.view(indices);
+        const auto index_view = builder.view(indices);
         builder.json["accessors"][0]["sparse"] = {
             {"count", 2},
-            {"indices", {{"bufferView", places}, {"componentType", u16}}},
+            {"indices", {{"bufferView", index_view}, {"componentType", u16}}},
             {"values", {{"bufferView", values}}}};
     };
     sparse({1, 4});
-    check_refused(builder, {"/accessors/0/sparse/indices", "holds 4, the accessor has 4 elements"});
+    check_refused(builder, {"/accessors/0/sparse/indices", "contains index 4, the accessor has 4 elements"});
     sparse({2, 1});
     check_refused(builder, {"/accessors/0/sparse/indices", "not increasing: 1 comes after 2"});
     sparse({1, 1});
@@ -180,16 +180,16 @@ TEST_CASE("sparse indices must be in range and increase") {
     check_refused(builder, {"/accessors/0/sparse/count", "is 5, the accessor has 4 elements"});
 }
 
-TEST_CASE("indices beyond the vertices are refused") {
+TEST_CASE("indices greater than the number of vertices are rejected") {
     GltfBuilder builder = square_gltf();
     const auto indices = builder.accessor(std::vector<std::uint16_t>{0, 1, 4}, u16, "SCALAR");
     builder.json["meshes"][0]["primitives"][0]["indices"] = indices;
-    check_refused(builder, {"/meshes/0/primitives/0/indices", "holds 4, there are 4 vertices"});
+    check_refused(builder, {"/meshes/0/primitives/0/indices", "contains 4, there are 4 vertices"});
 }
 
-TEST_CASE("node graphs that are no forest are refused") {
+TEST_CASE("node graphs that are not forests are rejected") {
     GltfBuilder builder;
-    SECTION("cycle") {
+    SECTION("a cycle") {
         builder.json["nodes"] = Json::parse(R"([{"children":[1]},{"children":[2]},{"children":[0]}])");
         check_refused(builder, {"/nodes/", "its own ancestor"});
     }
@@ -197,7 +197,7 @@ TEST_CASE("node graphs that are no forest are refused") {
         builder.json["nodes"] = Json::parse(R"([{"children":[0]}])");
         check_refused(builder, {"/nodes/0", "its own ancestor"});
     }
-    SECTION("a tail that leads into a cycle") {
+    SECTION("a path that leads into a cycle") {
         builder.json["nodes"] = Json::parse(R"([{}, {"children":[2]},{"children":[1,0]}])");
         check_refused(builder, {"its own ancestor"});
     }
@@ -212,7 +212,7 @@ TEST_CASE("node graphs that are no forest are refused") {
     }
 }
 
-TEST_CASE("dangling references are refused wherever they are") {
+TEST_CASE("dangling references are rejected in all objects") {
     GltfBuilder builder = square_gltf();
     builder.json["materials"] = Json::array({Json::object()});
     const auto refused_at = [&](const std::string& pointer, Json value, const std::string& where) {
@@ -252,7 +252,7 @@ TEST_CASE("dangling references are refused wherever they are") {
                "/animations/0/samplers/0/input");
 }
 
-TEST_CASE("extensions must be objects of objects, in extras anything goes") {
+TEST_CASE("extensions must be objects of objects except in extras") {
     GltfBuilder builder = square_gltf();
     builder.json["extras"] = Json::parse(R"({"extensions":[1]})");
     CHECK_NOTHROW(load_glb(builder));
@@ -262,7 +262,7 @@ TEST_CASE("extensions must be objects of objects, in extras anything goes") {
     check_refused(builder, {"/extensions/ACME_a/deep/0/extensions/ACME_b", "is not an object"});
 }
 
-TEST_CASE("attributes must have their type and one common count") {
+TEST_CASE("attributes must have the correct type and equal counts") {
     GltfBuilder builder = square_gltf();
     Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["TEXCOORD_0"] = 0;
@@ -272,7 +272,7 @@ TEST_CASE("attributes must have their type and one common count") {
     check_refused(builder, {"elements, other attributes of the primitive"});
 }
 
-TEST_CASE("required extensions that cannot be read are unsupported, by name") {
+TEST_CASE("unsupported required extensions are rejected with their name") {
     GltfBuilder builder = square_gltf();
     const auto required = [&](const char* name) {
         builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
@@ -291,19 +291,19 @@ TEST_CASE("textures whose only image is KTX2 are unsupported") {
     const std::string ktx = "\xabKTX 20\xbb\r\n\x1a\n";
     const auto view = builder.view(std::vector<char>(ktx.begin(), ktx.end()));
     builder.add("images", {{"bufferView", view}, {"mimeType", "image/ktx2"}});
-    SECTION("in the extension") {
+    SECTION("in KHR_texture_basisu") {
         builder.json["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
         CHECK(contains(refusal<UnsupportedError>(builder),
                        "/textures/0: its only image is in KHR_texture_basisu"));
     }
-    SECTION("as a plain source") {
+    SECTION("as the source of the texture") {
         builder.json["textures"] = Json::parse(R"([{"source":0}])");
         builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
         CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is KTX2 (KHR_texture_basisu)"));
     }
 }
 
-TEST_CASE("URIs that leave the folder are refused, for buffers and for images") {
+TEST_CASE("URIs outside the folder are rejected for buffers and images") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "inside");
     put(folder / "secret.bin", std::string(60, 'x'));
@@ -324,15 +324,15 @@ TEST_CASE("URIs that leave the folder are refused, for buffers and for images") 
             const std::string text = message(array, uri);
             INFO(text);
             CHECK(contains(text, std::string("/") + array + "/0/uri"));
-            CHECK(contains(text, "leads out of the folder"));
+            CHECK(contains(text, "is outside the folder"));
         }
         CHECK(contains(message(array, (folder / name).string()), "absolute"));
-        CHECK(contains(message(array, "http://example.org/" + name), "not a path relative"));
+        CHECK(contains(message(array, "http://example.org/" + name), "not a relative path"));
         CHECK(contains(message(array, "."), "not a regular file"));
     }
 }
 
-TEST_CASE("a file beside the program does not stand in for a missing one") {
+TEST_CASE("files in the current directory are not used for missing files of the asset") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "inside");
     put(folder / "a.bin", std::string(4, 'x'));
@@ -346,7 +346,7 @@ TEST_CASE("a file beside the program does not stand in for a missing one") {
     CHECK(contains(message, "a.bin"));
 }
 
-TEST_CASE("buffers without bytes are refused") {
+TEST_CASE("buffers without data are rejected") {
     GltfBuilder builder;
     builder.json["buffers"] = Json::parse(R"([{"byteLength":0}])");
     check_refused(builder, {"/buffers/0/byteLength", "is 0"});
@@ -357,7 +357,7 @@ TEST_CASE("buffers without bytes are refused") {
     check_refused(builder, {"/buffers/0", "needs 4 bytes, there are 2"});
 }
 
-TEST_CASE("a mesh whose faces all lost a corner to NaN is refused") {
+TEST_CASE("a model whose faces all have a non-finite position is rejected") {
     GltfBuilder builder;
     const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {0, std::nanf(""), 0}};
     builder.mesh({{"attributes", {{"POSITION", builder.accessor(positions, f32, "VEC3")}}}});

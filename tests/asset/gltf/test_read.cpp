@@ -1,4 +1,4 @@
-// What is read from a glTF document.
+// Reading of valid glTF documents.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace faqem::testing;
 
 namespace {
 
-/// z of the normal (not unit) of a face in the plane z = 0: positive when counter-clockwise from +z.
+/// Twice the signed area of a face in the plane z = 0: positive if it is counter-clockwise as seen from +z.
 double orientation(const Part& part, const Triangle& t) {
     const Vec3 &a = part.positions[t[0]], &b = part.positions[t[1]], &c = part.positions[t[2]];
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -22,7 +22,7 @@ const Part& only_part(const Asset& asset) {
     return asset.parts[0];
 }
 
-/// The square's mesh with one more attribute.
+/// Loads the square with an additional attribute.
 template <class T>
 Asset with_attribute(const char* name, const std::vector<T>& values, int component, const char* type,
                      bool normalized = false) {
@@ -37,7 +37,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE("an indexed mesh is read as it is") {
+TEST_CASE("an indexed mesh is read without changes") {
     GltfBuilder builder = square_gltf();
     builder.json["meshes"][0]["name"] = "patch";
     const Asset asset = load_glb(builder);
@@ -51,7 +51,7 @@ TEST_CASE("an indexed mesh is read as it is") {
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("indices of all widths, and none at all") {
+TEST_CASE("meshes with 8-bit, 16-bit, 32-bit and no indices are read") {
     GltfBuilder builder = square_gltf();
     Json& primitive = builder.json["meshes"][0]["primitives"][0];
     primitive["indices"] = builder.accessor(std::vector<std::uint8_t>{3, 2, 1}, u8, "SCALAR");
@@ -64,9 +64,9 @@ TEST_CASE("indices of all widths, and none at all") {
     CHECK(any_contains(asset.warnings, "1 indices at the end"));
 }
 
-TEST_CASE("strips keep one orientation through odd and even triangles") {
+TEST_CASE("triangle strips are read with consistent winding") {
     // 2---3
-    // | \ |   the strip 0 1 2 3 4 5 climbs in zigzag
+    // | \ |   the strip 0 1 2 3 4 5 is a zigzag in +y direction
     // 0---1
     GltfBuilder builder;
     const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}};
@@ -77,7 +77,7 @@ TEST_CASE("strips keep one orientation through odd and even triangles") {
     for (const Triangle& t : part.triangles) CHECK(orientation(part, t) == 1);
 }
 
-TEST_CASE("triangles that only steer a strip are no faces, and the parity goes on counting") {
+TEST_CASE("degenerate triangles of a strip are left out and do not change the winding") {
     GltfBuilder builder = square_gltf();
     Json& primitive = builder.json["meshes"][0]["primitives"][0];
     primitive["mode"] = 5;
@@ -86,7 +86,7 @@ TEST_CASE("triangles that only steer a strip are no faces, and the parity goes o
     CHECK(only_part(asset).triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}});
 }
 
-TEST_CASE("fans turn around their first vertex") {
+TEST_CASE("triangle fans share their first vertex") {
     GltfBuilder builder;
     const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}};
     builder.mesh({{"attributes", {{"POSITION", builder.accessor(positions, f32, "VEC3")}}}, {"mode", 6}});
@@ -96,7 +96,7 @@ TEST_CASE("fans turn around their first vertex") {
     for (const Triangle& t : part.triangles) CHECK(orientation(part, t) == 1);
 }
 
-TEST_CASE("primitives are joined, and what one of them lacks is filled") {
+TEST_CASE("primitives are joined and missing attributes get neutral values") {
     GltfBuilder builder = square_gltf();
     builder.json["materials"] = Json::parse(R"([{"name":"a"},{"name":"b"}])");
     const auto normals = builder.accessor(std::vector<Vec3f>(4, Vec3f{0, 0, 1}), f32, "VEC3");
@@ -121,7 +121,7 @@ TEST_CASE("primitives are joined, and what one of them lacks is filled") {
     CHECK(part.colors[5] == Vec4f{0.25f, 0.5f, 1, 1});
 }
 
-TEST_CASE("primitives that share their vertices do not copy them") {
+TEST_CASE("primitives with the same attributes share their vertices") {
     GltfBuilder builder = square_gltf();
     const auto first = builder.accessor(std::vector<std::uint16_t>{0, 1, 2}, u16, "SCALAR");
     const auto second = builder.accessor(std::vector<std::uint16_t>{2, 1, 3}, u16, "SCALAR");
@@ -133,7 +133,7 @@ TEST_CASE("primitives that share their vertices do not copy them") {
     CHECK(only_part(asset).triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}});
 }
 
-TEST_CASE("normalised integers span 0..1 or -1..1") {
+TEST_CASE("normalised integers are converted to the unit range") {
     using Bytes = std::array<std::uint8_t, 4>;
     const Asset colors =
         with_attribute("COLOR_0", std::vector<Bytes>(4, Bytes{0, 51, 255, 128}), u8, "VEC4", true);
@@ -148,9 +148,9 @@ TEST_CASE("normalised integers span 0..1 or -1..1") {
     CHECK(tangents.parts[0].tangents[0] == Vec4f{-1, -1, 1, 1});
 }
 
-TEST_CASE("quantised positions are read, plain and normalised, with their stride") {
+TEST_CASE("quantised positions are read with strides and normalisation") {
     GltfBuilder builder;
-    // Elements of 6 bytes, 8 apart.
+    // Elements of 6 bytes with a stride of 8 bytes.
     const auto view = builder.view(std::vector<std::int16_t>{0, 0, 0, 9, 32767, 0, 0, 9, 0, -32768, 0, 9});
     builder.json["bufferViews"][view]["byteStride"] = 8;
     builder.json["accessors"] = {
@@ -163,13 +163,14 @@ TEST_CASE("quantised positions are read, plain and normalised, with their stride
     CHECK(load_glb(builder).parts[0].positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}});
 }
 
-TEST_CASE("sparse accessors replace elements of their view, or of zeros") {
+TEST_CASE("sparse accessors replace elements of a buffer view or of zeros") {
     GltfBuilder builder = square_gltf();
-    const auto places = builder.view(std::vector<std::uint8_t>{1, 3});
+    const auto index_view = builder.view(std::vector<std::uint8_t>{1, 3});
     const auto values = builder.view(std::vector<Vec3f>{{5, 0, 0}, {5, 1, 0}});
-    builder.json["accessors"][0]["sparse"] = {{"count", 2},
-                                              {"indices", {{"bufferView", places}, {"componentType", u8}}},
-                                              {"values", {{"bufferView", values}}}};
+    builder.json["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", index_view}, {"componentType", u8}}},
+        {"values", {{"bufferView", values}}}};
     CHECK(load_glb(builder).parts[0].positions ==
           std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {0, 1, 0}, {5, 1, 0}});
     builder.json["accessors"][0].erase("bufferView");
@@ -177,7 +178,7 @@ TEST_CASE("sparse accessors replace elements of their view, or of zeros") {
           std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {0, 0, 0}, {5, 1, 0}});
 }
 
-TEST_CASE("faces with a NaN corner are dropped and counted, their vertex is harmless") {
+TEST_CASE("faces with a non-finite position are removed and counted, the position is replaced") {
     GltfBuilder builder;
     const auto positions = builder.accessor(
         std::vector<Vec3f>{{7, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, not_a_number, 0}}, f32, "VEC3");
@@ -187,25 +188,25 @@ TEST_CASE("faces with a NaN corner are dropped and counted, their vertex is harm
     CHECK(only_part(asset).triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(only_part(asset).face_material.size() == 1);
     CHECK(only_part(asset).positions[3] == Vec3{7, 0, 0});
-    CHECK(any_contains(asset.warnings, "/meshes/0: 1 faces with a position that is not finite"));
+    CHECK(any_contains(asset.warnings, "/meshes/0: 1 faces with a non-finite position"));
 }
 
-TEST_CASE("normals, texture coordinates and colours that are not finite are reset and counted") {
+TEST_CASE("non-finite normals, texture coordinates and colours are reset and counted") {
     const Asset normals = with_attribute(
         "NORMAL", std::vector<Vec3f>{{0, 0, 1}, {not_a_number, 0, 0}, {0, 0, 1}, {0, INFINITY, 0}}, f32,
         "VEC3");
     CHECK(normals.parts[0].normals[1] == Vec3f{0, 0, 0});
-    CHECK(any_contains(normals.warnings, "2 normals that are not finite"));
+    CHECK(any_contains(normals.warnings, "2 non-finite normals"));
     const Asset uvs = with_attribute(
         "TEXCOORD_0", std::vector<Vec2f>{{1, 1}, {1, not_a_number}, {1, 1}, {1, 1}}, f32, "VEC2");
     CHECK(uvs.parts[0].uvs[0][1] == Vec2f{0, 0});
-    CHECK(any_contains(uvs.warnings, "1 texture coordinates that are not finite"));
+    CHECK(any_contains(uvs.warnings, "1 non-finite texture coordinates"));
     const Asset colors = with_attribute(
         "COLOR_0", std::vector<Vec3f>{{0, 0, 0}, {0, not_a_number, 0}, {0, 0, 0}, {0, 0, 0}}, f32, "VEC3");
     CHECK(colors.parts[0].colors[1] == Vec4f{1, 1, 1, 1});
 }
 
-TEST_CASE("attributes that a part cannot hold are named in a warning") {
+TEST_CASE("unsupported attributes are named in a warning") {
     const Asset asset = with_attribute("_TEMPERATURE", std::vector<float>(4, 1.0f), f32, "SCALAR");
     CHECK(any_contains(asset.warnings, "/meshes/0: the attribute _TEMPERATURE was left out"));
 }
@@ -229,7 +230,7 @@ TEST_CASE("joints, weights and morph targets are read") {
     CHECK(part.morph_targets[0].normals.empty());
 }
 
-TEST_CASE("materials are read with factors, textures, wraps and transforms") {
+TEST_CASE("materials are read with factors, textures, wrap modes and texture transforms") {
     GltfBuilder builder = square_gltf();
     const Image png = small_png();
     const auto view = builder.view(png.encoded);
@@ -276,7 +277,7 @@ TEST_CASE("materials are read with factors, textures, wraps and transforms") {
     CHECK(asset.images[0].encoded == png.encoded);
 }
 
-TEST_CASE("a missing image costs its texture, with a warning") {
+TEST_CASE("a missing image removes its textures with a warning") {
     const TemporaryFolder folder;
     GltfBuilder builder;
     builder.json["images"] = Json::parse(R"([{"uri":"gone.png"},{"uri":"here%20it%20is.png"}])");
@@ -315,7 +316,7 @@ TEST_CASE("meshes of points and lines are parts without triangles") {
     CHECK(asset.warnings.empty());
 }
 
-TEST_CASE("numbers of materials that are too large for a float are reset and counted") {
+TEST_CASE("material values too large for a float are reset and counted") {
     GltfBuilder builder = square_gltf();
     const auto view = builder.view(small_png().encoded);
     builder.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
@@ -324,7 +325,7 @@ TEST_CASE("numbers of materials that are too large for a float are reset and cou
         "baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":
         {"offset":[0,-1e39],"scale":[2,2]}}}},"emissiveFactor":[0,1e300,0]}])");
     const Asset asset = load_glb(builder);
-    CHECK(any_contains(asset.warnings, "/materials/0: 3 numbers too large for a float: reset"));
+    CHECK(any_contains(asset.warnings, "/materials/0: 3 numbers too large for a float, reset"));
     const Material& material = asset.materials.at(0);
     CHECK(material.base_color == Vec4f{1, 0.5f, 1, 1});
     CHECK(material.emissive == Vec3f{0, 0, 0});

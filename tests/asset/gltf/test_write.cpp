@@ -1,4 +1,4 @@
-// What save() makes of a loaded or a new asset.
+// Writing of loaded and new assets as glTF.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 using namespace faqem;
 using namespace faqem::testing;
 
-TEST_CASE("a part comes back as it went") {
+TEST_CASE("a part is unchanged by writing and reading") {
     Asset asset = new_square();
     Part& part = asset.parts[0];
     part.normals.assign(4, {0, 0, 1});
@@ -35,7 +35,7 @@ TEST_CASE("a part comes back as it went") {
             CHECK(read.colors[v][c] == Approx(part.colors[v][c]).margin(1e-5));
 }
 
-TEST_CASE("writing what was read back gives the same bytes") {
+TEST_CASE("writing a glTF file again after reading it gives the same bytes") {
     Asset asset = new_square();
     asset.parts[0].weights = {{0.1f, 0.2f, 0.3f, 0.4f}, {1, 1, 1, 0}, {3, 0, 0, 0}, {0.3f, 0.3f, 0.3f, 0}};
     asset.parts[0].joints.assign(4, {0, 1, 2, 3});
@@ -48,7 +48,7 @@ TEST_CASE("writing what was read back gives the same bytes") {
     CHECK(once == twice);
 }
 
-TEST_CASE("faces are split by material in order of first use, with vertices of their own") {
+TEST_CASE("faces are grouped by material into primitives with separate vertices") {
     Asset asset = new_square();
     asset.materials.resize(2);
     asset.materials[0].name = "first";
@@ -64,7 +64,7 @@ TEST_CASE("faces are split by material in order of first use, with vertices of t
         CHECK(json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"] == 3);
 }
 
-TEST_CASE("positions have exact bounds") {
+TEST_CASE("position accessors have exact bounds") {
     Asset asset = new_square();
     asset.parts[0].positions[3] = {0.1, -7, 1e-30};
     const Json json = json_of(saved(asset));
@@ -74,7 +74,7 @@ TEST_CASE("positions have exact bounds") {
     CHECK(positions["max"] == Json({1.0, 1.0, double{1e-30f}}));
 }
 
-TEST_CASE("indices take 16 bits up to 65535 vertices and 32 beyond") {
+TEST_CASE("indices have 16 bits up to 65535 vertices and 32 bits beyond") {
     const auto index_type = [](Index vertices) {
         Asset asset = one_part({}, {});
         Part& part = asset.parts[0];
@@ -90,19 +90,19 @@ TEST_CASE("indices take 16 bits up to 65535 vertices and 32 beyond") {
     CHECK(index_type(65536) == u32);
 }
 
-TEST_CASE("a position too large for a float is an error, not an infinity") {
+TEST_CASE("a position too large for a float is an error") {
     Asset asset = new_square();
     asset.parts[0].positions[1][0] = 1e39;
     CHECK(contains(message_of<WriteError>([&] { saved(asset); }), "part 'square', vertex 1"));
 }
 
-TEST_CASE("far from the origin, new meshes keep their shape: their nodes put them back") {
+TEST_CASE("far from the origin, new meshes keep their shape by a translation of their nodes") {
     Asset asset = new_square();
     asset.parts.push_back(asset.parts[0]);
     for (Part& part : asset.parts) {
         for (Vec3& p : part.positions) p = {1e7 + 0.1 * p[0], 0.1 * p[1] - 3, 0.1 * p[2]};
     }
-    for (Vec3& p : asset.parts[1].positions) p[0] += 0.1;  // they have an edge in common
+    for (Vec3& p : asset.parts[1].positions) p[0] += 0.1;  // the parts share an edge
     const Json json = json_of(saved(asset));
     for (const Json& node : json["nodes"]) {
         CHECK(node["translation"][0].get<double>() == Approx(1e7).epsilon(1e-7));
@@ -125,7 +125,7 @@ TEST_CASE("far from the origin, new meshes keep their shape: their nodes put the
     CHECK(saved(back) == saved(load_glb(saved(back))));
 }
 
-TEST_CASE("near the origin, and where no float would reach, a new mesh stays where it is") {
+TEST_CASE("near the origin and beyond the range of float, nodes of new meshes are not translated") {
     Asset asset = new_square();
     for (Vec3& p : asset.parts[0].positions) p[0] += 3;
     CHECK_FALSE(json_of(saved(asset))["nodes"][0].contains("translation"));
@@ -135,16 +135,16 @@ TEST_CASE("near the origin, and where no float would reach, a new mesh stays whe
     CHECK_FALSE(json_of(saved(asset))["nodes"][0].contains("translation"));
 }
 
-TEST_CASE("faces that close up as floats are counted") {
-    // 0, 1, 1 and a bit: that one closes up.
+TEST_CASE("faces that become degenerate in float precision are counted") {
+    // Vertices 1 and 2 differ by 1e-50, so the first face becomes degenerate in float precision.
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1e-50, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
     const TemporaryFolder folder;
-    CHECK(any_contains(save(asset, folder / "a.glb"), "1 face closed up"));
+    CHECK(any_contains(save(asset, folder / "a.glb"), "1 face became degenerate"));
     asset.parts[0].positions[2][1] = 1e-3;
     CHECK(save(asset, folder / "b.glb").empty());
 }
 
-TEST_CASE("the scene around the meshes comes through") {
+TEST_CASE("the scene graph and other objects of the source are preserved") {
     GltfBuilder builder = square_gltf();
     builder.json["asset"] = Json::parse(
         R"({"version":"2.0","generator":"someone","copyright":"(c) me","extras":{"big":1234567890123456789}})");
@@ -173,15 +173,16 @@ TEST_CASE("the scene around the meshes comes through") {
     CHECK(json["extensionsUsed"] == Json({"ACME_tag", "KHR_lights_punctual"}));
 }
 
-TEST_CASE("animations and skins keep their data, sparse and strided too") {
+TEST_CASE("animations and skins keep their data, also of sparse accessors") {
     GltfBuilder builder = square_gltf();
     const auto times = builder.accessor(std::vector<float>{0, 1, 2}, f32, "SCALAR");
     const auto moves = builder.accessor(std::vector<Vec3f>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, f32, "VEC3");
-    const auto place = builder.view(std::vector<std::uint8_t>{1});
+    const auto index_view = builder.view(std::vector<std::uint8_t>{1});
     const auto value = builder.view(std::vector<Vec3f>{{40, 50, 60}});
-    builder.json["accessors"][moves]["sparse"] = {{"count", 1},
-                                                  {"indices", {{"bufferView", place}, {"componentType", u8}}},
-                                                  {"values", {{"bufferView", value}}}};
+    builder.json["accessors"][moves]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", index_view}, {"componentType", u8}}},
+        {"values", {{"bufferView", value}}}};
     const auto matrices = builder.accessor(
         std::vector<std::array<float, 16>>{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 9, 8, 7, 1}}, f32, "MAT4");
     builder.json["animations"] = {
@@ -210,14 +211,14 @@ TEST_CASE("animations and skins keep their data, sparse and strided too") {
     CHECK(floats(sampler["output"], 9) == std::vector<float>{1, 2, 3, 40, 50, 60, 7, 8, 9});
     CHECK(floats(json["skins"][0]["inverseBindMatrices"], 16)[12] == 9);
     CHECK(json["accessors"][sampler["input"].get<std::size_t>()]["min"] == Json({0.0}));
-    // The views of matrices and of animations may not be shared.
+    // Matrices and animation data must not share a buffer view.
     const auto view_of = [&](const Json& index) {
         return json["accessors"][index.get<std::size_t>()]["bufferView"];
     };
     CHECK(view_of(sampler["input"]) != view_of(json["skins"][0]["inverseBindMatrices"]));
 }
 
-TEST_CASE("points and lines pass through beside the triangles") {
+TEST_CASE("points and lines of a mesh are preserved") {
     GltfBuilder builder = square_gltf();
     const auto ends = builder.accessor(std::vector<std::uint8_t>{0, 3}, u8, "SCALAR");
     builder.json["materials"] = Json::parse(R"([{"name":"unused"},{"name":"ink"}])");
@@ -236,7 +237,7 @@ TEST_CASE("points and lines pass through beside the triangles") {
     CHECK(json["materials"][primitives[1]["material"].get<std::size_t>()]["name"] == "ink");
 }
 
-TEST_CASE("points of zeros without a bufferView can be read again where nothing else has bytes") {
+TEST_CASE("zero positions without a buffer view can be read again after writing") {
     GltfBuilder builder = square_gltf();
     const auto zeros = builder.add("accessors", {{"componentType", f32}, {"type", "VEC3"}, {"count", 4}});
     builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}, {"mode", 0}});
@@ -253,18 +254,18 @@ TEST_CASE("points of zeros without a bufferView can be read again where nothing 
     CHECK_NOTHROW(load(folder / "out.glb"));
 }
 
-TEST_CASE("a mesh that the scene does not show is left out where there is no scene, with a warning") {
+TEST_CASE("meshes without an instance are left out with a warning in formats without a scene") {
     GltfBuilder builder = square_gltf();
     builder.json["scenes"][0].erase("nodes");
     const Asset asset = load_glb(builder);
     const TemporaryFolder folder;
     CHECK(any_contains(save(asset, folder / "out.ply"),
-                       "no node of the scene shows 1 mesh, which was left out"));
+                       "no node of the scene references 1 mesh, which was left out"));
     CHECK_FALSE(any_contains(save(asset, folder / "out.glb"), "left out"));
     CHECK_FALSE(any_contains(save(load_glb(square_gltf()), folder / "shown.ply"), "no node"));
 }
 
-TEST_CASE("a mesh with nothing left goes, with the references to it") {
+TEST_CASE("a mesh without primitives is removed with the references to it") {
     GltfBuilder builder = square_gltf();
     builder.mesh({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
     builder.json["nodes"][0]["name"] = "empty now";
@@ -274,14 +275,14 @@ TEST_CASE("a mesh with nothing left goes, with the references to it") {
     const TemporaryFolder folder;
     const std::vector<std::string> warnings = save(asset, folder / "out.glb");
     const Json json = json_of(get(folder / "out.glb"));
-    CHECK(any_contains(warnings, "has nothing left"));
+    CHECK(any_contains(warnings, "has no primitives left"));
     CHECK(json["meshes"].size() == 1);
     CHECK(json["nodes"].size() == 2);
     CHECK_FALSE(json["nodes"][0].contains("mesh"));
     CHECK(json["nodes"][1]["mesh"] == 0);
 }
 
-TEST_CASE("nothing unused is written") {
+TEST_CASE("unused objects are not written") {
     GltfBuilder builder = square_gltf();
     builder.accessor(std::vector<float>(1000, 1.0f), f32, "SCALAR");
     add_texture(builder, 10);
@@ -301,7 +302,7 @@ TEST_CASE("nothing unused is written") {
     CHECK(glb.size() < 3000);
 }
 
-TEST_CASE("zero normals are made from the faces, and vertices without any normal get none") {
+TEST_CASE("zero normals are computed from the faces unless all normals are zero") {
     Asset asset = new_square();
     asset.parts[0].normals = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1}, {0, 0, 1}};
     CHECK(load_glb(saved(asset)).parts[0].normals == std::vector<Vec3f>(4, Vec3f{0, 0, 1}));
@@ -309,7 +310,7 @@ TEST_CASE("zero normals are made from the faces, and vertices without any normal
     CHECK(load_glb(saved(asset)).parts[0].normals.empty());
 }
 
-TEST_CASE("joint weights are made to sum up to 1, each joint once") {
+TEST_CASE("joint weights are normalised and duplicate joints are merged") {
     Asset asset = new_square();
     asset.parts[0].joints.assign(4, {5, 5, 2, 9});
     asset.parts[0].weights.assign(4, {0.5f, 0.5f, 1, 0});
@@ -318,7 +319,7 @@ TEST_CASE("joint weights are made to sum up to 1, each joint once") {
     CHECK(back.parts[0].joints[0] == std::array<std::uint16_t, 4>{5, 0, 2, 0});
 }
 
-TEST_CASE("morph weights and their animation go when the targets are gone") {
+TEST_CASE("morph weights and their animations are removed with the morph targets") {
     GltfBuilder builder = square_gltf();
     const auto delta = builder.accessor(std::vector<Vec3f>(4, Vec3f{0, 0, 1}), f32, "VEC3");
     const auto times = builder.accessor(std::vector<float>{0, 1}, f32, "SCALAR");
@@ -352,7 +353,7 @@ TEST_CASE("equal geometry is stored once") {
     CHECK(json["accessors"].size() == 2);
 }
 
-TEST_CASE("a .gltf has its buffer and images beside it and is refused as a whole when one exists") {
+TEST_CASE("a .gltf file is written with its buffer and images, or not at all if one exists") {
     Asset asset = new_square();
     asset.images = {small_png()};
     asset.materials.resize(1);
@@ -375,7 +376,7 @@ TEST_CASE("a .gltf has its buffer and images beside it and is refused as a whole
     CHECK_FALSE(std::filesystem::exists(folder / "c_0.png"));
 }
 
-TEST_CASE("a part added to a loaded scene gets a node of its own") {
+TEST_CASE("a part added to a loaded scene gets a new node") {
     Asset asset = load_glb(square_gltf());
     asset.parts.push_back(new_square().parts[0]);
     const Json json = json_of(saved(asset));
@@ -385,7 +386,7 @@ TEST_CASE("a part added to a loaded scene gets a node of its own") {
     CHECK(json["nodes"][1]["name"] == "square");
 }
 
-TEST_CASE("extensions nobody knows pass through with a warning when they hold numbers") {
+TEST_CASE("unknown extensions are preserved, with a warning if they contain numbers") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"][0]["extensions"] = Json::parse(R"({"ACME_rig":{"bone":3}})");
     const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// What save() makes of materials.
+// Writing of materials as glTF.
 
 #include <catch2/catch.hpp>
 
@@ -7,7 +7,7 @@
 using namespace faqem;
 using namespace faqem::testing;
 
-TEST_CASE("an untouched material keeps its digits, extras and extensions, and their textures") {
+TEST_CASE("an unmodified material keeps its digits, extras, extensions and textures") {
     GltfBuilder builder = square_gltf();
     for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
     builder.json["materials"] = Json::parse(R"([{"name":"m","alphaMode":"BLEND",
@@ -25,7 +25,7 @@ TEST_CASE("an untouched material keeps its digits, extras and extensions, and th
     CHECK(json["extensionsUsed"] == Json({"KHR_materials_clearcoat", "KHR_texture_transform"}));
 }
 
-TEST_CASE("textures of members nobody knows are followed, and go with a warning when the texture is new") {
+TEST_CASE("textures of unknown members are kept unless the material is rebaked") {
     GltfBuilder builder = square_gltf();
     for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
     builder.json["materials"] = Json::parse(R"([{"name":"m","teapotTexture":{"index":2,"lid":true},
@@ -47,7 +47,7 @@ TEST_CASE("textures of members nobody knows are followed, and go with a warning 
     CHECK_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("spoutTexture"));
 }
 
-TEST_CASE("a rebaked material has its new texture and loses those that were not baked, with a warning") {
+TEST_CASE("a rebaked material loses textures that were not baked, with a warning") {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 1);
     builder.json["materials"] = Json::parse(R"([{"name":"m","extras":5,
@@ -69,7 +69,7 @@ TEST_CASE("a rebaked material has its new texture and loses those that were not 
     CHECK(any_contains(warnings, "material 'm': the textures of KHR_materials_clearcoat"));
     const Json& written = json["materials"][0];
     CHECK(written["extras"] == 5);
-    // Without the texture, the factor would put a coat everywhere.
+    // Without the texture, the factor would apply the clearcoat to the whole surface.
     CHECK(written["extensions"]["KHR_materials_clearcoat"] == Json({{"clearcoatRoughnessFactor", 0.5}}));
     CHECK(written["pbrMetallicRoughness"] ==
           Json({{"baseColorTexture", {{"index", 0}}}, {"roughnessFactor", 0.3}}));
@@ -77,7 +77,7 @@ TEST_CASE("a rebaked material has its new texture and loses those that were not 
     CHECK(load(folder / "out.glb").images[0].encoded == asset.images[0].encoded);
 }
 
-TEST_CASE("textures of a new material are written once per use") {
+TEST_CASE("equal textures of new materials are written once") {
     Asset asset = new_square();
     asset.images = {small_png(1), small_png(2)};
     asset.materials.resize(2);
@@ -106,7 +106,7 @@ TEST_CASE("textures of a new material are written once per use") {
     CHECK(back.materials[1].alpha_cutoff == 0.25f);
 }
 
-TEST_CASE("material variants follow their materials, and go with a warning when the texture is new") {
+TEST_CASE("material variants are remapped unless the material is rebaked") {
     GltfBuilder builder = square_gltf();
     builder.json["materials"] = Json::parse(R"([{"name":"unused"},{"name":"red"},{"name":"blue"}])");
     builder.json["extensions"] =
@@ -134,7 +134,7 @@ TEST_CASE("material variants follow their materials, and go with a warning when 
     CHECK(json["materials"].size() == 1);
 }
 
-TEST_CASE("textures of extensions are read, written where they are new, and read again") {
+TEST_CASE("textures of known extensions are read, and written after they change") {
     GltfBuilder builder = square_gltf();
     for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);
     builder.json["samplers"] = Json::parse(R"([{"wrapS":33071}])");
@@ -182,7 +182,7 @@ TEST_CASE("textures of extensions are read, written where they are new, and read
     CHECK(back.images[0].encoded == asset.images[2].encoded);
 }
 
-TEST_CASE("an extension's texture whose image cannot be decoded is passed through like what nobody knows") {
+TEST_CASE("textures of extensions are preserved if their image cannot be decoded") {
     GltfBuilder builder = square_gltf();
     const std::string ktx = "\xABKTX 20\xBB\r\n\x1A\n";
     builder.add("images", {{"bufferView", builder.view(std::vector<char>(ktx.begin(), ktx.end()))},
@@ -196,7 +196,7 @@ TEST_CASE("an extension's texture whose image cannot be decoded is passed throug
     CHECK(json_of(saved(asset))["materials"] == builder.json["materials"]);
 }
 
-TEST_CASE("a new asset may have textures of extensions") {
+TEST_CASE("textures of extensions of a new asset are written") {
     Asset asset = new_square();
     asset.images = {small_png(1)};
     asset.materials.resize(1);
@@ -210,7 +210,7 @@ TEST_CASE("a new asset may have textures of extensions") {
     CHECK(json["extensionsUsed"] == Json({"KHR_materials_sheen"}));
 }
 
-TEST_CASE("anisotropy goes with the texture coordinates that its directions were of, with a warning") {
+TEST_CASE("anisotropy of a rebaked material is removed with a warning") {
     GltfBuilder builder = square_gltf();
     builder.json["materials"] =
         Json::parse(R"([{"name":"m","extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":0.6}}}])");

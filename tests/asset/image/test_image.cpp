@@ -45,7 +45,7 @@ std::string chunk(const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc(type + data));
 }
 
-/// A zlib stream that stores its data (RFC 1950 and 1951).
+/// A zlib stream of one stored, uncompressed block (RFC 1950 and 1951).
 std::string stored(const std::string& data) {
     std::uint32_t a = 1, b = 0;
     for (const char c : data) {
@@ -61,7 +61,7 @@ std::string stored(const std::string& data) {
     return out + data + big_endian(b << 16 | a);
 }
 
-/// A PNG with rows as given, each with its filter byte.
+/// A PNG with the given rows, each of which starts with its filter byte.
 std::string png(std::uint32_t width, std::uint32_t height, int bits, int color_type, const std::string& rows,
                 const std::string& extra_chunks = "") {
     const std::string header = big_endian(width) + big_endian(height) + static_cast<char>(bits) +
@@ -74,7 +74,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 }  // namespace
 
-TEST_CASE("kinds of images are found from their first bytes") {
+TEST_CASE("image formats are detected from the first bytes") {
     const auto kind = [](const std::string& bytes) { return detail::sniff_mime_type(bytes_of(bytes)); };
     CHECK(kind("\x89PNG\r\n\x1a\n") == "image/png");
     CHECK(kind("\xff\xd8\xff\xe0") == "image/jpeg");
@@ -86,7 +86,7 @@ TEST_CASE("kinds of images are found from their first bytes") {
     CHECK(kind("text").empty());
 }
 
-TEST_CASE("pixels come back from a PNG as they went, colours under zero alpha too") {
+TEST_CASE("PNG encoding is lossless, also for colours with zero alpha") {
     Pixels pixels{2, 2, {255, 0, 1, 0, 2, 3, 4, 5, 250, 128, 7, 128, 9, 10, 11, 255}, true};
     const Image image = encode_png(pixels, "name");
     CHECK(image.name == "name");
@@ -98,7 +98,7 @@ TEST_CASE("pixels come back from a PNG as they went, colours under zero alpha to
     CHECK(back.rgba == pixels.rgba);
 }
 
-TEST_CASE("every shade of 8 bits survives, with and without alpha") {
+TEST_CASE("PNG encoding keeps all 8-bit values with and without alpha") {
     Pixels pixels{256, 1, {}, true};
     for (int i = 0; i < 256; ++i)
         for (const int value : {i, 255 - i, i, i}) pixels.rgba.push_back(static_cast<std::uint8_t>(value));
@@ -110,7 +110,7 @@ TEST_CASE("every shade of 8 bits survives, with and without alpha") {
     CHECK_FALSE(back.has_alpha);
 }
 
-TEST_CASE("an encoded PNG holds no date and no program, so that equal pixels give equal bytes") {
+TEST_CASE("PNG encoding is deterministic and writes no metadata") {
     const Pixels pixels{1, 1, {1, 2, 3, 255}, false};
     const Image image = encode_png(pixels, "");
     const std::string bytes(image.encoded.begin(), image.encoded.end());
@@ -120,7 +120,7 @@ TEST_CASE("an encoded PNG holds no date and no program, so that equal pixels giv
     CHECK(encode_png(pixels, "").encoded == image.encoded);
 }
 
-TEST_CASE("grey, grey with alpha, 16 bits and palettes become 8-bit RGBA") {
+TEST_CASE("grey, grey with alpha, 16-bit and palette images are decoded to 8-bit RGBA") {
     CHECK(decode(image_of(png(2, 1, 8, 0,
                               bytes_of_hex("00"
                                            "40"
@@ -153,7 +153,7 @@ TEST_CASE("grey, grey with alpha, 16 bits and palettes become 8-bit RGBA") {
     CHECK(keyed.rgba == Bytes{0x14, 0x15, 0x1e, 255, 0x0a, 0x0b, 0x0c, 0});
 }
 
-TEST_CASE("gamma and colour profile chunks change nothing") {
+TEST_CASE("gamma chunks do not change the decoded colours") {
     const std::string gamma = chunk("gAMA", big_endian(100000));
     CHECK(decode(image_of(png(1, 1, 8, 6,
                               bytes_of_hex("00"
@@ -162,7 +162,7 @@ TEST_CASE("gamma and colour profile chunks change nothing") {
               .rgba == Bytes{0x64, 0xc8, 0xfa, 0x80});
 }
 
-TEST_CASE("a PNG that claims to be huge is refused before its pixels are taken") {
+TEST_CASE("a PNG whose header exceeds the size limit is rejected before memory is allocated") {
     const std::string message =
         message_of<InputError>([] { decode(image_of(png(100000, 100000, 8, 6, ""))); });
     CHECK(contains(message, "image 'x'"));
@@ -170,15 +170,15 @@ TEST_CASE("a PNG that claims to be huge is refused before its pixels are taken")
     CHECK(contains(message_of<InputError>([] { decode(image_of(png(16385, 1, 8, 0, ""))); }), "16385 x 1"));
 }
 
-TEST_CASE("a PNG too short for its pixels is refused before there is memory for them") {
+TEST_CASE("a PNG too short for its pixels is rejected before memory is allocated") {
     const std::string message =
         message_of<InputError>([] { decode(image_of(png(16384, 16384, 8, 6, std::string(1000, 'x')))); });
     CHECK(contains(message, "image 'x'"));
     CHECK(contains(message, "cannot hold 16384 x 16384 pixels"));
 }
 
-TEST_CASE("a JPEG or WebP too short for its pixels is refused before there is memory for them") {
-    // Up to its first frame, which is all that is looked at.
+TEST_CASE("a JPEG or WebP too short for its pixels is rejected before memory is allocated") {
+    // A JPEG up to its first frame header, which is all that is read.
     const auto jpeg = [](const std::string& size) {
         return bytes_of_hex(
                    "ffd8"
@@ -197,22 +197,23 @@ TEST_CASE("a JPEG or WebP too short for its pixels is refused before there is me
     CHECK(contains(refused(jpeg("0000"
                                 "0001")),
                    "is 1 x 0 pixels"));
-    CHECK(contains(refused("\xff\xd8\xff\xe0"), "does not say how large it is"));
+    CHECK(contains(refused("\xff\xd8\xff\xe0"), "has no image size"));
     if (!detail::can_decode_image("image/webp")) return;
     const auto webp = [](const std::string& chunk) {
         return "RIFF" + std::string(4, '\x7f') + "WEBP" + chunk + std::string(4, '\0');
     };
-    // 16384 x 16384, lossless; 16383 x 16383; a canvas of 16383 x 16777216
+    // A lossless image of 16384 x 16384, a lossy one of 16383 x 16383, and a canvas of 16383 x 16777216
+    // pixels.
     CHECK(contains(refused(webp("VP8L" + bytes_of_hex("0d0000002fffffff0f") + std::string(9, '\0'))),
                    "cannot hold 16384 x 16384"));
     CHECK(contains(refused(webp("VP8 " + bytes_of_hex("0d0000000000009d012aff3fff3f"))),
                    "cannot hold 16383 x 16383"));
     CHECK(contains(refused(webp("VP8X" + bytes_of_hex("0a00000010000000fe3f00ffffff"))),
                    "is 16383 x 16777216 pixels"));
-    CHECK(contains(refused(webp("JUNK" + std::string(20, '\0'))), "does not say how large it is"));
+    CHECK(contains(refused(webp("JUNK" + std::string(20, '\0'))), "has no image size"));
 }
 
-TEST_CASE("damaged images are errors") {
+TEST_CASE("damaged images are rejected") {
     const Image whole = encode_png(Pixels{64, 64, Bytes(64 * 64 * 4, 77), true}, "x");
     for (const std::size_t size : {std::size_t{8}, std::size_t{20}, whole.encoded.size() / 2}) {
         Image cut = whole;
@@ -225,7 +226,7 @@ TEST_CASE("damaged images are errors") {
     CHECK(message_of<InputError>([&] { decode(flipped); }) != "(nothing thrown)");
 }
 
-TEST_CASE("images of other kinds are unsupported, by name") {
+TEST_CASE("unsupported image formats are rejected with their name") {
     if (detail::can_decode_image("image/webp"))
         CHECK_THROWS_AS(decode(image_of("RIFF1234WEBPVP8 ")), InputError);
     else
@@ -233,15 +234,15 @@ TEST_CASE("images of other kinds are unsupported, by name") {
                        "image/webp"));
     CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("\xabKTX 20\xbb\r\n\x1a\n")); }),
                    "image/ktx2"));
-    CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("")); }), "neither PNG nor JPEG"));
+    CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("")); }), "has an unknown format"));
 }
 
-TEST_CASE("pixels that do not match their size are not encoded") {
+TEST_CASE("pixel arrays that do not match the image size are rejected") {
     CHECK_THROWS_AS(encode_png(Pixels{2, 2, Bytes(12), false}, ""), InputError);
     CHECK_THROWS_AS(encode_png(Pixels{}, ""), InputError);
 }
 
-TEST_CASE("coding an image asks for each few rows, and stops at any of these questions") {
+TEST_CASE("encoding and decoding an image can be cancelled between bands of rows") {
     Pixels pixels{600, 300, {}, false};
     for (std::uint32_t i = 0; i < pixels.width * pixels.height; ++i) {
         for (const std::uint32_t value : {i % 251, i / 7 % 256, i * i % 256, 255u})
@@ -277,9 +278,9 @@ TEST_CASE("coding an image asks for each few rows, and stops at any of these que
     }
 }
 
-TEST_CASE("a JPEG is decoded, and refused when it is cut off") {
-    // 8 x 8, one grey of 128 (all coefficients 0), baseline, made by hand: quantisation and Huffman tables of
-    // one code each.
+TEST_CASE("a JPEG is decoded, and rejected if it is truncated") {
+    // A baseline JPEG of 8 x 8 pixels with the grey value 128 (all coefficients are 0). The quantisation and
+    // Huffman tables have one code each.
     const std::string zeros(32, '0');
     std::string jpeg = bytes_of_hex(
         "ffd8"
@@ -289,7 +290,8 @@ TEST_CASE("a JPEG is decoded, and refused when it is cut off") {
     jpeg.append(bytes_of_hex("ffc400140001" + zeros));
     jpeg.append(bytes_of_hex("ffc400141001" + zeros));
     jpeg.append(bytes_of_hex("ffda0008010100003f00"));
-    // Code 0: DC difference of size 0; code 0: end of block; the rest is padding with ones.
+    // Code 0 is a DC difference of size 0, the next code 0 is the end of the block; the rest is padding with
+    // ones.
     jpeg.append(
         bytes_of_hex("3f"
                      "ffd9"));

@@ -7,7 +7,7 @@
 
 using faqem::detail::TextBuffer;
 
-TEST_CASE("a text buffer holds what was put in, however much it is") {
+TEST_CASE("a text buffer returns the appended text for any size") {
     TextBuffer buffer;
     CHECK(buffer.view().empty());
     buffer.put("");
@@ -25,7 +25,7 @@ TEST_CASE("a text buffer holds what was put in, however much it is") {
     CHECK(buffer.bytes().size() == expected.size());
 }
 
-TEST_CASE("numbers of a text buffer are the shortest that read back the same") {
+TEST_CASE("a text buffer writes the shortest numbers that read back the same") {
     const auto text = [](auto value) {
         TextBuffer buffer;
         buffer.put_number(value);

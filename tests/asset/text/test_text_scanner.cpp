@@ -17,7 +17,7 @@ TextScanner scanner(const std::string& text, Continuation continuation = Continu
 
 }  // namespace
 
-TEST_CASE("lines end with LF, CR or CRLF and are counted the same", "[text]") {
+TEST_CASE("line ends LF, CR and CRLF give the same line numbers", "[text]") {
     for (const std::string end : {"\n", "\r", "\r\n"}) {
         const std::string text = "a" + end + end + "# c" + end + "b";
         TextScanner in = scanner(text);
@@ -34,7 +34,7 @@ TEST_CASE("a byte order mark is skipped", "[text]") {
     CHECK(scanner(text).word() == "v");
 }
 
-TEST_CASE("a backslash joins lines, but not after a comment and not where it has no meaning", "[text]") {
+TEST_CASE("a backslash joins lines except in comments and in formats without continuation lines", "[text]") {
     const std::string text = "a \\\r\n b\\\nc # d \\\ne \\";
     TextScanner in = scanner(text);
     CHECK(in.word() == "a");
@@ -51,7 +51,7 @@ TEST_CASE("a backslash joins lines, but not after a comment and not where it has
     CHECK(plain.at_line_end());
 }
 
-TEST_CASE("numbers are read to their last character", "[text]") {
+TEST_CASE("a number must extend to the last character of its word", "[text]") {
     const std::string text = "1 -2.5e3 +4 .5 5. 1e-3";
     TextScanner in = scanner(text);
     for (const double expected : {1.0, -2500.0, 4.0, 0.5, 5.0, 0.001}) CHECK(in.number<double>() == expected);
@@ -62,7 +62,7 @@ TEST_CASE("numbers are read to their last character", "[text]") {
     }
 }
 
-TEST_CASE("integers do not take fractions or what does not fit", "[text]") {
+TEST_CASE("fractions and out-of-range values are not integers", "[text]") {
     for (const std::string bad : {"1.0", "1e3", "-1", "4294967296"}) {
         CAPTURE(bad);
         TextScanner in = scanner(bad);
@@ -72,7 +72,7 @@ TEST_CASE("integers do not take fractions or what does not fit", "[text]") {
     CHECK(scanner(good).number<std::uint32_t>() == 4294967295u);
 }
 
-TEST_CASE("infinities and NaN in every spelling are numbers", "[text]") {
+TEST_CASE("infinities and NaN are read in all common spellings", "[text]") {
     const std::string nans = "nan NaN -nan nan(ind) 1.#QNAN -1.#IND 1.#SNAN";
     TextScanner in = scanner(nans);
     for (int i = 0; i < 7; ++i) CHECK(std::isnan(in.number<double>()));
@@ -81,7 +81,7 @@ TEST_CASE("infinities and NaN in every spelling are numbers", "[text]") {
     for (int i = 0; i < 5; ++i) CHECK(std::isinf(more.number<double>()));
 }
 
-TEST_CASE("numbers too small for their type are zero, and the smallest is kept", "[text]") {
+TEST_CASE("numbers below the range of their type are zero and subnormal numbers are kept", "[text]") {
     const std::string text = "1e-400 4.9406564584124654e-324 1e-50";
     TextScanner in = scanner(text);
     CHECK(in.number<double>() == 0);
@@ -89,7 +89,7 @@ TEST_CASE("numbers too small for their type are zero, and the smallest is kept",
     CHECK(in.number<float>() == 0);
 }
 
-TEST_CASE("a message does not carry control characters or a whole line", "[text]") {
+TEST_CASE("messages quote words without control characters and with limited length", "[text]") {
     const std::string text = std::string("x\x1b[31m") + std::string(1000, 'y');
     TextScanner in = scanner(text);
     const std::string message = message_of([&] { in.number<double>(); });

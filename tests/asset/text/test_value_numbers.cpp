@@ -8,11 +8,11 @@
 using namespace faqem;
 using faqem::detail::UniqueValues;
 
-TEST_CASE("different values get numbers in the order in which they come first") {
-    for (const std::size_t room : {0, 100, 100000}) {
-        CAPTURE(room);
+TEST_CASE("distinct values are numbered in the order of their first occurrence") {
+    for (const std::size_t reserved : {0, 100, 100000}) {
+        CAPTURE(reserved);
         UniqueValues<Vec3> values;
-        values.reserve(room);
+        values.reserve(reserved);
         std::map<Vec3, Index> expected;
         std::mt19937 random(1);
         bool same = true;
@@ -28,7 +28,7 @@ TEST_CASE("different values get numbers in the order in which they come first") 
     }
 }
 
-TEST_CASE("values are equal when their bits are") {
+TEST_CASE("values are compared bitwise") {
     UniqueValues<Vec2f> values;
     CHECK(values.insert({0, 1}) == 0);
     CHECK(values.insert({-0.0f, 1}) == 1);

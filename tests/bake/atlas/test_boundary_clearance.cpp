@@ -1,4 +1,4 @@
-// Slits in charts, and the grid that finds them.
+// Boundary clearance of charts, and the grid that finds close edges.
 
 #include "bake/atlas/boundary_clearance.hpp"
 
@@ -24,8 +24,8 @@ struct Fan {
     Chart chart;
 };
 
-// Triangles around a point, each of the given angle on the surface (where they make a flat fan) and in the
-// chart, with legs of so many texels.
+// A flat fan of triangles around a point, with the given angles on the surface and in the chart, and legs of
+// the given length in texels.
 Fan fan(std::size_t count, double angle, double flat_angle, double legs) {
     Fan result;
     for (std::size_t i = 0; i < count; ++i) {
@@ -51,31 +51,31 @@ constexpr double degree = std::numbers::pi / 180;
 
 }  // namespace
 
-TEST_CASE("a fan with a wedge as open as on the surface is clear, however narrow it is") {
+TEST_CASE("a slit that is as wide in the chart as on the surface has clearance") {
     CHECK(clear(fan(5, 60 * degree, 60 * degree, 10)));
     CHECK(clear(fan(5, 71 * degree, 71 * degree, 10)));
     CHECK(clear(fan(5, 71.9 * degree, 71.9 * degree, 10)));
 }
 
-TEST_CASE("a wedge that is squeezed to a slit is not clear, unless a texel is larger than it") {
+TEST_CASE("a slit narrower in the chart than on the surface has no clearance unless the chart is tiny") {
     CHECK_FALSE(clear(fan(5, 60 * degree, 71 * degree, 10)));
     CHECK_FALSE(clear(fan(5, 60 * degree, 70 * degree, 3)));
     CHECK(clear(fan(5, 60 * degree, 71 * degree, 0.4)));
 }
 
-TEST_CASE("a long slit is looked at where it is narrow, not at its ends only") {
-    // 10 degrees are open instead of 60: 17 texels at the ends.
+TEST_CASE("the clearance of a long slit is tested where it is narrow") {
+    // The opening is 10 degrees instead of 60, and 17 texels wide at its ends.
     CHECK_FALSE(clear(fan(5, 60 * degree, 70 * degree, 100)));
-    CHECK(clear(fan(5, 60 * degree, 64 * degree, 100)));  // 40
+    CHECK(clear(fan(5, 60 * degree, 64 * degree, 100)));  // an opening of 40 degrees
 }
 
-TEST_CASE("an outline that takes more work than is allowed is not known to be clear") {
+TEST_CASE("a clearance test beyond the work limit fails") {
     const Fan f = fan(5, 60 * degree, 60 * degree, 10);
     std::uint64_t work = 3;
     CHECK_FALSE(detail::has_boundary_clearance(f.faces, f.chart, work));
 }
 
-TEST_CASE("a grid finds all pairs of boxes that meet, each once") {
+TEST_CASE("BoxGrid finds every pair of intersecting boxes once") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-50, 50), size(0, 9);
     std::vector<Box2> boxes;

@@ -23,7 +23,7 @@ std::vector<Index> all_of(std::size_t n) {
     return result;
 }
 
-// What must hold for charts of any input.
+// Checks the invariants of charts for any input.
 void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
     std::vector<int> seen(faces.size(), 0);
     for (const Chart& chart : charts.charts) {
@@ -38,7 +38,7 @@ void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
     CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
 }
 
-// Largest difference between an edge in its chart and on the surface, over the latter.
+// Largest relative difference between the lengths of an edge in its chart and on the surface.
 double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
     double worst = 0;
     for (const Chart& chart : charts.charts) {
@@ -57,12 +57,12 @@ double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
 
 }  // namespace
 
-TEST_CASE("a cube's sides are six charts without stretch") {
+TEST_CASE("the sides of a cube are at most six charts without distortion") {
     const auto faces = test::chart_faces(test::cube(), 10);
     const Charts charts = make_charts(faces, 1);
     check_charts(faces, charts);
     CHECK(worst_edge(faces, charts) < 1e-9);
-    // Without creases the sides may unfold into each other.
+    // Without creases several sides can be in one chart.
     CHECK(charts.charts.size() <= 6);
     auto creased = faces;
     for (ChartFace& face : creased) {
@@ -79,7 +79,7 @@ TEST_CASE("a cube's sides are six charts without stretch") {
     CHECK(sides.charts.size() == 6);
 }
 
-TEST_CASE("a tube is unrolled") {
+TEST_CASE("a cylinder is unrolled without distortion") {
     const auto faces = test::chart_faces(test::cylinder(48, 6, 2), 20);
     const Charts charts = make_charts(faces, 1);
     check_charts(faces, charts);
@@ -87,14 +87,14 @@ TEST_CASE("a tube is unrolled") {
     CHECK(charts.charts.size() < 8);
 }
 
-TEST_CASE("a sphere takes few charts with little stretch") {
+TEST_CASE("a sphere has few charts with low stretch") {
     const auto faces = test::chart_faces(test::icosphere(3), 40);
     const Charts charts = make_charts(faces, 1);
     check_charts(faces, charts);
     CHECK(charts.charts.size() < 16);
 }
 
-TEST_CASE("a band with one side only is cut") {
+TEST_CASE("a Moebius strip is cut into few charts") {
     const auto faces = test::chart_faces(test::moebius(48, 4), 40);
     const Charts charts = make_charts(faces, 1);
     check_charts(faces, charts);
@@ -102,8 +102,8 @@ TEST_CASE("a band with one side only is cut") {
     CHECK(charts.charts.size() < 16);
 }
 
-TEST_CASE("a spiral ramp does not lie on itself") {
-    // Three rounds over one place, all looking up.
+TEST_CASE("a helical surface does not overlap itself") {
+    // Three turns above each other, all facing up.
     TriangleMesh mesh;
     for (Index i = 0; i <= 96; ++i) {
         const double a = 2 * test::pi * i / 32;
@@ -119,7 +119,7 @@ TEST_CASE("a spiral ramp does not lie on itself") {
     CHECK(charts.charts.size() > 1);
 }
 
-TEST_CASE("soup, doubles and faces without area pass") {
+TEST_CASE("charts of triangle soup, duplicate and degenerate faces are valid") {
     TriangleMesh mesh = test::soup(3, 60, 400);
     mesh.triangles.push_back(mesh.triangles.front());
     mesh.triangles.push_back({0, 1, 0});
@@ -132,7 +132,7 @@ TEST_CASE("soup, doubles and faces without area pass") {
     check_charts(faces, make_charts(faces, 1));
 }
 
-TEST_CASE("a plane of more faces than are laid flat at once is cut in pieces of that size") {
+TEST_CASE("charts have at most max_faces_per_chart faces") {
     const auto faces = test::chart_faces(test::grid(70), 1);
     REQUIRE(faces.size() > max_faces_per_chart);
     const Charts charts = make_charts(faces, 1);
@@ -142,7 +142,7 @@ TEST_CASE("a plane of more faces than are laid flat at once is cut in pieces of 
     for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= max_faces_per_chart);
 }
 
-TEST_CASE("densities that differ by more than a factor of two keep charts apart") {
+TEST_CASE("faces whose densities differ by more than a factor of two are in different regions") {
     auto faces = test::chart_faces(test::grid(8), 10);
     for (std::size_t f = 0; f < faces.size(); ++f) {
         if (faces[f].corners[0][0] + faces[f].corners[1][0] + faces[f].corners[2][0] > 12)
@@ -154,7 +154,7 @@ TEST_CASE("densities that differ by more than a factor of two keep charts apart"
 }
 
 TEST_CASE("charts do not depend on the number of threads") {
-    // Of the second one so many joins fail that the work for them is used up.
+    // On the second mesh so many merges fail that their work limit is reached.
     for (const TriangleMesh& mesh :
          {test::shaken(test::torus(40, 20), 0.01, 5), test::shaken(test::torus(40, 20), 0.1, 5)}) {
         const auto faces = test::chart_faces(mesh, 30);
@@ -168,7 +168,7 @@ TEST_CASE("charts do not depend on the number of threads") {
     }
 }
 
-TEST_CASE("a chart has the area that is wanted") {
+TEST_CASE("charts have the wanted area") {
     const auto faces = test::chart_faces(test::globe(6, 1), 10);
     for (const Chart& chart : make_charts(faces, 1).charts) {
         double flat = 0, wanted = 0;
@@ -179,7 +179,7 @@ TEST_CASE("a chart has the area that is wanted") {
     }
 }
 
-TEST_CASE("overlaps are found, and touching is none") {
+TEST_CASE("overlapping triangles are detected and touching ones are accepted") {
     const FlatTriangle a = {ChartPoint(0, 0), {4, 0}, {0, 4}};
     std::uint64_t work = plenty;
     CHECK(have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(4, 0), {4, 4}, {0, 4}}}, work));
@@ -192,7 +192,7 @@ TEST_CASE("overlaps are found, and touching is none") {
         have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(NAN, 1), {9, 1}, {9, 1.1}}}, work));
 }
 
-TEST_CASE("what apart says agrees with the areas that random triangles share") {
+TEST_CASE("have_disjoint_interiors agrees with the intersection areas of random triangles") {
     std::mt19937 random(11);
     const auto number = [&] { return (random() % 1000) / 100.0; };
     int overlapping = 0;
@@ -212,7 +212,7 @@ TEST_CASE("what apart says agrees with the areas that random triangles share") {
     CHECK((overlapping > 50 && overlapping < 250));
 }
 
-TEST_CASE("work that is used up is no claim") {
+TEST_CASE("a parametrization beyond the work limit is reported as overlapping") {
     const auto faces = test::chart_faces(test::grid(6), 10);
     std::uint64_t work = parametrization_work_per_face * faces.size() + 10;
     CHECK(parametrize(faces, all_of(faces.size()), work).outcome == Parametrization::Outcome::overlapping);
@@ -221,7 +221,7 @@ TEST_CASE("work that is used up is no claim") {
     CHECK(parametrize(faces, all_of(faces.size()), work).outcome == Parametrization::Outcome::valid);
 }
 
-TEST_CASE("a cut gives two connected halves") {
+TEST_CASE("bisect returns two connected halves") {
     const auto faces = test::chart_faces(test::grid(9), 1);
     const auto halves = bisect(faces, all_of(faces.size()));
     std::set<Index> seen;

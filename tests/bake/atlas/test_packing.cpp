@@ -55,7 +55,8 @@ std::vector<int> owners(const ChartPage& page) {
     return result;
 }
 
-// Texels of the image that a bilinear read on a mip level rests on all belong to the chart that is read.
+// Checks that the texels of level 0 that contribute to a bilinear read of a chart belong to this chart, on
+// all mip levels up to that of its block size.
 void check_reads(const ChartPage& page, const std::vector<int>& owner) {
     const auto width = static_cast<int>(page.atlas.width), height = static_cast<int>(page.atlas.height);
     for (std::size_t i = 0; i < page.charts.size(); ++i) {
@@ -85,14 +86,14 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
     }
 }
 
-double page_turn(const TrianglePlacement& placement) {
+double page_orientation(const TrianglePlacement& placement) {
     const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
 }  // namespace
 
-TEST_CASE("charts do not share texels, nor do their reads on the levels that their grain keeps clean") {
+TEST_CASE("bilinear reads of a chart use its own texels only up to the mip level of its block size") {
     const auto mesh =
         GENERATE(test::icosphere(3), test::cylinder(24, 3, 2), test::moebius(32, 3), test::soup(3, 40, 150));
     const double density = GENERATE(3.0, 40.0);
@@ -102,11 +103,11 @@ TEST_CASE("charts do not share texels, nor do their reads on the levels that the
     check_reads(m.page, owners(m.page));
 }
 
-TEST_CASE("on the page no triangle is mirrored or lies on another one") {
+TEST_CASE("triangles on a page are not mirrored and do not overlap") {
     const Made m = made(test::both(test::icosphere(2), test::moved(test::cylinder(16, 3, 2), {5, 0, 0})), 30);
     std::vector<test::FlatTriangle> flat;
     for (const TrianglePlacement& placement : m.page.atlas.placements) {
-        REQUIRE(page_turn(placement) < 0);  // v points down
+        REQUIRE(page_orientation(placement) < 0);  // v points down
         test::FlatTriangle t;
         for (std::size_t c = 0; c < 3; ++c) t[c] = {placement.uv[c][0], -placement.uv[c][1]};
         flat.push_back(t);
@@ -114,7 +115,7 @@ TEST_CASE("on the page no triangle is mirrored or lies on another one") {
     CHECK(test::worst_overlap(flat) < 1e-6);
 }
 
-TEST_CASE("charts keep their shape and the scale of the page") {
+TEST_CASE("charts keep their shape at the scale of the page") {
     const Made m = made(test::icosphere(3), 30);
     CHECK(m.page.atlas.scale >= 1);
     CHECK(m.page.atlas.scale <= std::sqrt(2.0));
@@ -131,7 +132,7 @@ TEST_CASE("charts keep their shape and the scale of the page") {
     }
 }
 
-TEST_CASE("a page that is too small shrinks the charts, down to one texel each, and then there is none") {
+TEST_CASE("charts are scaled down to the largest page and need at least one texel each") {
     const auto mesh = test::soup(1, 100, 3000);
     const auto faces = test::chart_faces(mesh, 30);
     const Charts charts = make_charts(faces, 1);
@@ -143,7 +144,7 @@ TEST_CASE("a page that is too small shrinks the charts, down to one texel each, 
     CHECK_FALSE(pack_charts(charts.charts, faces.size(), 16));
 }
 
-TEST_CASE("a chart longer than the page is squeezed") {
+TEST_CASE("a chart longer than the page is compressed") {
     TriangleMesh needle = test::make({{0, 0, 0}, {1000, 0, 0}, {1000, 0.001, 0}}, {{0, 1, 2}});
     const Made m = made(test::both(needle, test::square(2, 8, 1)), 8, 64);
     owners(m.page);
@@ -153,7 +154,7 @@ TEST_CASE("a chart longer than the page is squeezed") {
     }
 }
 
-TEST_CASE("every sample in a chart's texels has the triangle that it is in, or the closest one") {
+TEST_CASE("samples of a chart are assigned to the triangle that contains them or to the closest one") {
     const Made m = made(test::cylinder(12, 2, 1), 20);
     constexpr std::uint32_t samples = 2;
     std::size_t inside = 0, outside = 0;
@@ -167,7 +168,7 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
                 REQUIRE((owner != TileOwners::none) == own);
                 if (!own) continue;
                 const double x = tile.x + (i + 0.5) / samples, y = tile.y + (j + 0.5) / samples;
-                const auto gap = [&](Index t) {  // to the closest point
+                const auto distance_to = [&](Index t) {
                     const BarycentricFrame frame(m.page.atlas.placements[t]);
                     const Vec3 w = frame.closest(x, y);
                     double dx = -x, dy = -y;
@@ -178,8 +179,8 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
                     return std::hypot(dx, dy);
                 };
                 double least = HUGE_VAL;
-                for (Index t : chart.triangles) least = std::min(least, gap(t));
-                CHECK(gap(o.triangles[owner]) == Approx(least).margin(1e-6));
+                for (Index t : chart.triangles) least = std::min(least, distance_to(t));
+                CHECK(distance_to(o.triangles[owner]) == Approx(least).margin(1e-6));
                 ++(least > 1e-9 ? outside : inside);
             }
         }
@@ -187,7 +188,7 @@ TEST_CASE("every sample in a chart's texels has the triangle that it is in, or t
     CHECK((inside > 1000 && outside > 100));
 }
 
-TEST_CASE("a mask turned four times is itself, and finds the first room") {
+TEST_CASE("block masks can be rotated and are placed at the first free position") {
     const BlockMask mask{3, 2, {1, 1, 1, 1, 0, 0}};
     const BlockMask once = mask.rotated();
     CHECK((once.columns == 2 && once.rows == 3));
@@ -195,10 +196,10 @@ TEST_CASE("a mask turned four times is itself, and finds the first room") {
     CHECK(once.rotated().rotated().rotated().blocks == mask.blocks);
     OccupancyGrid grid(100, 8);
     for (std::uint32_t k = 0; k < 33; ++k) {  // the first row of masks, side by side
-        const auto spot = grid.find_free(mask, 0, 8, 1);
-        REQUIRE(spot);
-        CHECK((spot->y == 0 && spot->x == 3 * k));
-        grid.occupy(mask, *spot);
+        const auto position = grid.find_free(mask, 0, 8, 1);
+        REQUIRE(position);
+        CHECK((position->y == 0 && position->x == 3 * k));
+        grid.occupy(mask, *position);
     }
     const auto hole = grid.find_free({2, 1, {1, 1}}, 0, 8, 1);
     REQUIRE(hole);
@@ -210,7 +211,7 @@ TEST_CASE("a mask turned four times is itself, and finds the first room") {
     CHECK_FALSE(grid.find_free({201, 1, std::vector<std::uint8_t>(201, 1)}, 0, 16, 1));
 }
 
-TEST_CASE("charts of numbers beyond all range become one texel, and harm no other") {
+TEST_CASE("charts with coordinates out of range become one texel without affecting other charts") {
     const Made ball = made(test::icosphere(2), 10);
     for (const double far : {std::nan(""), HUGE_VAL, 1e300, 1e101}) {
         std::vector<Chart> charts = ball.charts.charts;

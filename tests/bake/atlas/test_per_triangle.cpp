@@ -26,7 +26,7 @@ std::vector<AtlasTriangle> random_triangles(std::size_t count, double largest) {
     return result;
 }
 
-// The same, every other one with its successor as partner.
+// Random triangles, of which every fourth one has its successor as partner.
 std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
     std::vector<AtlasTriangle> result = random_triangles(count, largest);
     for (std::size_t i = 0; i + 3 < count; i += 4) {
@@ -37,7 +37,7 @@ std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
     return result;
 }
 
-// Texels that bilinear filtering reads in a triangle. Weights of rounding errors do not count.
+// Texels that bilinear filtering reads in a triangle. Weights within the rounding error are ignored.
 std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
     std::set<std::pair<int, int>> result;
     const int n = 4 * static_cast<int>(placement.legs[0] + placement.legs[1]) + 1;
@@ -58,7 +58,7 @@ std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
 
 }  // namespace
 
-TEST_CASE("no texel is read by two triangles but partners, and all are on the page") {
+TEST_CASE("bilinear reads of a triangle use no texels of other triangles except its partner") {
     const double largest = GENERATE(3.0, 20.0, 90.0);
     const auto triangles = GENERATE_COPY(random_triangles(300, largest), random_partners(300, largest));
     const auto atlas = pack_triangles(triangles, 4096);
@@ -76,7 +76,7 @@ TEST_CASE("no texel is read by two triangles but partners, and all are on the pa
     }
 }
 
-TEST_CASE("partners meet on their common edge") {
+TEST_CASE("partners share their common edge on the page") {
     const double largest = GENERATE(0.9, 20.0, 90.0);
     const auto triangles = random_partners(300, largest);
     const auto atlas = pack_triangles(triangles, 4096);
@@ -95,10 +95,10 @@ TEST_CASE("partners meet on their common edge") {
         CHECK(a.uv[ra] != b.uv[rb]);
     }
     CHECK(joined > 0);
-    if (largest > 50) CHECK(joined == 75);  // none is too small
+    if (largest > 50) CHECK(joined == 75);  // no pair is reduced to single texels
 }
 
-TEST_CASE("mip levels read texels of their own cell only, down to a level that grows with the cell") {
+TEST_CASE("mip levels up to that of the block size read texels of their own cell only") {
     const auto triangles = random_partners(300, 90);
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
@@ -115,19 +115,19 @@ TEST_CASE("mip levels read texels of their own cell only, down to a level that g
             }
         }
         const double inset = low_x - cell.x;
-        const auto grain = static_cast<std::uint32_t>(2 * inset);  // texels of the clean level
-        CHECK(std::has_single_bit(grain));
-        for (std::uint32_t n : {cell.x, cell.y, cell.width, cell.height}) CHECK(n % grain == 0);
+        const auto block_size = static_cast<std::uint32_t>(2 * inset);
+        CHECK(std::has_single_bit(block_size));
+        for (std::uint32_t n : {cell.x, cell.y, cell.width, cell.height}) CHECK(n % block_size == 0);
         CHECK(low_y == cell.y + inset);
         CHECK(high_x == cell.x + cell.width - inset);
         CHECK(high_y == cell.y + cell.height - inset);
-        CHECK((grain >= 2 || std::min(high_x - low_x, high_y - low_y) < 8));
-        ++seen[grain];
+        CHECK((block_size >= 2 || std::min(high_x - low_x, high_y - low_y) < 8));
+        ++seen[block_size];
     }
     CHECK(seen.size() > 2);
 }
 
-TEST_CASE("cells do not overlap and every triangle is in one") {
+TEST_CASE("cells do not overlap and every triangle is in exactly one") {
     const auto triangles = random_triangles(500, 40);
     const auto atlas = pack_triangles(triangles, 2048);
     REQUIRE(atlas);
@@ -148,7 +148,7 @@ TEST_CASE("cells do not overlap and every triangle is in one") {
     CHECK(used / static_cast<double>(texels.size()) > 0.8);
 }
 
-TEST_CASE("triangles keep about the wanted size and are never mirrored") {
+TEST_CASE("triangles have about the wanted size and are not mirrored") {
     const auto triangles = random_triangles(300, 60);
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
@@ -168,33 +168,33 @@ TEST_CASE("triangles keep about the wanted size and are never mirrored") {
     }
 }
 
-TEST_CASE("a full page shrinks everything, down to one texel per triangle, and then gives up") {
+TEST_CASE("triangles are scaled down to the largest page and need at least one texel each") {
     const auto triangles = random_triangles(4000, 100);
     const auto small = pack_triangles(triangles, 256);
     REQUIRE(small);
     CHECK(small->scale < 1);
     CHECK(small->width == 256);
     REQUIRE(pack_triangles(triangles, 64));
-    const auto crammed = pack_triangles(std::span(triangles).first(64 * 64 - 96), 64);
-    REQUIRE(crammed);
-    std::set<std::pair<double, double>> places;
-    for (const TrianglePlacement& placement : crammed->placements)
-        places.insert({placement.uv[0][0], placement.uv[0][1]});
-    CHECK(places.size() == crammed->placements.size());
+    const auto densest = pack_triangles(std::span(triangles).first(64 * 64 - 96), 64);
+    REQUIRE(densest);
+    std::set<std::pair<double, double>> positions;
+    for (const TrianglePlacement& placement : densest->placements)
+        positions.insert({placement.uv[0][0], placement.uv[0][1]});
+    CHECK(positions.size() == densest->placements.size());
     CHECK_FALSE(pack_triangles(random_triangles(64 * 64 + 1, 100), 64));
 }
 
-TEST_CASE("weights at corners are one and closest points stay inside") {
+TEST_CASE("barycentric coordinates are exact at corners and closest points are inside") {
     TrianglePlacement placement{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
     const BarycentricFrame frame(placement);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 w = frame.at(placement.uv[i][0], placement.uv[i][1]);
         for (std::size_t k = 0; k < 3; ++k) CHECK(w[k] == Approx(k == i ? 1 : 0).margin(1e-12));
     }
-    CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right corner
-    CHECK(frame.closest(14.5, 30)[1] == Approx(0.5));  // below the first leg's middle
+    CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right-angle corner
+    CHECK(frame.closest(14.5, 30)[1] == Approx(0.5));  // below the midpoint of the first leg
     CHECK(frame.closest(14.5, 30)[2] == Approx(0).margin(1e-12));
-    const Vec3 h = frame.closest(14.5 + 1, 18.5 - 2);  // straight out from the hypotenuse's middle
+    const Vec3 h = frame.closest(14.5 + 1, 18.5 - 2);  // perpendicular to the hypotenuse at its midpoint
     CHECK(h[0] == Approx(0).margin(1e-12));
     CHECK(h[1] == Approx(0.5));
 }

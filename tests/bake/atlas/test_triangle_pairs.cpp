@@ -14,22 +14,22 @@ using Corners = std::vector<std::array<Index, 3>>;
 
 std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangles) {
     std::vector<PairTriangle> result(triangles.size());
-    std::map<std::pair<Index, Index>, AdjacentTriangle> sides;
+    std::map<std::pair<Index, Index>, AdjacentTriangle> half_edges;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         for (std::uint8_t c = 0; c < 3; ++c) {
             const Index a = triangles[t][(c + 1) % 3], b = triangles[t][(c + 2) % 3];
             result[t].edges[c] = std::hypot(points[a][0] - points[b][0], points[a][1] - points[b][1]);
-            sides[{a, b}] = {static_cast<Index>(t), c};
+            half_edges[{a, b}] = {static_cast<Index>(t), c};
         }
     }
-    for (const auto& [edge, side] : sides) {
-        const auto other = sides.find({edge.second, edge.first});
-        if (other != sides.end()) result[side.triangle].adjacent[side.corner] = other->second;
+    for (const auto& [edge, opposite] : half_edges) {
+        const auto other = half_edges.find({edge.second, edge.first});
+        if (other != half_edges.end()) result[opposite.triangle].adjacent[opposite.corner] = other->second;
     }
     return result;
 }
 
-// n x n squares of side 10, each cut by its diagonal.
+// n x n squares of side 10, each split by its diagonal.
 std::vector<PairTriangle> grid(Index n) {
     Points points;
     Corners triangles;
@@ -58,7 +58,7 @@ void check_mutual(const std::vector<PairTriangle>& triangles, const std::vector<
 
 }  // namespace
 
-TEST_CASE("squares cut in two are put together again") {
+TEST_CASE("the two triangles of every square are paired") {
     const auto triangles = grid(6);
     const auto corner = pair_triangles(triangles);
     check_mutual(triangles, corner);
@@ -67,8 +67,8 @@ TEST_CASE("squares cut in two are put together again") {
     }
 }
 
-TEST_CASE("a greedy choice in the middle of a strip is turned over") {
-    // Four triangles in a row; the two in the middle share the longest edge and waste least.
+TEST_CASE("an augmenting path improves the greedy matching of a strip") {
+    // Four triangles in a row. The two in the middle share the longest edge and have the least waste.
     const auto triangles = flat_mesh({{0, 0}, {50, 87}, {92, 0}, {158, 87}, {200, 0}, {250, 87}},
                                      {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}});
     const auto corner = pair_triangles(triangles);
@@ -76,9 +76,9 @@ TEST_CASE("a greedy choice in the middle of a strip is turned over") {
     for (std::uint8_t c : corner) CHECK(c < 3);
 }
 
-TEST_CASE("needles are paired only where they fill a rectangle") {
-    // The rectangle over the long edge is 100 by 1, the ones over the short edge and over the middle of a
-    // kite are nearly all waste.
+TEST_CASE("slivers are paired only if they fill a rectangle") {
+    // Across the long edge the rectangle is 100 by 1. Across the short edge, and in a kite, nearly all of the
+    // rectangle is waste.
     const auto side_by_side = flat_mesh({{0, 0}, {100, 0}, {100, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
     for (std::uint8_t c : pair_triangles(side_by_side)) CHECK(c < 3);
     const auto end_to_end = flat_mesh({{0, 0}, {100, -1}, {100, 1}, {200, 0}}, {{0, 1, 2}, {1, 3, 2}});
@@ -88,7 +88,7 @@ TEST_CASE("needles are paired only where they fill a rectangle") {
     for (std::uint8_t c : pair_triangles(kite)) CHECK(c == 3);
 }
 
-TEST_CASE("triangles without neighbours or size stay alone") {
+TEST_CASE("triangles without neighbours or area are not paired") {
     CHECK(pair_triangles({}).empty());
     const std::vector<PairTriangle> lone(3);
     for (std::uint8_t c : pair_triangles(lone)) CHECK(c == 3);

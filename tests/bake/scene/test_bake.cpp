@@ -11,8 +11,8 @@ using namespace faqem::test;
 
 namespace {
 
-// The largest difference of channels [begin, end) between a source texture at a part's own UVs and a baked
-// one, over all faces, their borders and corners included. Faces are the same in both.
+// The largest difference of the channels [0, end) between a source texture at the part's own UVs and a baked
+// page, over all faces including their edges and corners. Both parts have the same faces.
 double worst(const Part& source, const Pixels& painted, const Part& baked, const Pixels& atlas,
              std::size_t end = 3) {
     double result = 0;
@@ -25,8 +25,8 @@ double worst(const Part& source, const Pixels& painted, const Part& baked, const
     return result;
 }
 
-Pixels base_image(const SimplifiedAsset& light, std::size_t material = 0) {
-    return decode(light.asset.images[light.asset.materials[material].base_color_texture.image]);
+Pixels base_image(const SimplifiedAsset& simplified, std::size_t material = 0) {
+    return decode(simplified.asset.images[simplified.asset.materials[material].base_color_texture.image]);
 }
 
 bool mentions(const std::vector<std::string>& warnings, const std::string& word) {
@@ -36,59 +36,59 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
 
 }  // namespace
 
-TEST_CASE("a baked square shows what the source shows, right up to the borders of its triangles") {
+TEST_CASE("a baked square has the colours of the source up to the boundaries of its triangles") {
     const Asset asset = textured_square(ramp(128));
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified);
     CHECK(std::has_single_bit(atlas.width));
-    CHECK(worst(asset.parts[0], ramp(128), light.asset.parts[0], atlas) < 2.5);
-    const Material& m = light.asset.materials[0];
+    CHECK(worst(asset.parts[0], ramp(128), simplified.asset.parts[0], atlas) < 2.5);
+    const Material& m = simplified.asset.materials[0];
     CHECK(m.rebaked);
     CHECK(m.name == "paint");
     CHECK(m.metallic == 0);
     CHECK(m.base_color == Vec4f{1, 1, 1, 1});
     CHECK_FALSE(atlas.has_alpha);
-    CHECK(light.report.warnings.empty());
+    CHECK(simplified.report.warnings.empty());
 }
 
-TEST_CASE("triangles next to each other in the atlas do not bleed into each other") {
-    // A red and a blue triangle: any read of the other one's texels shows.
+TEST_CASE("adjacent triangles in the atlas do not bleed into each other") {
+    // A red and a blue triangle: any read of the other triangle's texels changes the colour.
     const auto split = paint(64, 64, [](std::uint32_t x, std::uint32_t y) {
         return x + y < 63 ? Rgba{255, 0, 0, 255} : Rgba{0, 0, 255, 255};
     });
     Asset asset = textured_square(split);
     Part& part = asset.parts[0];
-    // Each face looks at its own flat corner of the texture.
+    // Each face uses a corner of the texture that has a single colour.
     part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     part.triangles = {{0, 1, 2}, {3, 4, 5}};
     part.uvs = {{{0, 0}, {0.4f, 0}, {0, 0.4f}, {1, 1}, {0.6f, 1}, {1, 0.6f}}};
     Options options;
     options.bake.texture_size = GENERATE(64u, 256u);
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    CHECK(worst(part, split, light.asset.parts[0], base_image(light)) < 0.01);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    CHECK(worst(part, split, simplified.asset.parts[0], base_image(simplified)) < 0.01);
 }
 
-TEST_CASE("factor and vertex colour are baked in linear light") {
+TEST_CASE("base colour factor and vertex colours are applied in linear light") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{188, 255, 255, 255};
     }));
     asset.materials[0].base_color = {0.5f, 0.25f, 1, 1};
     asset.parts[0].colors.assign(4, {1, 1, 0.5f, 1});
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light);
-    const auto c = look(light.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
-    CHECK(c[0] == Approx(137).margin(1));  // 188 is 0.503 in linear light, half of it is 137
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified);
+    const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
+    CHECK(c[0] == Approx(137).margin(1));  // sRGB 188 is 0.503 in linear light, half of which is sRGB 137
     CHECK(c[1] == Approx(137).margin(1));
     CHECK(c[2] == Approx(188).margin(1));
-    CHECK(light.asset.parts[0].colors.empty());
+    CHECK(simplified.asset.parts[0].colors.empty());
 }
 
-TEST_CASE("no texel of the page stays black") {
+TEST_CASE("all texels of a page are filled") {
     const Asset asset = textured_square(paint(32, 32, [](std::uint32_t, std::uint32_t) {
         return Rgba{9, 99, 199, 255};
     }));
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified);
     for (std::size_t t = 0; t < atlas.rgba.size(); t += 4) {
         REQUIRE(atlas.rgba[t] == 9);
         REQUIRE(atlas.rgba[t + 1] == 99);
@@ -97,21 +97,22 @@ TEST_CASE("no texel of the page stays black") {
     }
 }
 
-TEST_CASE("repeated textures are unrolled") {
+TEST_CASE("textures with repeat wrap mode are unrolled") {
     Asset asset = textured_square(ramp(32));
     TextureRef& use = asset.materials[0].base_color_texture;
     use.wrap_u = use.wrap_v = Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {3 * uv[0] - 1, 2 * uv[1]};
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light), painted = ramp(32);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified), painted = ramp(32);
     std::size_t compared = 0;
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(30)) {
             auto uv = blend(asset.parts[0].uvs[0], asset.parts[0].triangles[f], w);
             for (double& x : uv) x -= std::floor(x);
             if (std::min(uv[0], uv[1]) < 0.1 || std::max(uv[0], uv[1]) > 0.9)
-                continue;  // away from the jumps
-            const auto expected = read(painted, uv[0], uv[1]), got = look(light.asset.parts[0], atlas, f, w);
+                continue;  // the texture is discontinuous there
+            const auto expected = read(painted, uv[0], uv[1]),
+                       got = look(simplified.asset.parts[0], atlas, f, w);
             for (std::size_t k = 0; k < 3; ++k) CHECK(got[k] == Approx(expected[k]).margin(4));
             ++compared;
         }
@@ -119,7 +120,7 @@ TEST_CASE("repeated textures are unrolled") {
     CHECK(compared > 200);
 }
 
-TEST_CASE("two materials of one kind merge into one page, another kind gets its own") {
+TEST_CASE("materials share a page only if their alpha modes are equal") {
     Asset asset = textured_square(ramp(64));
     asset.materials.resize(3);
     asset.materials[1].name = "green";
@@ -133,49 +134,49 @@ TEST_CASE("two materials of one kind merge into one page, another kind gets its 
     part.uvs[0].insert(part.uvs[0].end(), 3, {0, 0});
     part.triangles.push_back({4, 5, 6});
     part.face_material = {0, 1, 2};
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    REQUIRE(light.asset.materials.size() == 2);
-    CHECK(light.asset.parts[0].face_material == std::vector<Index>{0, 0, 1});
-    const Pixels atlas = base_image(light);
-    const auto green = look(light.asset.parts[0], atlas, 1, {0.3, 0.3, 0.4});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    REQUIRE(simplified.asset.materials.size() == 2);
+    CHECK(simplified.asset.parts[0].face_material == std::vector<Index>{0, 0, 1});
+    const Pixels atlas = base_image(simplified);
+    const auto green = look(simplified.asset.parts[0], atlas, 1, {0.3, 0.3, 0.4});
     CHECK(green[0] == 0);
     CHECK(green[1] == 255);
     const auto painted = look(asset.parts[0], ramp(64), 0, {0.3, 0.3, 0.4});
-    CHECK(look(light.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4})[0] == Approx(painted[0]).margin(2));
-    // One flat colour needs no image.
-    CHECK_FALSE(light.asset.materials[1].base_color_texture);
-    CHECK(light.asset.materials[1].base_color == Vec4f{1, 0, 0, 0.5f});
-    CHECK(light.asset.materials[1].alpha_mode == AlphaMode::blend);
+    CHECK(look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4})[0] == Approx(painted[0]).margin(2));
+    // A single colour needs no image.
+    CHECK_FALSE(simplified.asset.materials[1].base_color_texture);
+    CHECK(simplified.asset.materials[1].base_color == Vec4f{1, 0, 0, 0.5f});
+    CHECK(simplified.asset.materials[1].alpha_mode == AlphaMode::blend);
 }
 
-TEST_CASE("materials with extensions stay alone") {
+TEST_CASE("materials with extensions are not merged") {
     Asset asset = textured_square(ramp(8));
     asset.materials.push_back(asset.materials[0]);
     asset.materials[1].extensions = {"KHR_materials_clearcoat"};
     asset.materials[1].source = 5;
     asset.parts[0].face_material = {0, 1};
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    REQUIRE(light.asset.materials.size() == 2);
-    CHECK(light.asset.materials[1].source == 5);
-    CHECK(light.asset.materials[1].extensions == asset.materials[1].extensions);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    REQUIRE(simplified.asset.materials.size() == 2);
+    CHECK(simplified.asset.materials[1].source == 5);
+    CHECK(simplified.asset.materials[1].extensions == asset.materials[1].extensions);
 }
 
-TEST_CASE("a cut-out keeps its alpha, and its clear texels do not darken its rim") {
+TEST_CASE("alpha masks are preserved and transparent texels do not darken their edges") {
     const auto leaf = paint(64, 64, [](std::uint32_t x, std::uint32_t) {
         return x < 32 ? Rgba{40, 200, 40, 255} : Rgba{0, 0, 0, 0};
     });
     Asset asset = textured_square(leaf);
     asset.materials[0].alpha_mode = AlphaMode::mask;
     asset.materials[0].alpha_cutoff = 0.3f;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified);
     CHECK(atlas.has_alpha);
-    CHECK(light.asset.materials[0].alpha_mode == AlphaMode::mask);
-    CHECK(light.asset.materials[0].alpha_cutoff == 0.3f);
+    CHECK(simplified.asset.materials[0].alpha_mode == AlphaMode::mask);
+    CHECK(simplified.asset.materials[0].alpha_cutoff == 0.3f);
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(20)) {
             const double u = blend(asset.parts[0].uvs[0], asset.parts[0].triangles[f], w)[0];
-            const auto c = look(light.asset.parts[0], atlas, f, w);
+            const auto c = look(simplified.asset.parts[0], atlas, f, w);
             if (u < 0.45 && u > 0.03) CHECK(c[3] == Approx(255));
             if (u > 0.55 && u < 0.97) CHECK(c[3] == Approx(0).margin(1e-9));
             CHECK(c[0] == Approx(40).margin(2));
@@ -184,19 +185,19 @@ TEST_CASE("a cut-out keeps its alpha, and its clear texels do not darken its rim
     }
 }
 
-TEST_CASE("alpha of an opaque material hides nothing") {
+TEST_CASE("the alpha of an opaque material is ignored") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{10, 20, 30, 0};
     }));
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Pixels atlas = base_image(simplified);
     for (std::size_t i = 3; i < atlas.rgba.size(); i += 4) REQUIRE(atlas.rgba[i] == 255);
-    const auto c = look(light.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
+    const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
     CHECK(c[1] == Approx(20));
     CHECK(c[3] == Approx(255));
 }
 
-TEST_CASE("metal, roughness, occlusion and glow follow the base colour") {
+TEST_CASE("metallic, roughness, occlusion and emissive textures are baked with their factors") {
     Asset asset = textured_square(ramp(16));
     Material& m = asset.materials[0];
     const auto flat = [](const Rgba& c) {
@@ -210,27 +211,27 @@ TEST_CASE("metal, roughness, occlusion and glow follow the base colour") {
     m.emissive = {1, 0.5f, 0};
     m.emissive_texture.image = add_texture(asset, flat({255, 188, 255, 255}));
     m.normal_texture.image = add_texture(asset, flat({128, 128, 255, 255}));
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    const Material& out = light.asset.materials[0];
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const Material& out = simplified.asset.materials[0];
     REQUIRE(out.metallic_roughness_texture);
     CHECK(out.metallic_roughness_texture.image == out.occlusion_texture.image);
     CHECK(out.metallic == 1);
     CHECK(out.roughness == 1);
     CHECK(out.occlusion_strength == 1);
     CHECK(out.emissive == Vec3f{1, 1, 1});
-    const Pixels orm = decode(light.asset.images[out.occlusion_texture.image]);
+    const Pixels orm = decode(simplified.asset.images[out.occlusion_texture.image]);
     CHECK(orm.rgba[0] == 155);  // halfway from 255 to 55
     CHECK(orm.rgba[1] == 80);
     CHECK(orm.rgba[2] == 100);
-    const Pixels glow = decode(light.asset.images[out.emissive_texture.image]);
+    const Pixels glow = decode(simplified.asset.images[out.emissive_texture.image]);
     CHECK(glow.rgba[0] == 255);
     CHECK(glow.rgba[1] == Approx(137).margin(1));
     CHECK(glow.rgba[2] == 0);
     CHECK(out.normal_texture);
-    CHECK(light.report.warnings.empty());
+    CHECK(simplified.report.warnings.empty());
 }
 
-TEST_CASE("several parts share a page, and equal inputs give equal bytes on any number of threads") {
+TEST_CASE("parts share a page and images do not depend on the number of threads") {
     Asset asset = textured_square(ramp(64));
     asset.parts.push_back(square());
     for (Vec3& p : asset.parts[1].positions) p[2] = 5;
@@ -238,28 +239,28 @@ TEST_CASE("several parts share a page, and equal inputs give equal bytes on any 
     for (std::uint32_t threads : {1u, 2u, 5u}) {
         Options options;
         options.threads = threads;
-        const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-        REQUIRE(light.asset.images.size() == 1);
-        REQUIRE(light.asset.parts.size() == 2);
-        const Pixels atlas = base_image(light);
-        CHECK(worst(asset.parts[1], ramp(64), light.asset.parts[1], atlas) < 4);
-        if (first.empty()) first = light.asset.images[0].encoded;
-        CHECK(light.asset.images[0].encoded == first);
+        const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+        REQUIRE(simplified.asset.images.size() == 1);
+        REQUIRE(simplified.asset.parts.size() == 2);
+        const Pixels atlas = base_image(simplified);
+        CHECK(worst(asset.parts[1], ramp(64), simplified.asset.parts[1], atlas) < 4);
+        if (first.empty()) first = simplified.asset.images[0].encoded;
+        CHECK(simplified.asset.images[0].encoded == first);
     }
 }
 
-TEST_CASE("the texture is never larger than allowed") {
+TEST_CASE("pages are not larger than texture_size") {
     const Asset asset = textured_square(ramp(256));
     Options options;
     options.bake.texture_size = 64;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    const Pixels atlas = base_image(simplified);
     CHECK(atlas.width <= 64);
     CHECK(atlas.height <= 64);
-    CHECK(worst(asset.parts[0], ramp(256), light.asset.parts[0], atlas) < 6);
+    CHECK(worst(asset.parts[0], ramp(256), simplified.asset.parts[0], atlas) < 6);
 }
 
-TEST_CASE("minified textures are averaged, not picked") {
+TEST_CASE("minified textures are averaged") {
     const auto noise = paint(512, 512, [](std::uint32_t x, std::uint32_t y) {
         const std::uint8_t c = (x * 7 + y * 13) % 4 < 2 ? 255 : 0;
         return Rgba{c, c, c, 255};
@@ -267,28 +268,28 @@ TEST_CASE("minified textures are averaged, not picked") {
     const Asset asset = textured_square(noise);
     Options options;
     options.bake.texture_size = 64;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    const Pixels atlas = base_image(light);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    const Pixels atlas = base_image(simplified);
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(12))
-            CHECK(look(light.asset.parts[0], atlas, f, w)[0] == Approx(188).margin(25));
+            CHECK(look(simplified.asset.parts[0], atlas, f, w)[0] == Approx(188).margin(25));
     }
 }
 
-TEST_CASE("more triangles than texels: the colours go to the vertices, and it is said") {
+TEST_CASE("with more triangles than texels vertex colours are baked with a warning") {
     Asset asset = textured_square(ramp(16));
     Part& part = asset.parts[0];
     for (int i = 0; i < 70 * 70; ++i) part.triangles.push_back(part.triangles[i % 2]);
     part.face_material.assign(part.triangles.size(), 0);
     Options options;
     options.bake.texture_size = 64;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    CHECK(light.asset.images.empty());
-    CHECK(light.asset.parts[0].colors.size() == light.asset.parts[0].positions.size());
-    CHECK(mentions(light.report.warnings, "more triangles than texels"));
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    CHECK(simplified.asset.images.empty());
+    CHECK(simplified.asset.parts[0].colors.size() == simplified.asset.parts[0].positions.size());
+    CHECK(mentions(simplified.report.warnings, "more triangles than texels"));
 }
 
-TEST_CASE("the progress callback cancels the bake") {
+TEST_CASE("the progress callback can cancel bake") {
     const Asset asset = textured_square(ramp(64));
     Options options;
     int calls = 0;
@@ -298,23 +299,23 @@ TEST_CASE("the progress callback cancels the bake") {
         ++calls;
         return phase == Phase::bake ? Continue::cancel : Continue::yes;
     };
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    CHECK(light.report.stop == StopReason::cancelled);
-    CHECK(light.asset.parts.empty());
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    CHECK(simplified.report.stop == StopReason::cancelled);
+    CHECK(simplified.asset.parts.empty());
     CHECK(calls > 1);
 }
 
-TEST_CASE("a damaged image and foreign small parts are errors") {
+TEST_CASE("a damaged image and simplified parts of another asset are rejected") {
     Asset asset = textured_square(ramp(8));
-    const SimplifiedParts small = unchanged(asset);
+    const SimplifiedParts simplified = unchanged(asset);
     asset.parts.push_back(square());
-    CHECK_THROWS_AS(bake(asset, small, {}), InputError);
+    CHECK_THROWS_AS(bake(asset, simplified, {}), InputError);
     asset.parts.pop_back();
     asset.images[0].encoded.resize(asset.images[0].encoded.size() / 2);
-    CHECK_THROWS_AS(bake(asset, small, {}), InputError);
+    CHECK_THROWS_AS(bake(asset, simplified, {}), InputError);
 }
 
-TEST_CASE("an asset without faces passes") {
+TEST_CASE("an asset without faces is accepted") {
     Asset asset;
     asset.parts.resize(2);
     asset.parts[1].source = 3;
@@ -322,9 +323,9 @@ TEST_CASE("an asset without faces passes") {
          {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
         Options options;
         options.bake.kind = kind;
-        const SimplifiedAsset light = simplify(asset, options);
-        REQUIRE(light.asset.parts.size() == 2);
-        CHECK(light.asset.parts[1].source == 3);
-        CHECK(light.asset.images.empty());
+        const SimplifiedAsset simplified = simplify(asset, options);
+        REQUIRE(simplified.asset.parts.size() == 2);
+        CHECK(simplified.asset.parts[1].source == 3);
+        CHECK(simplified.asset.images.empty());
     }
 }

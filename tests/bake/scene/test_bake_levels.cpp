@@ -24,7 +24,7 @@ Options plain() {
     return options;
 }
 
-/// A ball whose texture is seen from above and from below: the colour tells x and y.
+/// A sphere with a texture that is projected along z, so that red and green identify x and y.
 Asset painted_ball() {
     Asset asset = textured_square(ramp(64));
     const TriangleMesh ball = icosphere(3);
@@ -38,9 +38,9 @@ Asset painted_ball() {
     return asset;
 }
 
-/// How far red and green of a level are from those of the original at the same x and y, on average.
-double colour_error(const SimplifiedAsset& light, const Asset& original) {
-    const Asset& asset = light.asset;
+/// Mean difference of red and green between a level and the original at the same x and y.
+double colour_error(const SimplifiedAsset& simplified, const Asset& original) {
+    const Asset& asset = simplified.asset;
     const Pixels before = decode(original.images[0]);
     const Part& part = asset.parts[0];
     double sum = 0, count = 0;
@@ -60,7 +60,7 @@ const std::vector<Level> wanted = {ratio(0.5), ratio(0.2), faces(60)};
 
 }  // namespace
 
-TEST_CASE("the levels of an asset share one run, and the first is what simplify gives") {
+TEST_CASE("levels of an asset come from one run and the first is equal to that of simplify_parts") {
     Asset asset;
     asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
     for (const Budget budget : {Budget::scene, Budget::mesh}) {
@@ -72,13 +72,13 @@ TEST_CASE("the levels of an asset share one run, and the first is what simplify 
         std::uint64_t last[] = {800, 512, 0};
         double error = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const SimplifiedParts& small = levels[i].result;
-            CHECK(small.report.faces_out <= most[i]);
-            CHECK(small.report.faces_out + 4 > most[i]);
+            const SimplifiedParts& simplified = levels[i].result;
+            CHECK(simplified.report.faces_out <= most[i]);
+            CHECK(simplified.report.faces_out + 4 > most[i]);
             CHECK(levels[i].error >= error);
             error = levels[i].error;
             for (std::size_t p = 0; p < 3; ++p) {
-                const TriangleMesh& mesh = small.parts[p].mesh;
+                const TriangleMesh& mesh = simplified.parts[p].mesh;
                 CHECK(mesh.triangles.size() <= last[p]);
                 last[p] = mesh.triangles.size();
                 if (p == 2) continue;
@@ -93,7 +93,7 @@ TEST_CASE("the levels of an asset share one run, and the first is what simplify 
     }
 }
 
-TEST_CASE("an asset's level may be a distance in the units of the scene") {
+TEST_CASE("a level of an asset can be a distance in scene units") {
     Asset asset;
     asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2)};
     const auto levels = simplify_parts_levels(asset, {ratio(0.5), model_units(0.02), faces(20)}, plain());
@@ -104,7 +104,7 @@ TEST_CASE("an asset's level may be a distance in the units of the scene") {
     CHECK(levels[2].error > 0.02);
 }
 
-TEST_CASE("every level of a textured asset has a texture of its own") {
+TEST_CASE("every level of a textured asset has its own texture by default") {
     Asset asset = textured_square(ramp(64));
     asset.parts[0] = waves(12, 0.1, 0);
     asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
@@ -122,7 +122,7 @@ TEST_CASE("every level of a textured asset has a texture of its own") {
     CHECK(levels[0].result.report.faces_out > levels[1].result.report.faces_out);
 }
 
-TEST_CASE("levels share a texture that is baked once and looks right on each") {
+TEST_CASE("levels with a shared texture use one image and have the colours of the source") {
     const Asset ball = painted_ball();
     Options options;
     options.bake.texture_size = 128;
@@ -135,27 +135,27 @@ TEST_CASE("levels share a texture that is baked once and looks right on each") {
     const MeshView original{ball.parts[0].positions, ball.parts[0].triangles};
     for (std::size_t i = 0; i < 4; ++i) {
         CAPTURE(i);
-        const SimplifiedAsset& light = levels[i].result;
-        const Part& part = light.asset.parts.at(0);
+        const SimplifiedAsset& simplified = levels[i].result;
+        const Part& part = simplified.asset.parts.at(0);
         CHECK(part.triangles.size() <= most[i]);
-        CHECK(part.triangles.size() == light.report.faces_out);
-        CHECK(light.report.faces_in == 1280);
-        CHECK(light.report.vertices_in == levels[0].result.report.vertices_in);
-        CHECK(light.report.pages.size() == (i == 0 ? 1 : 0));
-        REQUIRE(light.asset.images.size() == 1);
-        CHECK(light.asset.images[0].encoded == levels[0].result.asset.images[0].encoded);
-        CHECK(colour_error(light, ball) < 4);
+        CHECK(part.triangles.size() == simplified.report.faces_out);
+        CHECK(simplified.report.faces_in == 1280);
+        CHECK(simplified.report.vertices_in == levels[0].result.report.vertices_in);
+        CHECK(simplified.report.pages.size() == (i == 0 ? 1 : 0));
+        REQUIRE(simplified.asset.images.size() == 1);
+        CHECK(simplified.asset.images[0].encoded == levels[0].result.asset.images[0].encoded);
+        CHECK(colour_error(simplified, ball) < 4);
         CHECK(levels[i].error >= error);
         error = levels[i].error;
-        const MeshView small{part.positions, part.triangles};
-        CHECK(hausdorff(original, small).value <= error);
+        const MeshView view{part.positions, part.triangles};
+        CHECK(hausdorff(original, view).value <= error);
     }
     REQUIRE(levels[2].result.report.max_error);
     CHECK(levels[2].result.report.max_error->within());
     CHECK(levels[3].result.report.collapses > levels[0].result.report.collapses);
 }
 
-TEST_CASE("a level that the finest one exceeds is that one, and says how far it is") {
+TEST_CASE("a level with a smaller error bound than the finest level is equal to it") {
     const auto levels = simplify_levels(painted_ball(), {ratio(0.05), of_diagonal(0.0001), ratio(0.05)}, {},
                                         LevelTextures::shared);
     REQUIRE(levels.size() == 3);
@@ -168,7 +168,7 @@ TEST_CASE("a level that the finest one exceeds is that one, and says how far it 
     CHECK_FALSE(levels[1].result.report.max_error->within());
 }
 
-TEST_CASE("what cannot go with a shared texture is refused") {
+TEST_CASE("options incompatible with a shared texture are rejected") {
     const Asset ball = painted_ball();
     const auto refused = [&](const Options& options) {
         CHECK_THROWS_AS(simplify_levels(ball, wanted, options, LevelTextures::shared), OptionError);
@@ -181,11 +181,11 @@ TEST_CASE("what cannot go with a shared texture is refused") {
     CHECK(simplify_levels(ball, {}, {}, LevelTextures::shared).empty());
 }
 
-TEST_CASE("cancelling the levels of an asset says so") {
+TEST_CASE("cancelled levels of an asset have the stop reason cancelled") {
     Asset asset;
     asset.parts = {waves(40, 0.2, 0), waves(40, 0.05, 2)};
     Options options = plain();
-    options.threads = 1;  // who waits for other threads asks every few milliseconds, as often as that takes
+    options.threads = 1;  // with more threads the number of callbacks depends on the time that they take
     for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
         if (textures == LevelTextures::shared) options.bake.kind = Bake::atlas;
         std::size_t calls = 0;
@@ -201,7 +201,7 @@ TEST_CASE("cancelling the levels of an asset says so") {
     }
 }
 
-TEST_CASE("progress of the levels of an asset goes from phase to phase and never back") {
+TEST_CASE("progress of the levels of an asset never decreases within a phase") {
     Asset asset;
     asset.parts = {waves(30, 0.2, 0), waves(30, 0.05, 2)};
     const std::vector<std::vector<Level>> chains = {
@@ -212,9 +212,9 @@ TEST_CASE("progress of the levels of an asset goes from phase to phase and never
             options.bake.texture_size = 64;
             Phase phase = Phase::simplify;
             double last = 0;
-            bool is_told = false;
+            bool is_called = false;
             options.progress = [&](Phase now, double done) {
-                is_told = true;
+                is_called = true;
                 CHECK(static_cast<int>(now) >= static_cast<int>(phase));
                 if (now != phase) last = 0;
                 phase = now;
@@ -224,14 +224,14 @@ TEST_CASE("progress of the levels of an asset goes from phase to phase and never
                 return Continue::yes;
             };
             CHECK(simplify_levels(asset, chain, options, textures).size() == chain.size());
-            CHECK(is_told);
+            CHECK(is_called);
             CHECK(phase == Phase::bake);
             CHECK(last == Approx(1));
         }
     }
 }
 
-TEST_CASE("levels of an asset are checked like those of a mesh") {
+TEST_CASE("invalid levels of an asset are rejected") {
     Asset asset;
     asset.parts = {waves(4, 0.2, 0)};
     CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1), ratio(0.5)}, plain()), OptionError);

@@ -19,7 +19,7 @@ Asset painted(const Vec4f& linear, Part part = test::square()) {
     return asset;
 }
 
-/// The square at z = 0 that looks up, and one below it that looks down, each with a material of its own.
+/// A square at z = 0 that faces up, and one below it that faces down, with a material each.
 Asset board(const Vec4f& top, const Vec4f& bottom) {
     Asset asset = painted(top);
     asset.materials.push_back(asset.materials[0]);
@@ -39,7 +39,7 @@ constexpr Vec4f red = {1, 0, 0, 1}, blue = {0, 0, 1, 1}, black = {0, 0, 0, 1}, w
 
 }  // namespace
 
-TEST_CASE("a model's colours do not differ from its own") {
+TEST_CASE("a model has no colour difference from itself") {
     const Asset asset = test::textured_square(test::ramp(64));
     const ColorComparison c = compare_colors(asset, asset, few);
     CHECK(c.rmse < 1e-7);
@@ -53,7 +53,7 @@ TEST_CASE("a model's colours do not differ from its own") {
     CHECK(same.psnr == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("red and blue differ in two channels of three") {
+TEST_CASE("red and blue differ in two of three channels") {
     const ColorComparison c = compare_colors(painted(red), painted(blue), few);
     CHECK(c.a_to_b.mean_squared == Approx(2.0 / 3));
     CHECK(c.b_to_a.rmse == Approx(std::sqrt(2.0 / 3)));
@@ -62,19 +62,19 @@ TEST_CASE("red and blue differ in two channels of three") {
     CHECK(c.a_to_b.outliers == 1);
 }
 
-TEST_CASE("what differs counts by its area") {
+TEST_CASE("colour differences are weighted by area") {
     Asset half = painted(white);
     half.materials.push_back(half.materials[0]);
     half.materials[1].base_color = black;
     half.parts[0].face_material = {0, 1};
     const ColorComparison c = compare_colors(half, painted(white), {.samples = 100000});
-    CHECK(c.a_to_b.mean_squared == Approx(0.5));  // the slices of the area are whole on each half
+    CHECK(c.a_to_b.mean_squared == Approx(0.5));  // samples are stratified by area
     CHECK(c.b_to_a.mean_squared == Approx(0.5).epsilon(0.02));
     CHECK(c.a_to_b.outliers == Approx(0.5));
 }
 
-TEST_CASE("textures and vertex colours meet as sRGB") {
-    // Half of the light is 188 of 255 on a screen.
+TEST_CASE("textures and vertex colours are compared in sRGB") {
+    // A linear value of 0.5 is 188 of 255 in sRGB.
     Asset vertices = painted(white);
     vertices.parts[0].colors.assign(4, {0.5f, 0.5f, 0.5f, 1});
     const Asset texture = test::textured_square(test::paint(4, 4, [](std::uint32_t, std::uint32_t) {
@@ -85,8 +85,9 @@ TEST_CASE("textures and vertex colours meet as sRGB") {
     CHECK(to_black.rmse == Approx(188.0 / 255).epsilon(0.003));
 }
 
-TEST_CASE("the two sides of a thin board are not mistaken for each other") {
-    // The other board lies deeper by more than half of its thickness: its top is nearer to this one's bottom.
+TEST_CASE("samples of a thin board are compared with faces of the same orientation") {
+    // The second board is lower by more than half of its thickness: its top is closer to the bottom of the
+    // first.
     Asset lower = board(red, blue);
     for (Vec3& p : lower.parts[0].positions) p[2] -= 0.008;
     const ColorComparison c = compare_colors(board(red, blue), lower, few);
@@ -94,7 +95,7 @@ TEST_CASE("the two sides of a thin board are not mistaken for each other") {
     CHECK(c.a_to_b.unmatched == 0);
 }
 
-TEST_CASE("normals say which side is outside, and the winding does where there are none") {
+TEST_CASE("faces are oriented by vertex normals or else by their winding") {
     Asset turned = board(red, blue);
     for (Triangle& t : turned.parts[0].triangles) std::swap(t[1], t[2]);
     CHECK(compare_colors(board(red, blue), turned, few).rmse == Approx(std::sqrt(2.0 / 3)));
@@ -103,7 +104,7 @@ TEST_CASE("normals say which side is outside, and the winding does where there a
     CHECK(compare_colors(board(red, blue), turned, few).rmse == 0);
 }
 
-TEST_CASE("where no face looks the same way the closest one counts, and is counted") {
+TEST_CASE("without a face of the same orientation the closest one is used and counted as unmatched") {
     Asset turned = painted(red);
     for (Triangle& t : turned.parts[0].triangles) std::swap(t[1], t[2]);
     const ColorComparison c = compare_colors(painted(red), turned, few);
@@ -111,8 +112,8 @@ TEST_CASE("where no face looks the same way the closest one counts, and is count
     CHECK(c.rmse == 0);
 }
 
-TEST_CASE("what is masked out does not count, and alpha does not dim") {
-    // The left half is cut away; the right half shows white at half the alpha.
+TEST_CASE("masked samples are hidden and alpha does not change the colour") {
+    // The left half is masked; the right half is white with an alpha of 0.5.
     Asset asset = test::textured_square(test::paint(64, 4, [](std::uint32_t x, std::uint32_t) {
         return x < 32 ? test::Rgba{0, 0, 0, 0} : test::Rgba{255, 255, 255, 128};
     }));
@@ -125,7 +126,7 @@ TEST_CASE("what is masked out does not count, and alpha does not dim") {
     CHECK(c.b_to_a.hidden == 0);
 }
 
-TEST_CASE("colours do not depend on the number of threads, but on the seed") {
+TEST_CASE("compare_colors depends on the seed and not on the number of threads") {
     const Asset a = test::textured_square(test::ramp(64)), b = painted(red);
     CompareOptions options = {.samples = 20000, .threads = 1};
     const double one = compare_colors(a, b, options).rmse;
@@ -135,7 +136,7 @@ TEST_CASE("colours do not depend on the number of threads, but on the seed") {
     CHECK(compare_colors(a, b, options).rmse != one);
 }
 
-TEST_CASE("models without colours are told, models without area and broken images are refused") {
+TEST_CASE("models without colours are detected and models without area or with damaged images rejected") {
     Asset bare = painted(red);
     CHECK(has_colors(bare));
     bare.materials.clear();

@@ -11,11 +11,11 @@ using namespace faqem::test;
 
 namespace {
 
-// A wavy sheet of 2 n^2 faces with waves of a height, beside others.
-Part waves(Index n, double height, double beside) {
+// A wavy grid with 2 n^2 faces and waves of the given height, translated by `offset` along x.
+Part waves(Index n, double height, double offset) {
     return sheet(n, [&](double i, double j) {
         const double x = i / n, y = j / n;
-        return Vec3{x + beside, y, height * std::sin(9 * x) * std::cos(7 * y)};
+        return Vec3{x + offset, y, height * std::sin(9 * x) * std::cos(7 * y)};
     });
 }
 
@@ -30,33 +30,33 @@ Options within(MaxError error) {
 
 }  // namespace
 
-TEST_CASE("every part of an asset is within the error, and its distance is in the report") {
+TEST_CASE("every part of an asset is within max_error and the report gives the distance") {
     Asset asset;
     asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
     const double allowed = 0.01;
-    const SimplifiedParts small = simplify_parts(asset, within(model_units(allowed)));
-    REQUIRE(small.parts.size() == 3);
-    CHECK(small.report.stop == StopReason::reached_max_error);
-    REQUIRE(small.report.max_error);
-    const MeasuredError& error = *small.report.max_error;
+    const SimplifiedParts simplified = simplify_parts(asset, within(model_units(allowed)));
+    REQUIRE(simplified.parts.size() == 3);
+    CHECK(simplified.report.stop == StopReason::reached_max_error);
+    REQUIRE(simplified.report.max_error);
+    const MeasuredError& error = *simplified.report.max_error;
     CHECK(error.within());
-    CHECK(small.report.faces_out < small.report.faces_in / 2);
-    CHECK(small.report.target_faces == small.report.faces_out);
+    CHECK(simplified.report.faces_out < simplified.report.faces_in / 2);
+    CHECK(simplified.report.target_faces == simplified.report.faces_out);
     double value = 0, bound = 0;
     for (std::size_t p = 0; p < 2; ++p) {
-        const DistanceBound own = hausdorff(view(asset.parts[p]), small.parts[p].mesh.view());
+        const DistanceBound own = hausdorff(view(asset.parts[p]), simplified.parts[p].mesh.view());
         value = std::max(value, own.value);
         bound = std::max(bound, own.bound);
-        CHECK(small.parts[p].history.kept_faces.size() == small.parts[p].mesh.triangles.size());
+        CHECK(simplified.parts[p].history.kept_faces.size() == simplified.parts[p].mesh.triangles.size());
     }
-    // The report's figures are of other searches for the same distance, both to 1%.
+    // The report has the result of another search for the same distance. Both have an accuracy of 1%.
     CHECK(value <= allowed);
     CHECK(error.value <= bound);
     CHECK(error.bound >= value);
     CHECK(error.value >= allowed / 3);
 }
 
-TEST_CASE("for an asset a share of the diagonal is that of the whole scene") {
+TEST_CASE("max_error relative to the diagonal uses the diagonal of the scene") {
     Asset asset;
     asset.parts = {waves(16, 0.2, 0), waves(12, 0.05, 2)};
     Part all = asset.parts[0];
@@ -75,32 +75,32 @@ TEST_CASE("for an asset a share of the diagonal is that of the whole scene") {
     }
 }
 
-TEST_CASE("the target of an asset is checked against the error") {
+TEST_CASE("the result for a target face count is checked against max_error") {
     Asset asset;
     asset.parts = {waves(16, 0.2, 0)};
     for (const double allowed : {1e-4, 1.0}) {
         Options options = within(model_units(allowed));
         options.target = faces(50);
-        const SimplifiedAsset light = simplify(asset, options);
-        CHECK(light.report.faces_out <= 50);
-        CHECK(light.report.stop == StopReason::reached_target);
-        REQUIRE(light.report.max_error);
-        CHECK(light.report.max_error->runs == 1);
-        CHECK(light.report.max_error->within() == (allowed == 1.0));
+        const SimplifiedAsset simplified = simplify(asset, options);
+        CHECK(simplified.report.faces_out <= 50);
+        CHECK(simplified.report.stop == StopReason::reached_target);
+        REQUIRE(simplified.report.max_error);
+        CHECK(simplified.report.max_error->runs == 1);
+        CHECK(simplified.report.max_error->within() == (allowed == 1.0));
     }
 }
 
-TEST_CASE("an asset that may lose nothing comes out whole") {
+TEST_CASE("an asset with a tiny max_error is not changed") {
     Asset asset;
     asset.parts = {waves(8, 0.2, 0), square()};
     asset.parts[1].face_material.clear();
-    const SimplifiedParts small = simplify_parts(asset, within(model_units(1e-12)));
-    CHECK(small.parts[0].mesh.positions == asset.parts[0].positions);
-    CHECK(small.parts[1].mesh.triangles.size() == 2);
-    CHECK(small.report.max_error->within());
+    const SimplifiedParts simplified = simplify_parts(asset, within(model_units(1e-12)));
+    CHECK(simplified.parts[0].mesh.positions == asset.parts[0].positions);
+    CHECK(simplified.parts[1].mesh.triangles.size() == 2);
+    CHECK(simplified.report.max_error->within());
 }
 
-TEST_CASE("cancelling the search for an asset leaves no parts, and progress rises") {
+TEST_CASE("the error bound search for an asset reports progress and can be cancelled") {
     Asset asset;
     asset.parts = {waves(32, 0.2, 0), waves(32, 0.1, 2)};
     Options options = within(of_diagonal(0.005));
@@ -119,8 +119,8 @@ TEST_CASE("cancelling the search for an asset leaves no parts, and progress rise
     const std::size_t stop = calls / 2;
     calls = 0;
     options.progress = [&](Phase, double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
-    const SimplifiedAsset light = simplify(asset, options);
-    CHECK(light.report.stop == StopReason::cancelled);
-    CHECK(light.asset.parts.empty());
+    const SimplifiedAsset simplified = simplify(asset, options);
+    CHECK(simplified.report.stop == StopReason::cancelled);
+    CHECK(simplified.asset.parts.empty());
     CHECK(calls == stop);
 }

@@ -8,12 +8,12 @@ using namespace faqem::test;
 
 namespace {
 
-// 2 n^2 faces.
+// A wavy grid with 2 n^2 faces.
 Part bumpy(Index n) {
     return sheet(n, [](double x, double y) { return Vec3{x, y, std::sin(x * 0.9) * std::cos(y * 0.7)}; });
 }
 
-// With a triangle of side 1 at (x, 0, 0), without materials.
+// Adds a triangle with legs of length 1 at (x, 0, 0), and removes the materials.
 Part with_speck(Part part, double x) {
     const auto first = static_cast<Index>(part.positions.size());
     for (const Vec3& p : {Vec3{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}) part.positions.push_back(p);
@@ -24,23 +24,23 @@ Part with_speck(Part part, double x) {
 
 }  // namespace
 
-TEST_CASE("faces go where they show: none to speak of stay on a flat sheet") {
+TEST_CASE("the budget by error gives a flat part few faces") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20), Part{}};
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
     Options options;
     options.target = GENERATE(ratio(0.25), faces(400));
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.report.target_faces == 400);
-    CHECK(small.report.faces_out <= 400);
-    CHECK(small.report.stop == StopReason::reached_target);
-    CHECK(small.parts[0].mesh.triangles.size() > 385);
-    CHECK(small.parts[1].mesh.triangles.size() <= 12);
-    CHECK(small.parts[2].mesh.triangles.empty());
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.report.target_faces == 400);
+    CHECK(simplified.report.faces_out <= 400);
+    CHECK(simplified.report.stop == StopReason::reached_target);
+    CHECK(simplified.parts[0].mesh.triangles.size() > 385);
+    CHECK(simplified.parts[1].mesh.triangles.size() <= 12);
+    CHECK(simplified.parts[2].mesh.triangles.empty());
 }
 
-TEST_CASE("one sheet cut in two gets about what it got whole") {
-    // Cut across the rows: two thirds of the faces are in the first part.
+TEST_CASE("a surface split into two parts gets about as many faces as one part") {
+    // Split across the rows: two thirds of the faces are in the first part.
     Asset whole, cut;
     whole.parts = {bumpy(30)};
     cut.parts = {bumpy(30), bumpy(30)};
@@ -57,44 +57,45 @@ TEST_CASE("one sheet cut in two gets about what it got whole") {
     CHECK(std::abs(double(two.parts[0].mesh.triangles.size()) - double(low)) < 0.1 * 540);
 }
 
-TEST_CASE("a face count is shared out by size, and tiny parts keep their faces") {
+TEST_CASE("the budget per mesh is proportional to face counts and tiny parts keep their faces") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10), square(), Part{}};
     asset.parts[2].face_material.clear();
     Options options;
     options.target = faces(500);
     options.budget = Budget::mesh;
-    const SimplifiedParts small = simplify_parts(asset, options);
-    REQUIRE(small.parts.size() == 4);
-    // The square keeps its 2 faces; 498 for 800 and 200 faces are 398.4 and 99.6.
-    CHECK(small.parts[0].report.target_faces == 398);
-    CHECK(small.parts[1].report.target_faces == 100);
-    CHECK(small.parts[2].mesh.triangles.size() == 2);
-    CHECK(small.parts[3].mesh.triangles.empty());
-    CHECK(small.report.faces_in == 1002);
-    CHECK(small.report.target_faces == 500);
-    CHECK(small.report.faces_out <= 500);
-    CHECK(small.report.stop == StopReason::reached_target);
-    CHECK(small.report.collapses == small.parts[0].report.collapses + small.parts[1].report.collapses);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    REQUIRE(simplified.parts.size() == 4);
+    // The square keeps its 2 faces. In proportion to 800 and 200 faces, the other 498 are 398.4 and 99.6.
+    CHECK(simplified.parts[0].report.target_faces == 398);
+    CHECK(simplified.parts[1].report.target_faces == 100);
+    CHECK(simplified.parts[2].mesh.triangles.size() == 2);
+    CHECK(simplified.parts[3].mesh.triangles.empty());
+    CHECK(simplified.report.faces_in == 1002);
+    CHECK(simplified.report.target_faces == 500);
+    CHECK(simplified.report.faces_out <= 500);
+    CHECK(simplified.report.stop == StopReason::reached_target);
+    CHECK(simplified.report.collapses ==
+          simplified.parts[0].report.collapses + simplified.parts[1].report.collapses);
     for (std::size_t p = 0; p < 3; ++p) {
-        CHECK(small.parts[p].history.kept_faces.size() == small.parts[p].mesh.triangles.size());
+        CHECK(simplified.parts[p].history.kept_faces.size() == simplified.parts[p].mesh.triangles.size());
     }
 }
 
-TEST_CASE("a ratio holds for every part where the budget is per mesh") {
+TEST_CASE("with a budget per mesh the ratio applies to every part") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10)};
     Options options;
     options.target = ratio(0.25);
     options.budget = Budget::mesh;
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.parts[0].mesh.triangles.size() <= 200);
-    CHECK(small.parts[1].mesh.triangles.size() <= 50);
-    CHECK(small.report.target_faces == 250);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.parts[0].mesh.triangles.size() <= 200);
+    CHECK(simplified.parts[1].mesh.triangles.size() <= 50);
+    CHECK(simplified.report.target_faces == 250);
 }
 
-TEST_CASE("a part of many small components keeps them all") {
-    // Twelve labels in one part, beside a sheet of 800 faces that can pay for them.
+TEST_CASE("a part with many small components keeps all of them") {
+    // Twelve squares in one part, and another part of 800 faces, at the expense of which they are kept.
     Asset asset;
     asset.parts = {bumpy(20), Part{}};
     Part& labels = asset.parts[1];
@@ -106,21 +107,22 @@ TEST_CASE("a part of many small components keeps them all") {
     Options options;
     options.budget = Budget::mesh;
     options.target = GENERATE(ratio(0.1), faces(82));
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.parts[1].mesh.triangles.size() == 24);
-    CHECK(small.report.components_deleted == 0);
-    CHECK(small.report.target_faces == 82);
-    CHECK(small.report.faces_out <= 82);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.parts[1].mesh.triangles.size() == 24);
+    CHECK(simplified.report.components_deleted == 0);
+    CHECK(simplified.report.target_faces == 82);
+    CHECK(simplified.report.faces_out <= 82);
 
-    // No room for them: every part goes down in proportion, but keeps 4 faces.
+    // The target is too small to keep all components: it is distributed in proportion, with at least 4 faces
+    // each.
     options.target = faces(20);
     const SimplifiedParts smaller = simplify_parts(asset, options);
     CHECK(smaller.parts[0].report.target_faces == 16);
     CHECK(smaller.parts[1].report.target_faces == 4);
 }
 
-TEST_CASE("seams between vertices at one place do not make components") {
-    // The grid as a soup of single triangles: its share is its part of the whole, not all its faces.
+TEST_CASE("components are counted after welding equal positions") {
+    // The second grid is a triangle soup: its budget is in proportion to its faces, not all of them.
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10)};
     Part soup;
@@ -136,13 +138,13 @@ TEST_CASE("seams between vertices at one place do not make components") {
     CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
 
-TEST_CASE("the counts of the report are sums over the parts") {
+TEST_CASE("report counts are sums over the parts") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10)};
     Options options;
     options.preset = Preset::best;
-    const SimplifiedParts small = simplify_parts(asset, options);
-    const Report &sum = small.report, &a = small.parts[0].report, &b = small.parts[1].report;
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const Report &sum = simplified.report, &a = simplified.parts[0].report, &b = simplified.parts[1].report;
     CHECK(sum.faces_in == a.faces_in + b.faces_in);
     CHECK(sum.vertices_out == a.vertices_out + b.vertices_out);
     CHECK(sum.collapses == a.collapses + b.collapses);
@@ -151,8 +153,8 @@ TEST_CASE("the counts of the report are sums over the parts") {
     CHECK(sum.edges_flipped == a.edges_flipped + b.edges_flipped);
 }
 
-TEST_CASE("components are pruned from every part, which keeps its largest") {
-    // Two sheets of side 20 with a speck of side 1 each; the second one is ten times as large.
+TEST_CASE("small components are pruned from every part except its largest one") {
+    // Two grids of side 20, each with a small triangle of side 1; the second part is scaled by 10.
     const Part dusty = with_speck(bumpy(20), 30);
     Part speck;
     speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -164,16 +166,16 @@ TEST_CASE("components are pruned from every part, which keeps its largest") {
     options.bake.kind = Bake::none;
     options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
     options.budget = GENERATE(Budget::scene, Budget::mesh);
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.report.components_pruned == 1);
-    CHECK(small.report.faces_pruned == 1);
-    CHECK(small.parts[0].report.components_pruned == 1);
-    CHECK(small.parts[1].report.components_pruned == 0);
-    CHECK(small.parts[2].mesh.triangles.size() == 1);
-    CHECK(small.report.faces_out <= small.report.target_faces);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.report.components_pruned == 1);
+    CHECK(simplified.report.faces_pruned == 1);
+    CHECK(simplified.parts[0].report.components_pruned == 1);
+    CHECK(simplified.parts[1].report.components_pruned == 0);
+    CHECK(simplified.parts[2].mesh.triangles.size() == 1);
+    CHECK(simplified.report.faces_out <= simplified.report.target_faces);
 }
 
-TEST_CASE("an error does not count what is pruned from a scene") {
+TEST_CASE("pruned components of a scene are ignored by max_error") {
     const Part dusty = with_speck(bumpy(20), 60);
     Asset asset;
     asset.parts = {dusty};
@@ -181,15 +183,16 @@ TEST_CASE("an error does not count what is pruned from a scene") {
     options.bake.kind = Bake::none;
     options.max_error = model_units(0.2);
     options.topology.prune = model_units(2);
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.report.components_pruned == 1);
-    REQUIRE(small.report.max_error);
-    CHECK(small.report.max_error->within());
-    CHECK(small.report.faces_out < 600);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.report.components_pruned == 1);
+    REQUIRE(simplified.report.max_error);
+    CHECK(simplified.report.max_error->within());
+    CHECK(simplified.report.faces_out < 600);
 }
 
-TEST_CASE("kept borders between materials stay, also where they are baked into one page") {
-    // A flat sheet in two materials: its border costs no error, only the wish keeps it.
+TEST_CASE("kept group boundaries are preserved even if the materials share a page") {
+    // A flat grid with two materials: the boundary between them has no geometric error, so that only the
+    // option preserves it.
     Asset asset;
     asset.parts = {sheet(20, [](double x, double y) { return Vec3{x, y, 0}; })};
     asset.materials.resize(2);
@@ -199,8 +202,8 @@ TEST_CASE("kept borders between materials stay, also where they are baked into o
     options.target = ratio(0.05);
     options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
     options.topology.group_boundaries = GroupBoundaries::kept;
-    const SimplifiedParts small = simplify_parts(asset, options);
-    const SimplifyResult& part = small.parts[0];
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifyResult& part = simplified.parts[0];
     CHECK(part.report.faces_out <= 40);
     double area[2] = {0, 0};
     for (std::size_t f = 0; f < part.mesh.triangles.size(); ++f) {
@@ -217,24 +220,24 @@ TEST_CASE("kept borders between materials stay, also where they are baked into o
     }
     CHECK(area[0] == Approx(200));
     CHECK(area[1] == Approx(200));
-    // What is baked into one page is one group for the second stage.
+    // Materials that are baked into one page are one group for bake().
     const bool merged = options.bake.kind != Bake::keep && options.bake.kind != Bake::none;
     CHECK(part.mesh.face_groups.empty() == merged);
     CHECK(part.history.face_groups.empty() == merged);
 }
 
-TEST_CASE("cancelling the first stage leaves the second nothing to do") {
+TEST_CASE("cancelling the simplification returns an asset without parts") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20)};
     Options options;
     options.budget = GENERATE(Budget::scene, Budget::mesh);
     options.progress = [](Phase, double) { return Continue::cancel; };
-    const SimplifiedAsset light = simplify(asset, options);
-    CHECK(light.report.stop == StopReason::cancelled);
-    CHECK(light.asset.parts.empty());
+    const SimplifiedAsset simplified = simplify(asset, options);
+    CHECK(simplified.report.stop == StopReason::cancelled);
+    CHECK(simplified.asset.parts.empty());
 }
 
-TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
+TEST_CASE("progress over several parts never decreases") {
     Asset asset;
     asset.parts = {bumpy(60), bumpy(40)};
     Options options;
@@ -251,8 +254,8 @@ TEST_CASE("progress over several parts goes from 0 to 1 and never back") {
     CHECK(seen.back() > 0.75);
 }
 
-TEST_CASE("the result of the whole way shows the source's colours") {
-    // A bumpy sheet whose texture is a ramp over its plan: colour tells place.
+TEST_CASE("simplifying and baking preserves the colours of the source") {
+    // A wavy grid whose texture is a ramp in x and y, so that colours identify positions.
     Asset asset = textured_square(ramp(128));
     asset.parts = {bumpy(24)};
     Part& part = asset.parts[0];
@@ -266,11 +269,11 @@ TEST_CASE("the result of the whole way shows the source's colours") {
     options.bake.texture_size = 512;
     options.bake.mapping = GENERATE(Mapping::projection, Mapping::lineage);
     options.history = Recording::on;
-    const SimplifiedAsset light = simplify(asset, options);
-    REQUIRE(light.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
-    CHECK(light.histories.size() == 1);
-    const Pixels atlas = decode(light.asset.images[0]), painted = ramp(128);
-    const Part& out = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(asset, options);
+    REQUIRE(simplified.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
+    CHECK(simplified.histories.size() == 1);
+    const Pixels atlas = decode(simplified.asset.images[0]), painted = ramp(128);
+    const Part& out = simplified.asset.parts[0];
     double error = 0, count = 0;
     for (std::size_t f = 0; f < out.triangles.size(); ++f) {
         for (const Vec3& w : spread(8)) {
@@ -280,13 +283,13 @@ TEST_CASE("the result of the whole way shows the source's colours") {
             count += 2;
         }
     }
-    // The ramp spans 180 levels over 24 cells, 7.5 a cell. Lineage ends at vertices, about a cell away;
-    // projection hardly errs at all.
+    // The ramp spans 180 levels over 24 cells, 7.5 per cell. Mapping::lineage gives vertices, about one cell
+    // away; Mapping::projection has a much smaller error.
     CHECK(error / count < (options.bake.mapping == Mapping::projection ? 2.5 : 7.5));
-    CHECK(light.report.seconds.bake > 0);
+    CHECK(simplified.report.seconds.bake > 0);
 }
 
-TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
+TEST_CASE("invalid assets are rejected with the name of the part or material") {
     const Asset good = test::textured_square(test::ramp(4));
     REQUIRE_NOTHROW(simplify(good, {}));
     const auto refused = [&](const std::function<void(Asset&, Part&)>& spoil, const std::string& why) {
@@ -302,14 +305,17 @@ TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
     const std::string part = "part 'square': ";
     const float nan = std::nanf("");
     refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range");
-    refused([](Asset&, Part& p) { p.uvs[0].pop_back(); }, part + "uvs 0: 3 entries, there are 4 vertices");
-    refused([](Asset&, Part& p) { p.normals.resize(5); }, part + "normals: 5 entries, there are 4 vertices");
-    refused([](Asset&, Part& p) { p.joints.resize(1); }, part + "joints: 1 entries, there are 4 vertices");
+    refused([](Asset&, Part& p) { p.uvs[0].pop_back(); },
+            part + "uvs 0: has 3 entries, expected one for each of 4 vertices");
+    refused([](Asset&, Part& p) { p.normals.resize(5); },
+            part + "normals: has 5 entries, expected one for each of 4 vertices");
+    refused([](Asset&, Part& p) { p.joints.resize(1); },
+            part + "joints: has 1 entries, expected one for each of 4 vertices");
     refused(
         [](Asset&, Part& p) {
             p.morph_targets.push_back({{{0, 0, 0}}, {}});
         },
-        part + "positions of a morph target: 1 entries, there are 4 vertices");
+        part + "positions of a morph target: has 1 entries, expected one for each of 4 vertices");
     refused([&](Asset&, Part& p) { p.uvs[0][2][1] = nan; }, part + "uvs 0, vertex 2: is not finite");
     refused([&](Asset&, Part& p) { p.positions[3][0] = nan; }, part + "positions, vertex 3: is not finite");
     refused([](Asset&, Part& p) { p.face_material.pop_back(); },
@@ -322,8 +328,9 @@ TEST_CASE("an asset whose arrays do not fit is refused with the part named") {
             "material 'paint': a factor is not finite");
 }
 
-// A face of one material, the same of another, the same of the first again, and one back to back.
-TEST_CASE("faces at one place with different materials both stay, though they share a page") {
+// A face, and copies of it: with another material, with the same material, with reversed winding, and with a
+// material that has a page of its own.
+TEST_CASE("coincident faces with different materials are kept although they share a page") {
     Asset asset;
     asset.materials.resize(3);
     asset.materials[2].double_sided = true;  // a page of its own
@@ -334,16 +341,16 @@ TEST_CASE("faces at one place with different materials both stay, though they sh
     asset.parts = {part};
     Options options;
     options.target = ratio(1);
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
-    CHECK(small.report.faces_dropped == 1);
-    // The second stage may go from one to the other.
-    CHECK(small.parts[0].history.face_groups == std::vector<Index>{0, 0, 0, 0, 1});
-    CHECK(small.parts[0].mesh.face_groups == std::vector<Index>{0, 0, 0, 1});
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
+    CHECK(simplified.report.faces_dropped == 1);
+    // They are one group for bake().
+    CHECK(simplified.parts[0].history.face_groups == std::vector<Index>{0, 0, 0, 0, 1});
+    CHECK(simplified.parts[0].mesh.face_groups == std::vector<Index>{0, 0, 0, 1});
 }
 
-// One material, vertices of their own, red outside and blue inside.
-TEST_CASE("of two layers at one place that look opposite ways both stay, however they are wound") {
+// Two coincident spheres of one material: red with outward normals and blue with inward normals.
+TEST_CASE("coincident layers with opposite normals are kept with any winding") {
     Asset asset = textured_square(paint(64, 64, [](std::uint32_t x, std::uint32_t) {
         return x < 32 ? Rgba{255, 0, 0, 255} : Rgba{0, 0, 255, 255};
     }));
@@ -369,11 +376,11 @@ TEST_CASE("of two layers at one place that look opposite ways both stay, however
     asset.parts = {part};
     Options options;
     options.target = ratio(0.25);
-    const SimplifiedAsset light = simplify(asset, options);
-    CHECK(light.report.faces_dropped == 0);
-    const Part& out = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(asset, options);
+    CHECK(simplified.report.faces_dropped == 0);
+    const Part& out = simplified.asset.parts[0];
     CHECK(out.triangles.size() <= part.triangles.size() / 4);
-    const Pixels atlas = decode(light.asset.images[0]);
+    const Pixels atlas = decode(simplified.asset.images[0]);
     std::size_t outside = 0;
     for (std::size_t f = 0; f < out.triangles.size(); ++f) {
         const Vec3& p = out.positions[out.triangles[f][0]];

@@ -27,7 +27,7 @@ Part part_of(const TriangleMesh& mesh, Index material = no_index) {
     return part;
 }
 
-// A sphere in a sphere, twice as large, of a material that may be changed.
+// A mesh inside a sphere of radius 2. The sphere has a material.
 Asset shell_around(const TriangleMesh& inner, int level = 2) {
     Asset asset;
     asset.materials.resize(1);
@@ -40,7 +40,7 @@ float most(const std::vector<float>& weights) { return *std::max_element(weights
 
 }  // namespace
 
-TEST_CASE("all of a convex solid is seen, turned out or in, coarse or fine") {
+TEST_CASE("a convex solid is fully visible at any winding and resolution") {
     const int level = GENERATE(0, 2, 6);
     Asset asset;
     asset.parts = {part_of(GENERATE_COPY(icosphere(level), inside_out(icosphere(level))))};
@@ -51,13 +51,13 @@ TEST_CASE("all of a convex solid is seen, turned out or in, coarse or fine") {
     CHECK(least(seen.weights[0]) == 1);
 }
 
-TEST_CASE("a sheet is seen, from both sides no more than from one") {
+TEST_CASE("an open surface that is visible from both sides has visibility 1") {
     Asset asset;
     asset.parts = {part_of(test::grid(4))};
     CHECK(vertex_visibility(asset).weights[0] == std::vector<float>(25, 1));
 }
 
-TEST_CASE("what is in a closed shell is hidden, and the shell is not") {
+TEST_CASE("surface inside a closed shell is hidden and the shell is visible") {
     const Asset asset = shell_around(icosphere(GENERATE(1, 5)), GENERATE(2, 5));
     const VertexVisibility seen = vertex_visibility(asset);
     CHECK(seen.hidden_vertices == asset.parts[0].positions.size());
@@ -65,17 +65,17 @@ TEST_CASE("what is in a closed shell is hidden, and the shell is not") {
     CHECK(least(seen.weights[1]) == 1);
 }
 
-TEST_CASE("a shell that can be looked through hides nothing") {
+TEST_CASE("a transparent shell does not occlude") {
     Asset asset = shell_around(icosphere(2));
     Material& material = asset.materials[0];
-    SECTION("blended") { material.alpha_mode = AlphaMode::blend; }
-    SECTION("with holes in its texture") { material.alpha_mode = AlphaMode::mask; }
-    SECTION("of glass") { material.extensions = {"KHR_materials_ior", "KHR_materials_transmission"}; }
+    SECTION("alpha blending") { material.alpha_mode = AlphaMode::blend; }
+    SECTION("alpha mask") { material.alpha_mode = AlphaMode::mask; }
+    SECTION("transmission") { material.extensions = {"KHR_materials_ior", "KHR_materials_transmission"}; }
     CHECK(vertex_visibility(asset).hidden_vertices == 0);
     CHECK(least(vertex_visibility(asset).weights[0]) == 1);
 }
 
-TEST_CASE("a shell that shows its back only hides nothing, unless it has two sides") {
+TEST_CASE("back faces occlude only if their material is double-sided") {
     Asset asset = shell_around(icosphere(2));
     asset.parts[1] = part_of(scaled(inside_out(icosphere(2)), 2), 0);
     CHECK(vertex_visibility(asset).hidden_vertices == 0);
@@ -83,9 +83,9 @@ TEST_CASE("a shell that shows its back only hides nothing, unless it has two sid
     CHECK(vertex_visibility(asset).hidden_vertices == asset.parts[0].positions.size());
 }
 
-TEST_CASE("of the floor of a well, as much is seen as its rim leaves open") {
-    // The cosine-weighted share of a disc of radius 1 at height h is 1 / (1 + h^2). The floor is a cross of
-    // small faces in its middle; from below it is hidden by a lid.
+TEST_CASE("visibility inside an open cylinder agrees with the exact value") {
+    // The cosine-weighted visible fraction through a disc of radius 1 at height h is 1 / (1 + h^2). It is
+    // measured on a small square in the centre of the floor, which is occluded from below.
     const double height = GENERATE(0.5, 1.0, 2.0, 4.0);
     Asset asset;
     asset.materials.resize(1);
@@ -97,8 +97,8 @@ TEST_CASE("of the floor of a well, as much is seen as its rim leaves open") {
     for (const float share : seen.weights[0]) CHECK(share == Approx(1 / (1 + height * height)).margin(0.12));
 }
 
-TEST_CASE("both faces of a thin plate on a block are told apart") {
-    // A plate of 1 x 1 x 0.001 lies on a block of 4 x 4 x 2: only its lower corners are hidden.
+TEST_CASE("the free side of a thin plate on a block is fully visible") {
+    // A plate of 1 x 1 x 0.005 on a block of 4 x 4 x 2: only the lower corners of the plate are hidden.
     TriangleMesh plate = test::cube(), block = test::cube();
     const auto stretched = [](TriangleMesh mesh, const Vec3& low, const Vec3& size) {
         Vec3 least = mesh.positions[0], most = least;
@@ -122,7 +122,7 @@ TEST_CASE("both faces of a thin plate on a block are told apart") {
     CHECK(least(seen.weights[1]) == 1);
 }
 
-TEST_CASE("vertices without faces, faces without area and empty parts are left alone") {
+TEST_CASE("unreferenced vertices and vertices of degenerate faces have weight 1") {
     Asset asset;
     asset.parts = {part_of(test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {{0, 1, 2}})), Part{}};
     const VertexVisibility seen = vertex_visibility(asset);
@@ -132,7 +132,7 @@ TEST_CASE("vertices without faces, faces without area and empty parts are left a
     CHECK(vertex_visibility(Asset{}).weights.empty());
 }
 
-TEST_CASE("what is seen does not depend on the number of threads") {
+TEST_CASE("visibility does not depend on the number of threads") {
     const Asset asset = shell_around(test::shaken(scaled(icosphere(3), 1.95), 0.2, 5), 4);
     const VertexVisibility one = vertex_visibility(asset, {1}), four = vertex_visibility(asset, {4});
     CHECK(one.weights == four.weights);
@@ -143,7 +143,7 @@ TEST_CASE("what is seen does not depend on the number of threads") {
     CHECK_FALSE(std::all_of(inner.begin(), inner.end(), is_hidden));
 }
 
-TEST_CASE("where hidden surfaces weigh less, faces go to what is seen") {
+TEST_CASE("weighted visibility moves faces from hidden to visible surface") {
     const Asset asset = shell_around(test::shaken(icosphere(4), 0.02, 3), 4);
     Options options;
     options.target = ratio(0.1);
@@ -154,33 +154,33 @@ TEST_CASE("where hidden surfaces weigh less, faces go to what is seen") {
     CHECK(seen.report.vertices_hidden == asset.parts[0].positions.size());
     CHECK(seen.report.faces_out <= seen.report.target_faces);
     CHECK(seen.report.target_faces == all.report.target_faces);
-    const auto faces = [](const SimplifiedParts& small, std::size_t p) {
-        return small.parts[p].mesh.triangles.size();
+    const auto faces = [](const SimplifiedParts& simplified, std::size_t p) {
+        return simplified.parts[p].mesh.triangles.size();
     };
     CHECK(2 * faces(seen, 0) < faces(all, 0));
     CHECK(faces(seen, 1) > faces(all, 1));
     CHECK(seen.report.warnings.empty());
 }
 
-TEST_CASE("a scene that moves is looked at as it stands, with a warning") {
+TEST_CASE("visibility of a dynamic scene causes a warning") {
     Asset asset = shell_around(icosphere(1));
     CHECK(detail::visibility_warning(asset).empty());
     asset.parts[0].morph_targets.resize(1);
     asset.parts[0].morph_targets[0].positions.resize(asset.parts[0].positions.size());
     Options options;
     options.visibility = Visibility::weighted;
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(std::count(small.report.warnings.begin(), small.report.warnings.end(),
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(std::count(simplified.report.warnings.begin(), simplified.report.warnings.end(),
                      detail::visibility_warning(asset)) == 1);
 }
 
-TEST_CASE("looking can be cancelled") {
+TEST_CASE("the visibility computation can be cancelled") {
     const Asset asset = shell_around(icosphere(5), 5);
     Options options;
     options.visibility = Visibility::weighted;
     int asked = 0;
     options.progress = [&](Phase, double) { return ++asked == 3 ? Continue::cancel : Continue::yes; };
-    const SimplifiedParts small = simplify_parts(asset, options);
-    CHECK(small.report.stop == StopReason::cancelled);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.report.stop == StopReason::cancelled);
     CHECK(asked == 3);
 }

@@ -1,4 +1,4 @@
-// Normals of the result's own faces, encodings, and what is told of a page.
+// Normals of the simplified mesh, image formats, and reports of pages.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <sstream>
@@ -13,7 +13,7 @@ namespace {
 
 const Vec3f up = {0, 0, 1};
 
-// A roof: two squares that meet at an angle of 60 degrees between their normals, with wrong normals.
+// Two squares with an angle of 60 degrees between their face normals, and with wrong vertex normals.
 Asset roof() {
     Asset asset;
     asset.parts.resize(1);
@@ -40,13 +40,13 @@ Options encoded_as(ImageFormat format) {
     return options;
 }
 
-const Image& base_image(const SimplifiedAsset& light) {
-    return light.asset.images[light.asset.materials[0].base_color_texture.image];
+const Image& base_image(const SimplifiedAsset& simplified) {
+    return simplified.asset.images[simplified.asset.materials[0].base_color_texture.image];
 }
 
 }  // namespace
 
-TEST_CASE("smooth normals are those of the small mesh, averaged up to the angle") {
+TEST_CASE("smooth normals are averages of simplified face normals up to the crease angle") {
     const Part sharp = normals_of(Normals::smooth, 50), smooth = normals_of(Normals::smooth, 70);
     CHECK(sharp.positions.size() == 8);
     REQUIRE(smooth.positions.size() == 6);
@@ -56,7 +56,7 @@ TEST_CASE("smooth normals are those of the small mesh, averaged up to the angle"
     }
 }
 
-TEST_CASE("flat normals are those of the faces, at any angle") {
+TEST_CASE("flat normals are the face normals at any crease angle") {
     const Part part = normals_of(Normals::flat, 180);
     CHECK(part.positions.size() == 8);
     for (const Vec3f& n : part.normals) {
@@ -65,7 +65,7 @@ TEST_CASE("flat normals are those of the faces, at any angle") {
     }
 }
 
-TEST_CASE("normals can be left out where nothing is baked, and no vertex is split then") {
+TEST_CASE("normals can be omitted without baking and then no vertex is split") {
     const Part part = normals_of(Normals::none, 40);
     CHECK(part.normals.empty());
     CHECK(part.positions.size() == 6);
@@ -74,7 +74,7 @@ TEST_CASE("normals can be left out where nothing is baked, and no vertex is spli
     CHECK_THROWS_AS(bake(roof(), unchanged(roof()), options), OptionError);
 }
 
-TEST_CASE("baked images are PNG, JPEG, or as what they are baked from") {
+TEST_CASE("baked images are PNG or JPEG or have the format of the source") {
     Asset asset = textured_square(ramp(64));
     CHECK(base_image(bake(asset, unchanged(asset), {})).mime_type == "image/png");
     const SimplifiedAsset jpeg = bake(asset, unchanged(asset), encoded_as(ImageFormat::jpeg));
@@ -89,13 +89,13 @@ TEST_CASE("baked images are PNG, JPEG, or as what they are baked from") {
           "image/jpeg");
 }
 
-TEST_CASE("images with alpha stay PNG") {
+TEST_CASE("images with alpha are always PNG") {
     Asset asset = textured_square(ramp(16));
     asset.materials[0].alpha_mode = AlphaMode::blend;
     CHECK(base_image(bake(asset, unchanged(asset), encoded_as(ImageFormat::jpeg))).mime_type == "image/png");
 }
 
-TEST_CASE("a lower JPEG quality makes fewer bytes") {
+TEST_CASE("a lower JPEG quality gives smaller images") {
     const Asset asset = textured_square(paint(64, 64, [](std::uint32_t x, std::uint32_t y) {
         return Rgba{static_cast<std::uint8_t>(x * 37 + y * 91), static_cast<std::uint8_t>(x * y), 9, 255};
     }));
@@ -106,7 +106,7 @@ TEST_CASE("a lower JPEG quality makes fewer bytes") {
           base_image(bake(asset, unchanged(asset), high)).encoded.size());
 }
 
-TEST_CASE("a page has as many texels per length as are asked for, beside those of the source") {
+TEST_CASE("texel_density is relative to the texel density of the source") {
     const Asset asset = textured_square(ramp(128));
     for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
         Options options;
@@ -117,18 +117,18 @@ TEST_CASE("a page has as many texels per length as are asked for, beside those o
     }
 }
 
-TEST_CASE("a page much coarser than the source is told of, unless that was asked for") {
-    // Tiled ten times each way.
+TEST_CASE("a page much coarser than the source causes a warning unless texel_density requests it") {
+    // The texture is repeated 10 x 10 times.
     Asset asset = textured_square(ramp(128));
     asset.materials[0].base_color_texture.wrap_u = asset.materials[0].base_color_texture.wrap_v =
         Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {10 * uv[0], 10 * uv[1]};
     Options options;
     options.bake.texture_size = 128;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    REQUIRE(light.report.warnings.size() == 1);
-    CHECK(light.report.warnings[0] ==
-          "atlas of material 'paint': one texel for 11 x 11 of the source's; texture_size is 128");
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    REQUIRE(simplified.report.warnings.size() == 1);
+    CHECK(simplified.report.warnings[0] ==
+          "atlas of material 'paint': one texel for 11 x 11 texels of the source; texture_size is 128");
     options.bake.texel_density = 0.125;
     CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
     options.bake.texture_size = 2048;
@@ -136,24 +136,24 @@ TEST_CASE("a page much coarser than the source is told of, unless that was asked
     CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
 }
 
-TEST_CASE("where nothing is asked for, small pages are finer than the source, and large ones are not") {
-    const auto density = [](std::uint32_t side, std::optional<double> asked) {
+TEST_CASE("without texel_density only small pages are finer than the source") {
+    const auto density = [](std::uint32_t side, std::optional<double> requested) {
         const Asset asset = textured_square(ramp(side));
         Options options;
-        options.bake.texel_density = asked;
+        options.bake.texel_density = requested;
         return bake(asset, unchanged(asset), options).report.pages[0].density;
     };
     CHECK(density(256, {}) > 1.3 * density(256, 1.0));
     CHECK(density(700, {}) == density(700, 1.0));
 }
 
-TEST_CASE("the report tells how full and how fine a page is, and how its samples were found") {
+TEST_CASE("the report gives fill, texel density and sample counts of a page") {
     const Asset asset = textured_square(ramp(128));
-    const SimplifiedAsset light = bake(asset, unchanged(asset), {});
-    REQUIRE(light.report.pages.size() == 1);
-    const BakedPage& page = light.report.pages[0];
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    REQUIRE(simplified.report.pages.size() == 1);
+    const BakedPage& page = simplified.report.pages[0];
     CHECK(page.material == "paint");
-    CHECK(page.width == decode(base_image(light)).width);
+    CHECK(page.width == decode(base_image(simplified)).width);
     CHECK(page.fill > 0.5);
     CHECK(page.fill <= 1);
     CHECK(page.density > 1.3);
@@ -168,14 +168,14 @@ TEST_CASE("the report tells how full and how fine a page is, and how its samples
     CHECK(double(other.uncertain_texels) == Approx(page.fill * page.width * page.height));
 }
 
-TEST_CASE("the correspondence names the place of each texel on the original") {
+TEST_CASE("the correspondence gives the source point of every texel") {
     const Asset asset = textured_square(ramp(64));
     Options options;
     options.bake.correspondence = Recording::on;
-    const SimplifiedAsset light = bake(asset, unchanged(asset), options);
-    REQUIRE(light.correspondence.size() == 1);
-    const PageOrigins& page = light.correspondence[0];
-    const Pixels atlas = decode(base_image(light));
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    REQUIRE(simplified.correspondence.size() == 1);
+    const PageOrigins& page = simplified.correspondence[0];
+    const Pixels atlas = decode(base_image(simplified));
     REQUIRE(page.texels.size() == std::size_t{atlas.width} * atlas.height);
     CHECK(page.material == 0);
     std::size_t shown = 0;
@@ -186,10 +186,10 @@ TEST_CASE("the correspondence names the place of each texel on the original") {
         const auto there = look(asset.parts[0], ramp(64), texel.point.face, texel.point.barycentric);
         CHECK(atlas.rgba[4 * i] == Approx(there[0]).margin(4));
     }
-    CHECK(double(shown) == Approx(light.report.pages[0].fill * double(page.texels.size())));
+    CHECK(double(shown) == Approx(simplified.report.pages[0].fill * double(page.texels.size())));
 
     std::ostringstream out;
-    write(light.correspondence, out);
+    write(simplified.correspondence, out);
     const std::string bytes = out.str();
     REQUIRE(bytes.size() == 8 + 4 + 12 + 20 * page.texels.size());
     CHECK(bytes.substr(0, 8) == "FAQEMC01");

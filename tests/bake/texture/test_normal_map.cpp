@@ -17,12 +17,12 @@ Options with(NormalMap choice, double share = 1) {
     return options;
 }
 
-const Pixels normal_image(const SimplifiedAsset& light) {
-    return decode(light.asset.images[light.asset.materials[0].normal_texture.image]);
+const Pixels normal_image(const SimplifiedAsset& simplified) {
+    return decode(simplified.asset.images[simplified.asset.materials[0].normal_texture.image]);
 }
 
-// A square whose normal map leans everywhere by the same amount: (0.6, 0.48, 0.64) in tangent space.
-Asset leaning_square() {
+// A square with a constant normal map: (0.6, 0.48, 0.64) in tangent space.
+Asset normal_mapped_square() {
     Asset asset = textured_square(ramp(16));
     asset.parts[0].normals.assign(4, {0, 0, 1});
     asset.materials[0].normal_texture.image =
@@ -32,11 +32,11 @@ Asset leaning_square() {
     return asset;
 }
 
-void check_lit(const SimplifiedAsset& light, const Direction& expected) {
-    REQUIRE(light.asset.materials[0].normal_texture);
-    CHECK(light.asset.materials[0].normal_scale == 1);
-    const Pixels map = normal_image(light);
-    const Part& part = light.asset.parts[0];
+void check_lit(const SimplifiedAsset& simplified, const Direction& expected) {
+    REQUIRE(simplified.asset.materials[0].normal_texture);
+    CHECK(simplified.asset.materials[0].normal_scale == 1);
+    const Pixels map = normal_image(simplified);
+    const Part& part = simplified.asset.parts[0];
     REQUIRE(part.tangents.size() == part.positions.size());
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (const Vec3& w : spread(6)) {
@@ -45,7 +45,7 @@ void check_lit(const SimplifiedAsset& light, const Direction& expected) {
     }
 }
 
-// Waves that a twentieth of the faces cannot follow.
+// A wavy surface that 2% of its faces cannot approximate well.
 Part waves(bool normals) {
     Part part = sheet(64, [](double x, double y) { return Vec3{x, y, 0.4 * std::sin(x) * std::cos(y)}; });
     for (const Vec3& p : part.positions) {
@@ -58,42 +58,42 @@ Part waves(bool normals) {
 
 }  // namespace
 
-TEST_CASE("a normal map of the source lights the result as it lit the source") {
-    const Asset asset = leaning_square();
+TEST_CASE("baking preserves the shading of a normal map") {
+    const Asset asset = normal_mapped_square();
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.6, 0.48, 0.64});
 }
 
-TEST_CASE("mirrored UVs lean the other way") {
-    Asset asset = leaning_square();
+TEST_CASE("normal maps with mirrored UVs are baked with mirrored tangents") {
+    Asset asset = normal_mapped_square();
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv[0] = 1 - uv[0];
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {-0.6, 0.48, 0.64});
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {1 - uv[0], 1 - uv[1]};
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.6, -0.48, 0.64});
 }
 
-TEST_CASE("the scale of a normal map and a turned texture count") {
-    Asset asset = leaning_square();
+TEST_CASE("scale and texture rotation of a normal map are applied") {
+    Asset asset = normal_mapped_square();
     asset.materials[0].normal_scale = 0.5f;
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.3, 0.24, 0.64});
-    // A quarter turn: u' = -v or so, whose direction on the square is up or down.
+    // With a rotation by 90 degrees, the direction of u on the square is along y.
     asset.materials[0].normal_scale = 1;
     asset.materials[0].normal_texture.rotation = float(std::numbers::pi / 2);
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.48, -0.6, 0.64});
 }
 
-TEST_CASE("tangents of the file come before those of the UVs") {
-    Asset asset = leaning_square();
+TEST_CASE("tangents of the source take precedence over computed ones") {
+    Asset asset = normal_mapped_square();
     asset.parts[0].tangents.assign(4, {0, 1, 0, -1});
     // The bitangent is cross(z, y) * -1 = x.
     check_lit(bake(asset, unchanged(asset), with(NormalMap::automatic)), {0.48, 0.6, 0.64});
 }
 
-TEST_CASE("a normal map from geometry shows what the faces lost") {
+TEST_CASE("a normal map from geometry restores the shading of removed faces") {
     Asset asset;
     asset.parts = {waves(true)};
-    const SimplifiedAsset light = simplify(asset, with(NormalMap::on, 0.02));
-    const Pixels map = normal_image(light);
-    const Part& part = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(asset, with(NormalMap::on, 0.02));
+    const Pixels map = normal_image(simplified);
+    const Part& part = simplified.asset.parts[0];
     double plain = 0, mapped = 0;
     std::size_t count = 0;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -110,7 +110,7 @@ TEST_CASE("a normal map from geometry shows what the faces lost") {
     CHECK(mapped < 0.35 * plain);
 }
 
-TEST_CASE("auto makes a normal map where normals differ and none where they agree") {
+TEST_CASE("automatic normal maps are made only if normals deviate") {
     Asset asset;
     asset.parts = {waves(false)};
     CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
@@ -120,8 +120,8 @@ TEST_CASE("auto makes a normal map where normals differ and none where they agre
     CHECK(flat.asset.parts[0].tangents.empty());
 }
 
-TEST_CASE("off leaves normal maps out and says so, unlit materials have none") {
-    Asset asset = leaning_square();
+TEST_CASE("normal maps are omitted for unlit materials and with a warning if they are off") {
+    Asset asset = normal_mapped_square();
     const SimplifiedAsset off = bake(asset, unchanged(asset), with(NormalMap::off));
     CHECK_FALSE(off.asset.materials[0].normal_texture);
     CHECK(off.asset.parts[0].tangents.empty());
@@ -131,25 +131,25 @@ TEST_CASE("off leaves normal maps out and says so, unlit materials have none") {
     CHECK_FALSE(bake(asset, unchanged(asset), with(NormalMap::on)).asset.materials[0].normal_texture);
 }
 
-TEST_CASE("faces wound the wrong way are lit from the side that is seen") {
-    Asset asset = leaning_square();
+TEST_CASE("faces with reversed winding are shaded on the visible side") {
+    Asset asset = normal_mapped_square();
     asset.parts[0].normals.clear();
-    SimplifiedParts small = unchanged(asset);
+    SimplifiedParts parts = unchanged(asset);
     for (Triangle& t : asset.parts[0].triangles) std::swap(t[0], t[1]);
-    // The history is that of the square, whose normals look up; the source's faces look down now.
-    const SimplifiedAsset light = bake(asset, small, with(NormalMap::on));
-    const Pixels map = normal_image(light);
+    // The history has the original winding, with normals up. The faces of the source have normals down now.
+    const SimplifiedAsset simplified = bake(asset, parts, with(NormalMap::on));
+    const Pixels map = normal_image(simplified);
     for (std::size_t f = 0; f < 2; ++f) {
-        CHECK(lit_normal(light.asset.parts[0], map, f, {0.3, 0.3, 0.4})[2] > 0.5);
+        CHECK(lit_normal(simplified.asset.parts[0], map, f, {0.3, 0.3, 0.4})[2] > 0.5);
     }
 }
 
-TEST_CASE("kept UVs get tangents where there is a normal map") {
-    Asset asset = leaning_square();
+TEST_CASE("kept UVs get tangents if there is a normal map") {
+    Asset asset = normal_mapped_square();
     Options options = with(NormalMap::automatic);
     options.bake.kind = Bake::keep;
-    const SimplifiedAsset light = simplify(asset, options);
-    const Part& part = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(asset, options);
+    const Part& part = simplified.asset.parts[0];
     REQUIRE(part.tangents.size() == part.positions.size());
     for (const Vec4f& t : part.tangents) CHECK(t == Vec4f{1, 0, 0, 1});
     asset.materials[0].normal_texture = {};

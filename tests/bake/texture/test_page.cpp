@@ -7,7 +7,7 @@ using namespace faqem::test;
 
 namespace {
 
-// A ball under a smooth ramp, lit from one side as it were: u and v are x and y.
+// A sphere with a smooth ramp as texture, projected along z: u and v are linear in x and y.
 Asset painted_ball() {
     Asset asset = textured_square(ramp(64));
     const TriangleMesh ball = icosphere(3);
@@ -44,10 +44,10 @@ Pixels half(const Pixels& pixels) {
     });
 }
 
-// The largest difference of a channel, corners and edges included.
-double worst_colour(const Asset& source, const Pixels& before, const Asset& light, const Pixels& after) {
+// The largest difference of a channel over all faces, including their corners and edges.
+double worst_colour(const Asset& source, const Pixels& before, const Asset& simplified, const Pixels& after) {
     double worst = 0;
-    const Part &a = source.parts[0], &b = light.parts[0];
+    const Part &a = source.parts[0], &b = simplified.parts[0];
     for (std::size_t f = 0; f < a.triangles.size(); ++f) {
         for (const Vec3& w : spread(4)) {
             const auto x = look(a, before, f, w), y = look(b, after, f, w);
@@ -59,37 +59,37 @@ double worst_colour(const Asset& source, const Pixels& before, const Asset& ligh
 
 }  // namespace
 
-TEST_CASE("charts show the source's colours, at their seams and on coarser mip levels too") {
+TEST_CASE("charts have the colours of the source at seams and on coarser mip levels") {
     const Asset source = painted_ball();
-    const SimplifiedAsset light = bake(source, unchanged(source), of_kind(Bake::atlas, 256));
-    REQUIRE(light.asset.images.size() == 1);
-    Pixels after = decode(light.asset.images[0]);
+    const SimplifiedAsset simplified = bake(source, unchanged(source), of_kind(Bake::atlas, 256));
+    REQUIRE(simplified.asset.images.size() == 1);
+    Pixels after = decode(simplified.asset.images[0]);
     const Pixels before = decode(source.images[0]);
-    CHECK(worst_colour(source, before, light.asset, after) < 4);
+    CHECK(worst_colour(source, before, simplified.asset, after) < 4);
     for (int level = 1; level < 3; ++level) {
         after = half(after);
-        CHECK(worst_colour(source, before, light.asset, after) < 4 + 4 * level);
+        CHECK(worst_colour(source, before, simplified.asset, after) < 4 + 4 * level);
     }
 }
 
-TEST_CASE("however the charts are cut, no texel of another place is read at their seams") {
+TEST_CASE("no unrelated texels are read at seams at any texel density") {
     const Asset source = painted_ball();
     const Pixels before = decode(source.images[0]);
     const double density = GENERATE(0.82, 1.0, 1.11, 1.416, 1.46, 2.01, 2.13, 3.96);
     Options options = of_kind(Bake::atlas, 512);
     options.bake.texel_density = density;
-    const SimplifiedAsset light = bake(source, unchanged(source), options);
-    // The ramp rises by 180 over 64 source texels: 2.9 per texel.
-    const double texels = worst_colour(source, before, light.asset, decode(light.asset.images[0])) /
-                          (180.0 / 63) * light.report.pages[0].density;
+    const SimplifiedAsset simplified = bake(source, unchanged(source), options);
+    // The ramp increases by 180 over 64 source texels: 2.9 per texel.
+    const double texels = worst_colour(source, before, simplified.asset, decode(simplified.asset.images[0])) /
+                          (180.0 / 63) * simplified.report.pages[0].density;
     CHECK(texels < 1.6);
 }
 
-TEST_CASE("charts split few vertices, and the report says what the page is like") {
+TEST_CASE("charts split few vertices and the report describes the page") {
     const Asset source = painted_ball();
-    const SimplifiedParts small = unchanged(source);
-    const SimplifiedAsset charts = bake(source, small, of_kind(Bake::atlas, 256));
-    const SimplifiedAsset triangles = bake(source, small, of_kind(Bake::per_triangle, 256));
+    const SimplifiedParts simplified = unchanged(source);
+    const SimplifiedAsset charts = bake(source, simplified, of_kind(Bake::atlas, 256));
+    const SimplifiedAsset triangles = bake(source, simplified, of_kind(Bake::per_triangle, 256));
     CHECK(charts.asset.parts[0].positions.size() < 1.5 * double(source.parts[0].positions.size()));
     CHECK(triangles.asset.parts[0].positions.size() > 2 * source.parts[0].positions.size());
     REQUIRE(charts.report.pages.size() == 1);
@@ -105,8 +105,8 @@ TEST_CASE("charts split few vertices, and the report says what the page is like"
     CHECK(charts.report.warnings.empty());
 }
 
-// A slab 1.5 texels thick, on every side of it another colour.
-TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
+// A slab 1.5 texels thick, with a different colour on every side.
+TEST_CASE("colours do not bleed across creases into a strip one texel wide") {
     const std::array<Rgba, 6> colors = {{{220, 0, 0, 255},
                                          {0, 0, 220, 255},
                                          {120, 120, 120, 255},
@@ -125,7 +125,7 @@ TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
         const auto first = static_cast<Index>(part.positions.size());
         for (const int i : sides[s]) {
             part.positions.push_back({double(i & 1), double(i >> 1 & 1), thick * (i >> 2)});
-            // As dense everywhere: 48 texels from end to end, clear of the other colours.
+            // Equal density everywhere: 48 texels per unit of length, at a distance from the other colours.
             const double along = s < 2 ? double(i >> 1 & 1) : thick * (i >> 2);
             const double across = s < 4 ? double(i & 1) : double(i >> 1 & 1);
             part.uvs[0].push_back({static_cast<float>((64 * double(s) + 8 + 48 * along) / 384),
@@ -136,11 +136,12 @@ TEST_CASE("colours do not run over creases, even into a strip a texel wide") {
     }
     part.face_material.assign(12, 0);
     const auto kind = GENERATE(Bake::atlas, Bake::per_triangle);
-    const SimplifiedAsset light = bake(source, unchanged_welded(source), of_kind(kind, 128));
-    CHECK(worst_colour(source, decode(source.images[0]), light.asset, decode(light.asset.images.at(0))) < 4);
+    const SimplifiedAsset simplified = bake(source, unchanged_welded(source), of_kind(kind, 128));
+    CHECK(worst_colour(source, decode(source.images[0]), simplified.asset,
+                       decode(simplified.asset.images.at(0))) < 4);
 }
 
-TEST_CASE("auto takes charts, and triangles where charts are hardly more than that") {
+TEST_CASE("automatic uses charts unless they have too few faces") {
     Asset source = painted_ball();
     CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
           Bake::atlas);
@@ -160,7 +161,7 @@ TEST_CASE("auto takes charts, and triangles where charts are hardly more than th
           Bake::per_triangle);
 }
 
-TEST_CASE("a page of charts has the same bytes with any number of threads") {
+TEST_CASE("a page of charts does not depend on the number of threads") {
     const Asset source = painted_ball();
     Options options = of_kind(Bake::atlas, 128);
     options.target = ratio(0.5);
@@ -172,15 +173,15 @@ TEST_CASE("a page of charts has the same bytes with any number of threads") {
     CHECK(one.asset.parts[0].uvs == three.asset.parts[0].uvs);
 }
 
-TEST_CASE("no texel that a triangle covers is left unmapped, and each comes from near by") {
+TEST_CASE("every covered texel is mapped to a close point of the source") {
     const Asset source = painted_ball();
     Options options = of_kind(GENERATE(Bake::atlas, Bake::per_triangle), GENERATE(64u, 256u));
     options.target = ratio(GENERATE(1.0, 0.1, 0.02));
     options.bake.correspondence = Recording::on;
-    const SimplifiedAsset light = simplify(source, options);
-    REQUIRE(light.correspondence.size() == 1);
-    const PageOrigins& page = light.correspondence[0];
-    const Part &from = source.parts[0], &part = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(source, options);
+    REQUIRE(simplified.correspondence.size() == 1);
+    const PageOrigins& page = simplified.correspondence[0];
+    const Part &from = source.parts[0], &part = simplified.asset.parts[0];
     std::size_t covered = 0, unmapped = 0;
     double farthest = 0;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
@@ -203,5 +204,5 @@ TEST_CASE("no texel that a triangle covers is left unmapped, and each comes from
     }
     CHECK(covered > 0);
     CHECK(unmapped == 0);
-    CHECK(farthest < 0.4);  // of the diameter of 2: some texels and most small faces are this large
+    CHECK(farthest < 0.4);  // the diameter is 2: some texels and most simplified faces have this size
 }

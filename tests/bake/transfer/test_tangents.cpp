@@ -13,7 +13,7 @@ void check(const Vec4f& got, const Vec4f& expected) {
     for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-6));
 }
 
-// A square in z = 0 of two triangles; u is what is given at x, v what is given at y.
+// A square of two triangles at z = 0; u goes from u0 to u1 along x, and v from v0 to v1 along y.
 std::vector<TangentCorner> square(float u0, float u1, float v0, float v1) {
     const auto corner = [&](float x, float y) {
         return TangentCorner{{x, y, 0}, {0, 0, 1}, {x > 0 ? u1 : u0, y > 0 ? v1 : v0}};
@@ -23,7 +23,7 @@ std::vector<TangentCorner> square(float u0, float u1, float v0, float v1) {
 
 }  // namespace
 
-TEST_CASE("the tangent runs along u, and w says on which side v runs up the image") {
+TEST_CASE("tangents are along u and w is the sign of the bitangent") {
     for (const Vec4f& t : mikk_tangents(square(0, 1, 1, 0))) check(t, {1, 0, 0, 1});
     for (const Vec4f& t : mikk_tangents(square(1, 0, 1, 0))) check(t, {-1, 0, 0, -1});
     for (const Vec4f& t : mikk_tangents(square(0, 1, 0, 1))) check(t, {1, 0, 0, -1});
@@ -50,8 +50,8 @@ TEST_CASE("tangents agree with the reference implementation on a curved fan") {
     for (std::size_t c = 0; c < order.size(); ++c) check(got[c], expected[order[c]]);
 }
 
-TEST_CASE("a mirrored half has its own tangents where it meets the other") {
-    // u rises from x = 0 to both sides.
+TEST_CASE("mirrored UVs have separate tangents along the mirror line") {
+    // u increases from x = 0 in both directions.
     std::vector<TangentCorner> corners = square(0, 1, 1, 0);
     for (TangentCorner c : square(0, 1, 1, 0)) {
         c.position[0] = -c.position[0];
@@ -64,9 +64,9 @@ TEST_CASE("a mirrored half has its own tangents where it meets the other") {
     for (std::size_t c = 6; c < 12; ++c) check(got[c], {-1, 0, 0, -1});
 }
 
-TEST_CASE("triangles without area in the UVs join their neighbours, or get something across the normal") {
+TEST_CASE("triangles without UV area use a neighbour's tangent or any perpendicular to the normal") {
     std::vector<TangentCorner> corners = square(0, 1, 1, 0);
-    corners[5].uv = corners[3].uv;  // the second triangle has a line for UVs now
+    corners[5].uv = corners[3].uv;  // the UVs of the second triangle are collinear now
     corners[5].position = {0.5f, 1, 0};
     const std::vector<Vec4f> got = mikk_tangents(corners);
     check(got[3], {1, 0, 0, 1});
@@ -83,7 +83,7 @@ TEST_CASE("triangles without area in the UVs join their neighbours, or get somet
     CHECK(mikk_tangents({}).empty());
 }
 
-TEST_CASE("triangles of no extent take the tangents at their vertices") {
+TEST_CASE("degenerate triangles use the tangents at their vertices") {
     std::vector<TangentCorner> corners = square(1, 0, 1, 0);
     corners.insert(corners.end(), {corners[0], corners[0], corners[1]});
     const std::vector<Vec4f> got = mikk_tangents(corners);

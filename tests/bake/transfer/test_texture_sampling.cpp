@@ -31,7 +31,7 @@ TextureRef wrapped(Wrap wrap, Filter filter = Filter::linear) {
 
 }  // namespace
 
-TEST_CASE("bilinear reading meets texel centres and the middles between") {
+TEST_CASE("bilinear filtering is exact at texel centres and midpoints") {
     const MipImage image = four();
     const TextureRef use = wrapped(Wrap::clamp);
     CHECK(image.sample(use, 0.375, 0.5, 0)[0] == Approx(0.2));
@@ -39,7 +39,7 @@ TEST_CASE("bilinear reading meets texel centres and the middles between") {
     CHECK(image.sample(use, 0.5, 0.5, -3)[0] == Approx(0.3));
 }
 
-TEST_CASE("wrap modes say what lies outside") {
+TEST_CASE("wrap modes apply outside of the image") {
     const MipImage image = four();
     const auto at = [&](Wrap wrap, double u) { return image.sample(wrapped(wrap), u, 0.5, 0)[0]; };
     CHECK(at(Wrap::clamp, -5.3) == Approx(0));
@@ -54,12 +54,12 @@ TEST_CASE("wrap modes say what lies outside") {
     CHECK(at(Wrap::repeat, 1e300) == at(Wrap::repeat, 0));
 }
 
-TEST_CASE("nearest stays nearest") {
+TEST_CASE("nearest filtering does not interpolate") {
     CHECK(four().sample(wrapped(Wrap::clamp, Filter::nearest), 0.49, 0.5, 0)[0] == Approx(0.2));
     CHECK(four().sample(wrapped(Wrap::clamp, Filter::nearest), 0.51, 0.5, 0)[0] == Approx(0.4));
 }
 
-TEST_CASE("coarse levels are means in linear light") {
+TEST_CASE("mip levels are averages in linear light") {
     const MipImage image(paint(2, 2,
                                [](std::uint32_t x, std::uint32_t) {
                                    return x ? Rgba{255, 255, 255, 255} : Rgba{0, 0, 0, 255};
@@ -70,7 +70,7 @@ TEST_CASE("coarse levels are means in linear light") {
     CHECK(srgb_byte(mean) == 188);
 }
 
-TEST_CASE("odd sizes are halved without losing a column") {
+TEST_CASE("downsampling an odd width uses all columns") {
     for (std::uint32_t width : {3u, 5u, 7u}) {
         const MipImage image(paint(width, 1,
                                    [&](std::uint32_t x, std::uint32_t) {
@@ -82,7 +82,7 @@ TEST_CASE("odd sizes are halved without losing a column") {
     }
 }
 
-TEST_CASE("coarse levels do not depend on the number of threads") {
+TEST_CASE("mip levels do not depend on the number of threads") {
     const Pixels pixels = paint(75, 130, [](std::uint32_t x, std::uint32_t y) {
         return Rgba{static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 3), 9, 255};
     });
@@ -94,7 +94,7 @@ TEST_CASE("coarse levels do not depend on the number of threads") {
     }
 }
 
-TEST_CASE("clear texels do not tint others") {
+TEST_CASE("transparent texels do not affect the colour of others") {
     const MipImage image(paint(2, 2,
                                [](std::uint32_t x, std::uint32_t) {
                                    return x ? Rgba{255, 0, 0, 255} : Rgba{0, 255, 0, 0};
@@ -106,18 +106,18 @@ TEST_CASE("clear texels do not tint others") {
     CHECK(c[1] == Approx(0).margin(1e-4));
 }
 
-TEST_CASE("a texture transform scales, then turns, then moves") {
+TEST_CASE("a texture transform applies scale, then rotation, then offset") {
     TextureRef use;
     use.offset = {0.25f, 0.5f};
     use.scale = {2, 3};
     use.rotation = static_cast<float>(std::acos(-1.0) / 2);
-    // (1, 0) scaled is (2, 0); a quarter turn counter-clockwise on an image with v down makes it (0, -2).
+    // (1, 0) is scaled to (2, 0), and rotated to (0, -2): counter-clockwise on an image with v down.
     const auto uv = uv_transform(use).apply(1, 0);
     CHECK(uv[0] == Approx(0.25).margin(1e-6));
     CHECK(uv[1] == Approx(-1.5).margin(1e-6));
 }
 
-TEST_CASE("bytes round and hold") {
+TEST_CASE("byte encodings round and clamp") {
     CHECK(srgb_byte(0) == 0);
     CHECK(srgb_byte(1) == 255);
     CHECK(srgb_byte(7) == 255);
@@ -126,14 +126,14 @@ TEST_CASE("bytes round and hold") {
     CHECK(linear_byte(-1) == 0);
 }
 
-TEST_CASE("push-pull leaves baked texels alone and paints all others") {
+TEST_CASE("push-pull keeps known texels and fills all others") {
     Pixels pixels = paint(13, 9, [](std::uint32_t, std::uint32_t) { return Rgba{0, 0, 0, 7}; });
     std::vector<std::uint8_t> known(13 * 9, 0);
     const auto bake = [&](std::size_t at, const Rgba& c) {
         known[at] = 1;
         std::copy(c.begin(), c.end(), pixels.rgba.begin() + static_cast<std::ptrdiff_t>(4 * at));
     };
-    SECTION("one texel paints the page") {
+    SECTION("a single known texel fills the page") {
         bake(40, {10, 200, 30, 7});
         push_pull(pixels, known, {0, 3});
         for (std::size_t t = 0; t < known.size(); ++t) {
@@ -142,7 +142,7 @@ TEST_CASE("push-pull leaves baked texels alone and paints all others") {
             CHECK(pixels.rgba[4 * t + 3] == 7);
         }
     }
-    SECTION("two give a mixture between them") {
+    SECTION("texels between two known ones are blended") {
         bake(0, {100, 0, 0, 7});
         bake(13 * 9 - 1, {200, 0, 0, 7});
         push_pull(pixels, known, {0, 3});
@@ -154,7 +154,7 @@ TEST_CASE("push-pull leaves baked texels alone and paints all others") {
         CHECK(pixels.rgba[4 * (13 * 9 - 1)] == 200);
         CHECK(pixels.rgba[4 * 1] < pixels.rgba[4 * (13 * 9 - 2)]);
     }
-    SECTION("nothing known changes nothing") {
+    SECTION("without known texels nothing is changed") {
         const auto before = pixels.rgba;
         push_pull(pixels, known, {});
         CHECK(pixels.rgba == before);

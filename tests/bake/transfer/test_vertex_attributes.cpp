@@ -33,7 +33,7 @@ double length(const Vec3f& a) {
     return std::sqrt(double(a[0]) * a[0] + double(a[1]) * a[1] + double(a[2]) * a[2]);
 }
 
-// A strip of n squares bent round a cylinder of radius 1, with exact normals.
+// A strip of n squares around a cylinder of radius 1, with exact normals.
 Asset pipe(int n) {
     Asset asset;
     asset.parts.resize(1);
@@ -54,10 +54,10 @@ Asset pipe(int n) {
 
 }  // namespace
 
-TEST_CASE("a cube's normals are split at its edges and nowhere else") {
+TEST_CASE("normals of a cube are split only at its edges") {
     const Asset asset = cube_asset();
-    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
-    const Part& part = light.asset.parts[0];
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const Part& part = simplified.asset.parts[0];
     CHECK(part.positions.size() == 24);
     REQUIRE(part.normals.size() == 24);
     for (const Triangle& t : part.triangles) {
@@ -79,10 +79,10 @@ TEST_CASE("a cube's normals are split at its edges and nowhere else") {
     }
 }
 
-TEST_CASE("the original's smooth normals are found again") {
+TEST_CASE("smooth normals of the source are preserved") {
     const Asset asset = pipe(40);
-    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
-    const Part& part = light.asset.parts[0];
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::none));
+    const Part& part = simplified.asset.parts[0];
     CHECK(part.positions.size() == asset.parts[0].positions.size());
     for (std::size_t v = 0; v < part.positions.size(); ++v) {
         const Vec3 radial = {part.positions[v][0], 0, part.positions[v][2]};
@@ -90,25 +90,25 @@ TEST_CASE("the original's smooth normals are found again") {
     }
 }
 
-TEST_CASE("where some faces are wound against their normals, the normals are right") {
+TEST_CASE("normals are preserved on faces with reversed winding") {
     Asset asset = pipe(40);
     Part& part = asset.parts[0];
     for (std::size_t f = 0; f < part.triangles.size(); f += 3) {
         std::swap(part.triangles[f][0], part.triangles[f][1]);
     }
-    const Part light = bake(asset, unchanged(asset), of_kind(Bake::none)).asset.parts[0];
-    for (std::size_t v = 0; v < light.positions.size(); ++v) {
-        const Vec3 radial = {light.positions[v][0], 0, light.positions[v][2]};
-        CHECK(dot(light.normals[v], radial) > 0.9999);
+    const Part simplified = bake(asset, unchanged(asset), of_kind(Bake::none)).asset.parts[0];
+    for (std::size_t v = 0; v < simplified.positions.size(); ++v) {
+        const Vec3 radial = {simplified.positions[v][0], 0, simplified.positions[v][2]};
+        CHECK(dot(simplified.normals[v], radial) > 0.9999);
     }
-    CHECK(light.positions.size() == part.positions.size());
+    CHECK(simplified.positions.size() == part.positions.size());
 }
 
-TEST_CASE("normals never point against their face and are never NaN") {
+TEST_CASE("normals are finite and within 90 degrees of the face normal") {
     Asset asset = pipe(4);
     for (Vec3f& n : asset.parts[0].normals) n = {-n[0], -n[1], -n[2]};
     asset.parts[0].normals[0] = {0, 0, 0};
-    asset.parts[0].triangles.push_back({0, 0, 2});  // no area
+    asset.parts[0].triangles.push_back({0, 0, 2});  // degenerate
     for (Bake kind : {Bake::none, Bake::vertex}) {
         const Part part = bake(asset, unchanged(asset), of_kind(kind)).asset.parts[0];
         for (std::size_t f = 0; f < 8; ++f) {
@@ -121,13 +121,13 @@ TEST_CASE("normals never point against their face and are never NaN") {
     }
 }
 
-TEST_CASE("vertex colours come back as they were") {
+TEST_CASE("vertex colours of the source are preserved") {
     Asset asset = pipe(10);
     Part& part = asset.parts[0];
     for (std::size_t v = 0; v < part.positions.size(); ++v)
         part.colors.push_back({v / 22.0f, 0.5f, 1 - v / 22.0f, 1});
-    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::vertex));
-    const Part& out = light.asset.parts[0];
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::vertex));
+    const Part& out = simplified.asset.parts[0];
     REQUIRE(out.colors.size() == out.positions.size());
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -135,10 +135,10 @@ TEST_CASE("vertex colours come back as they were") {
             for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
         }
     }
-    CHECK(light.asset.images.empty());
+    CHECK(simplified.asset.images.empty());
 }
 
-TEST_CASE("vertex colours take texture and factor, split where materials meet, and keep alpha") {
+TEST_CASE("vertex colours include texture, factor and alpha and are split between materials") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{255, 188, 0, 255};
     }));
@@ -148,12 +148,12 @@ TEST_CASE("vertex colours take texture and factor, split where materials meet, a
     asset.materials[1].base_color = {0, 0, 1, 1};
     asset.materials[1].double_sided = true;
     asset.parts[0].face_material = {0, 1};
-    const SimplifiedAsset light = simplify(asset, [] {
+    const SimplifiedAsset simplified = simplify(asset, [] {
         Options options = of_kind(Bake::vertex);
         options.target = ratio(1);
         return options;
     }());
-    const Part& part = light.asset.parts[0];
+    const Part& part = simplified.asset.parts[0];
     REQUIRE(part.triangles.size() == 2);
     CHECK(part.positions.size() == 6);
     const auto close = [](const Vec4f& a, const Vec4f& b) {
@@ -161,18 +161,18 @@ TEST_CASE("vertex colours take texture and factor, split where materials meet, a
     };
     for (Index v : part.triangles[0]) close(part.colors[v], {0.5f, 0.5f, 0, 0.25f});
     for (Index v : part.triangles[1]) close(part.colors[v], {0, 0, 1, 1});
-    for (const Material& m : light.asset.materials) CHECK(m.base_color == Vec4f{1, 1, 1, 1});
-    CHECK(light.asset.materials[part.face_material[1]].double_sided);
+    for (const Material& m : simplified.asset.materials) CHECK(m.base_color == Vec4f{1, 1, 1, 1});
+    CHECK(simplified.asset.materials[part.face_material[1]].double_sided);
 }
 
-TEST_CASE("keep carries UVs, colours, images and materials") {
+TEST_CASE("keep preserves UVs, colours, images and materials") {
     Asset asset = textured_square(ramp(8));
     asset.parts[0].uvs.push_back({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
     asset.parts[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 0.5f}};
     Options options = of_kind(Bake::keep);
     options.target = ratio(1);
-    const SimplifiedAsset light = simplify(asset, options);
-    const Part &in = asset.parts[0], &out = light.asset.parts[0];
+    const SimplifiedAsset simplified = simplify(asset, options);
+    const Part &in = asset.parts[0], &out = simplified.asset.parts[0];
     REQUIRE(out.triangles.size() == 2);
     REQUIRE(out.uvs.size() == 2);
     for (std::size_t v = 0; v < out.positions.size(); ++v) {
@@ -182,24 +182,24 @@ TEST_CASE("keep carries UVs, colours, images and materials") {
         CHECK(out.uvs[1][v] == in.uvs[1][from]);
         CHECK(out.colors[v] == in.colors[from]);
     }
-    CHECK(light.asset.images[0].encoded == asset.images[0].encoded);
-    CHECK(light.asset.materials[0].base_color_texture.image == 0);
-    CHECK_FALSE(light.asset.materials[0].rebaked);
+    CHECK(simplified.asset.images[0].encoded == asset.images[0].encoded);
+    CHECK(simplified.asset.materials[0].base_color_texture.image == 0);
+    CHECK_FALSE(simplified.asset.materials[0].rebaked);
     CHECK_THROWS_AS(bake(asset, unchanged(asset), options), InputError);
 }
 
-TEST_CASE("none takes textures away and says so") {
+TEST_CASE("none removes textures with a warning") {
     Asset asset = textured_square(ramp(8));
     asset.materials[0].base_color = {0.1f, 0.2f, 0.3f, 1};
-    const SimplifiedAsset light = bake(asset, unchanged(asset), of_kind(Bake::none));
-    CHECK(light.asset.parts[0].uvs.empty());
-    CHECK(light.asset.images.empty());
-    CHECK(light.asset.materials[0].base_color == asset.materials[0].base_color);
-    REQUIRE(light.report.warnings.size() == 1);
-    CHECK(light.report.warnings[0].find("'paint': textures left out: base colour") != std::string::npos);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::none));
+    CHECK(simplified.asset.parts[0].uvs.empty());
+    CHECK(simplified.asset.images.empty());
+    CHECK(simplified.asset.materials[0].base_color == asset.materials[0].base_color);
+    REQUIRE(simplified.report.warnings.size() == 1);
+    CHECK(simplified.report.warnings[0].find("'paint': textures left out: base colour") != std::string::npos);
 }
 
-TEST_CASE("skins and morph targets come along, without cracks") {
+TEST_CASE("skin weights and morph targets are transferred without cracks") {
     Asset asset = cube_asset();
     Part& part = asset.parts[0];
     part.morph_targets.resize(1);
@@ -225,8 +225,8 @@ TEST_CASE("skins and morph targets come along, without cracks") {
     }
 }
 
-TEST_CASE("blended skin weights keep the four largest and sum to one") {
-    // One triangle collapsed from four: its middle vertex's weights mix at the new corner.
+TEST_CASE("interpolated skin weights keep the four largest and sum to one") {
+    // The collapse places a vertex inside a source triangle, so that its weights are interpolated.
     Asset asset;
     asset.parts.resize(1);
     Part& part = asset.parts[0];
@@ -236,11 +236,11 @@ TEST_CASE("blended skin weights keep the four largest and sum to one") {
     part.weights.assign(4, {0.4f, 0.3f, 0.2f, 0.1f});
     HandHistory hand(part.positions, part.triangles);
     hand.collapse(1, 3, {0.8, 0.7, 0});
-    SimplifiedParts small;
-    small.parts.resize(1);
-    small.parts[0].history = hand.finish();
-    small.parts[0].mesh = small_mesh(small.parts[0].history);
-    const Part out = bake(asset, small, of_kind(Bake::none)).asset.parts[0];
+    SimplifiedParts simplified;
+    simplified.parts.resize(1);
+    simplified.parts[0].history = hand.finish();
+    simplified.parts[0].mesh = small_mesh(simplified.parts[0].history);
+    const Part out = bake(asset, simplified, of_kind(Bake::none)).asset.parts[0];
     bool blended = false;
     for (std::size_t v = 0; v < out.positions.size(); ++v) {
         double sum = 0;
@@ -249,7 +249,8 @@ TEST_CASE("blended skin weights keep the four largest and sum to one") {
         CHECK(out.weights[v][0] >= out.weights[v][3]);
         if (out.positions[v][0] != 0.8) continue;
         blended = true;
-        // Weights of corners 0, 1, 2 there: 0.25, 0.4, 0.35; so 4 has 0.16, 8 0.14, 5 0.12, 9 0.105.
+        // The barycentric coordinates are 0.25, 0.4 and 0.35. The largest weights are 0.16 of joint 4, 0.14
+        // of joint 8, 0.12 of joint 5, and 0.105 of joint 9.
         CHECK(out.joints[v] == std::array<std::uint16_t, 4>{4, 8, 5, 9});
         CHECK(out.weights[v][0] == Approx(0.16 / 0.525));
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Items sorted by small numbers.
+/// Items grouped by an integer key (counting sort).
 
 #include <cstddef>
 #include <numeric>
@@ -12,15 +12,19 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Items in buckets; those of one bucket lie together, in the order in which they came.
+/// Items grouped into buckets. The items of one bucket are contiguous and keep their order of insertion.
+/// \tparam Item  default-constructible and copyable
 template <class Item>
 class Buckets {
 public:
+    /// No buckets.
     Buckets() = default;
-    /// \param count     of buckets
-    /// \param for_each  is called twice, with put(bucket, item); must call it for each item, the same both
-    ///                  times
-    /// O(buckets + items)
+    /// Builds the buckets in two passes, one that counts and one that stores.
+    /// \param count     number of buckets
+    /// \param for_each  called twice with a function put(bucket, item), bucket < count. Must call put once
+    ///                  for each item, with the same arguments in the same order both times.
+    /// \throws whatever `for_each` throws
+    /// O(buckets + items) time and memory
     template <class ForEach>
     Buckets(std::size_t count, ForEach&& for_each) : begin_(count + 1, 0) {
         for_each([&](std::size_t bucket, const Item&) { ++begin_[bucket + 1]; });
@@ -30,6 +34,8 @@ public:
         for_each([&](std::size_t bucket, const Item& item) { items_[next[bucket]++] = item; });
     }
 
+    /// The items of one bucket; valid as long as this object. O(1)
+    /// \param bucket  less than the number of buckets
     std::span<const Item> operator[](std::size_t bucket) const {
         return std::span(items_).subspan(begin_[bucket], begin_[bucket + 1] - begin_[bucket]);
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A curve through space along which neighbours are near each other.
+/// Morton codes (Z-order curve): points with consecutive codes are close to each other in space.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,8 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Every third bit of the result is one of x, from the lowest on. \param x  below 2^21
+/// Spreads the bits of x: bit i of x becomes bit 3 i of the result; all other bits are 0.
+/// \param x  below 2^21
 constexpr std::uint64_t spread_bits(std::uint64_t x) {
     x = (x | x << 32) & 0x001f00000000ffff;
     x = (x | x << 16) & 0x001f0000ff0000ff;
@@ -20,13 +21,15 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-/// Where a point is on the Morton curve through the unit cube; points outside are drawn to its sides.
-/// \tparam bits  per axis, at most 21: the result is below 2^(3 bits)
+/// Morton code of a point in the unit cube. In each group of three bits, x is the most significant.
+/// \tparam bits  number of bits per axis, 1 to 21; the result is below 2^(3 bits)
+/// \param unit   the point; coordinates outside [0, 1] are clamped, NaN counts as 0
+/// O(1)
 template <int bits>
 std::uint64_t morton(const engine::Vector3& unit) {
     static_assert(0 < bits && bits <= 21);
     static constexpr double last = (1 << bits) - 1;
-    // What is no number is where 0 is.
+    // The comparison is false for NaN, which is thus mapped to 0.
     const auto cell = [](double x) {
         return spread_bits(x > 0 ? static_cast<std::uint64_t>(std::min(x * last, last)) : 0);
     };

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Work on blocks of a range on several threads. std::thread: ThreadSanitizer reports races inside the
-/// packaged oneTBB.
+/// Parallel loop over the blocks of a range. It uses std::thread because ThreadSanitizer reports races
+/// inside the packaged oneTBB.
 
 #include <algorithm>
 #include <atomic>
@@ -24,30 +24,35 @@ namespace detail {
 
 using engine::CancellationCheck;
 
-/// Who does the work of a phase: so many threads, of which the calling one asks whether to go on.
+/// Number of threads for a parallel loop, and the cancellation check of the calling thread.
 struct Workers {
-    // Not explicit: where nobody is to be asked, a number says it all.
-    Workers(std::uint32_t at_most = 0, CancellationCheck poll_of_caller = {})
-        : threads(at_most), check_cancelled(poll_of_caller) {}
+    // Not explicit, so that callers without a cancellation check can pass a number of threads.
+    Workers(std::uint32_t max_threads = 0, CancellationCheck check = {})
+        : threads(max_threads), check_cancelled(check) {}
 
-    std::uint32_t threads;  ///< at most; 0: all there are
+    std::uint32_t threads;  ///< maximum number of threads; 0: one per hardware thread
     CancellationCheck check_cancelled;
 };
 
-/// Number of threads for a request of `wanted` (0: all there are).
+/// Number of threads to use.
+/// \param wanted  requested number; 0: one per hardware thread
+/// \return at least 1
 inline unsigned thread_count(std::uint32_t wanted) {
     return wanted ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// What the threads of one parallel_blocks() share.
+/// State shared by the threads of one parallel_blocks() call: the calling thread and its helpers.
 class BlockQueue {
 public:
+    /// Must be constructed on the calling thread.
+    /// \param size   number of elements
+    /// \param block  elements per block, at least 1
     BlockQueue(std::size_t size, std::size_t block)
         : size_(size), block_(block), blocks_((size + block - 1) / block) {}
 
     std::size_t blocks() const { return blocks_; }
 
-    /// Works on one block after the other, until there are none left or a thread has failed.
+    /// Processes blocks until none are left or a thread has failed. Exceptions are stored, not thrown.
     template <class Work>
     void run(Work& work, CancellationCheck check_cancelled) {
         for (std::size_t b; (b = next_.fetch_add(1)) < blocks_;) {
@@ -65,7 +70,7 @@ public:
         }
     }
 
-    /// run() on a thread that helps: its poll tells it that another one has failed.
+    /// run() for a helper thread, with a cancellation check that stops it after another thread has failed.
     template <class Work>
     void run_helper(Work& work) {
         engine::ProgressMonitor monitor([this] { return has_failed_ ? Continue::cancel : Continue::yes; });
@@ -74,16 +79,18 @@ public:
         --helpers_;
         ended_.notify_one();
     }
+    /// To be called before the helper thread is started.
     void add_helper() {
         const std::lock_guard lock(mutex_);
         ++helpers_;
     }
+    /// Undoes add_helper() if the thread could not be started.
     void remove_helper() {
         const std::lock_guard lock(mutex_);
         --helpers_;
     }
 
-    /// Until all helpers have ended; the caller is asked meanwhile.
+    /// Blocks until all helpers have ended, and calls `check_cancelled` every 10 ms meanwhile.
     void wait(CancellationCheck check_cancelled) {
         std::unique_lock lock(mutex_);
         while (helpers_ > 0) {
@@ -99,15 +106,17 @@ public:
         }
     }
 
-    /// Throws again what was thrown: by the calling thread, or else first.
+    /// Rethrows the stored exception, if any: that of the calling thread, or else the first one.
     void rethrow() const {
         if (error_) std::rethrow_exception(error_);
     }
 
 private:
-    /// \pre in a handler
+    /// Stores the current exception and stops all threads.
+    /// \pre called from an exception handler
     void fail() {
-        // A helper that was told to stop comes second, whoever is sooner here.
+        // The calling thread's exception takes precedence over a helper's, which may only be the cancellation
+        // that it caused.
         const std::lock_guard lock(mutex_);
         if (!error_ || std::this_thread::get_id() == caller_) error_ = std::current_exception();
         has_failed_ = true;
@@ -124,12 +133,17 @@ private:
     std::exception_ptr error_;
 };
 
-/// Calls work(begin, end) for consecutive blocks of [0, size), each call once, in any order.
-/// Blocks depend on `size` and `block` only, never on the number of threads, so that per-block results can be
-/// joined in block order to the same sum anywhere. Where the system gives fewer threads, fewer do it.
-/// \param work  one that takes long for a block takes a CancellationCheck as well, and polls it. Elsewhere the operations
-///              of a block are as many as its length.
-/// \throws what the calling thread throws, and else the first exception; the others stop before that
+/// Calls work(begin, end) once for each block of [0, size), in any order and on several threads. The blocks
+/// depend on `size` and `block` only, not on the number of threads, so that per-block results that are
+/// combined in block order are the same for any number of threads. If the system refuses to start a thread,
+/// the loop runs with fewer.
+/// \param size     number of elements; 0 is allowed
+/// \param block    elements per block, at least 1; the last block may be shorter
+/// \param workers  number of threads and cancellation check; the check is only used on the calling thread
+/// \param work     called concurrently. If it accepts a CancellationCheck as third argument, it must call it
+///                 itself; use this if a block takes long. Otherwise each element counts as one operation.
+/// \throws the exception of the calling thread or of its cancellation check, or else the first exception of a
+///         helper; all threads have ended by then
 template <class Work>
 void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers, Work&& work) {
     BlockQueue queue(size, block);
@@ -143,7 +157,7 @@ void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers
             helpers.emplace_back([&] { queue.run_helper(work); });
         }
     } catch (const std::system_error&) {
-        // The system gives no more threads: those there are do it all.
+        // The system cannot start more threads; the existing ones do all the work.
         queue.remove_helper();
     }
     queue.run(work, workers.check_cancelled);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Time for the report.
+/// Elapsed time of the phases in a report.
 
 #include <chrono>
 
@@ -9,9 +9,10 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Wall-clock seconds since it was made.
+/// Measures the wall-clock time since its construction.
 class Stopwatch {
 public:
+    /// Elapsed time in seconds.
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }

@@ -14,20 +14,22 @@ namespace detail {
 
 using engine::Vector3;
 
-/// So many points go together; the first of them is looked for without knowing one before it.
+/// Number of points per block. The closest point of the first one is searched without an initial bound.
 inline constexpr std::size_t tracker_block_size = 1024;
-/// Cosine. Inside of a face that looks about the same way another one that is as near would lie upon it, and
-/// have the same normal.
+/// If a closest point is in the interior of a face and the cosine between the normals exceeds this, no other
+/// face needs to be considered: an equally close face would be coincident with it and have the same normal.
 inline constexpr double unambiguous_cosine = 0.5;
 
-/// Weight of a corner: a point with less of it lies on the side across, but for rounding.
+/// Barycentric coordinate below which a point counts as lying on the edge opposite to the corner.
 inline constexpr double edge_tolerance = 1e-9;
+/// Result of nearest_corner() for a point that is on no edge.
 inline constexpr std::uint8_t interior = 3;
-/// Share of the squared distance: what is nearer by less is so by chance.
+/// Factor by which a squared distance must decrease; smaller differences may be due to rounding.
 inline constexpr double improvement_ratio = 1 - 1e-12;
 
-/// The point of a mesh closest to p.
-/// \param near  a face that is thought to be near, or no_index
+/// The point of a mesh that is closest to p.
+/// \param tree  the tree of the mesh
+/// \param near  a face that is probably near p, or no_index
 inline Bvh::Hit nearest(const Bvh& tree, const MeshRef& mesh, const Vector3& p, Index near) {
     if (near == no_index) return tree.closest(engine::to_array(p));
     const Triangle& t = mesh.triangles[near];
@@ -35,15 +37,15 @@ inline Bvh::Hit nearest(const Bvh& tree, const MeshRef& mesh, const Vector3& p, 
                                   mesh.positions[t[2]]);
 }
 
-/// The corner nearest to a point of a face, or `interior` where the point is on no side.
+/// The corner of a face that is nearest to a point on its boundary, or `interior` if the point is on no edge.
 inline std::uint8_t nearest_corner(const Vec3& barycentric) {
     if (std::ranges::min(barycentric) > edge_tolerance) return interior;
     return static_cast<std::uint8_t>(std::ranges::max_element(barycentric) - barycentric.begin());
 }
 
-/// The point of a mesh closest to p among the faces one comes by from `last`: on to the best of those around
-/// the corner nearest to the closest point, while the distance falls.
-/// \param corner  nearest_corner() of the point on `last` where one starts
+/// Local closest-point search. Starting at face `last`, repeatedly moves to the closest face of the one-ring
+/// of the corner that is nearest to the current closest point, while the distance decreases.
+/// \param corner  nearest_corner() of the previous closest point on `last`
 inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& mesh, const Vector3& p,
                                 Index last, std::uint8_t corner) {
     const auto closest_on = [&](Index face) {
@@ -66,9 +68,10 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
     return {last, engine::to_array(best.barycentric), engine::to_array(best.point), best.distance_squared};
 }
 
-/// What search_farthest() does, with search(i) for residual i.
-/// \param squared   lengths of the residuals
-/// \param is_exact  of residual i: it is by a search
+/// Implements search_farthest() of both trackers.
+/// \param squared   squared lengths of the residuals; updated by `search`
+/// \param is_exact  bool(i): whether residual i is the result of a global search
+/// \param search    void(i): finds residual i by a global search; called concurrently
 template <class IsExact, class Search>
 void search_above_share(std::span<const double> squared, double share, Workers workers, IsExact&& is_exact,
                         Search&& search) {
@@ -88,7 +91,7 @@ void search_above_share(std::span<const double> squared, double share, Workers w
     }
 }
 
-/// Of each triangle: has it a corner that is not where it was? All of them where nothing was before.
+/// For each triangle, whether one of its corners has moved; all of them if `from` is empty.
 inline std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles,
                                                  std::span<const Vector3> from, std::span<const Vector3> to,
                                                  CancellationCheck check_cancelled) {
@@ -204,7 +207,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
     parallel_blocks(points_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceSample& last = residuals_[i].sample;
-            residuals_[i].is_exact = false;  // faces that were far away may have come near
+            residuals_[i].is_exact = false;  // a distant face may have come closer
             if (!to_measure[last.face]) continue;
             set_residual(i, walk_to_closest(vertex_faces_, {positions_, triangles_}, points_[i].position,
                                             last.face, nearest_corner(last.barycentric)));

@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// How far points of two surfaces are from the other one, kept up while the vertices of one of them move. The
-/// closest points are looked for everywhere at first. Later they are followed from face to face while they
-/// come nearer: a residual is never too short, and what it leads to is rarely not the closest point of all.
+/// Residuals between two surfaces, updated while the vertices of one of them move. The closest points are
+/// first found by a global search. Later they are tracked: from the previous closest face, a local search
+/// moves to adjacent faces while the distance decreases. A tracked residual is never too short, and rarely
+/// longer than that of the global closest point.
 
 #include <cstdint>
 #include <optional>
@@ -20,9 +21,11 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A surface that stays, with what is asked of it again and again. Refers to its arguments.
+/// A surface that does not move, with its search tree, normals and adjacency.
 struct ReferenceSurface {
-    /// \throws what the poll throws
+    /// \param surface  not copied; its arrays must outlive this object
+    /// \throws whatever `workers.check_cancelled` throws
+    /// O(n log n)
     explicit ReferenceSurface(const MeshRef& surface, Workers workers = {}) : mesh(surface) {
         parallel_blocks(2, 1, workers, [&](std::size_t part, std::size_t, CancellationCheck check_cancelled) {
             if (part == 0) {
@@ -37,16 +40,16 @@ struct ReferenceSurface {
 
     MeshRef mesh;
     Bvh tree;
-    std::vector<engine::Vector3> normals;
+    std::vector<engine::Vector3> normals;  ///< unit normal of each triangle
     VertexFaces vertex_faces;
 };
 
-/// Gaps from samples of a mesh that moves to one that stays.
+/// Residuals from sample points of a moving mesh to the reference surface.
 class MeshToReferenceTracker {
 public:
-    /// \param original   refers to it
-    /// \param triangles  of the moving mesh; refers to them
-    /// \param samples      on these triangles
+    /// \param original   the reference surface; must outlive this object
+    /// \param triangles  triangles of the moving mesh; must outlive this object
+    /// \param samples    sample points on these triangles
     MeshToReferenceTracker(const ReferenceSurface& original, std::span<const Triangle> triangles,
                            std::vector<SurfaceSample> samples)
         : original_(original),
@@ -55,44 +58,54 @@ public:
           residuals_(samples_.size()),
           squared_distances_(samples_.size()) {}
 
-    /// Measures where the mesh has moved since the last time; all of it at first.
-    /// \param workers  the result does not depend on how many
-    /// O(samples log faces) at first, typically; then O(1) for each sample whose face has moved, where it has
-    /// moved by few faces
+    /// Updates the residuals of samples whose face has moved since the last call. The first call searches
+    /// globally, later ones track.
+    /// \param positions  current vertex positions of the moving mesh
+    /// \param workers    the result does not depend on the number of threads
+    /// \throws whatever `workers.check_cancelled` throws
+    /// First call: O(samples log faces) typically. Later: O(1) for each sample whose face has moved, if its
+    /// closest point has moved by a few faces only.
     void update(std::span<const engine::Vector3> positions, Workers workers);
 
-    /// Searches anew where a residual is longer than a share of the longest, until all of those are what a search
-    /// finds: what was followed may lead to a false farthest point.
-    /// O(samples), and O(log faces) for each of them
+    /// Repeats the global search for all residuals longer than a fraction of the longest one, until all of
+    /// these are exact. Otherwise a tracked residual that is too long could determine the maximum distance.
+    /// \param share    fraction of the longest residual, in [0, 1]
+    /// \param workers  the result does not depend on the number of threads
+    /// O(samples), plus O(log faces) for each searched residual
     void search_farthest(double share, Workers workers);
 
-    /// Takes other samples on some faces, whose corners may be others too.
-    /// \param faces  of each triangle: nonzero has other samples now
-    /// \param samples  on these faces
+    /// Replaces the samples on some faces, whose corners may have changed as well.
+    /// \param faces    one per triangle; nonzero: the samples of this face are replaced
+    /// \param samples  new samples on these faces
     void replace_samples(std::span<const std::uint8_t> faces, std::span<const SurfaceSample> samples);
 
     std::size_t size() const { return samples_.size(); }
     const SurfaceSample& sample(std::size_t i) const { return samples_[i]; }
-    /// From sample i to its closest point.
+    /// Vector from sample i to its closest point.
     const engine::Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
-    /// Its squared length.
+    /// Squared length of residual i.
     double squared_distance(std::size_t i) const { return squared_distances_[i]; }
-    /// With the normal of the moving face: where the closest face is one of several, its own would be chance.
+    /// Correspondence of sample i. It has the normal of the moving face, because the closest face is
+    /// arbitrary if several are equally close.
     Correspondence correspondence(std::size_t i) const;
 
-    /// Distance between the unit normals at sample i and at its closest point; there, of all faces that are as
-    /// near but for `tolerance`, the one with the nearest normal counts. Remembered until the face moves.
+    /// Measures the distances between the unit normals at the samples and at their closest points. Of all
+    /// faces that are equally close, the one with the most similar normal is used. Results are kept until the
+    /// face moves.
+    /// \param tolerance  distances that differ by at most this count as equal
     void measure_normal_deviations(double tolerance, Workers workers);
+    /// Result for sample i, in [0, 2]; negative if it has not been measured.
     double normal_deviation(std::size_t i) const { return residuals_[i].normal_deviation; }
 
 private:
     struct Residual {
         engine::Vector3 residual = engine::Vector3::Zero();
-        Index face = no_index;         ///< of the original
-        std::uint8_t corner = 0;       ///< the nearest one of the face, or 3: the closest point is inside
-        double normal_deviation = -1;  ///< < 0: not measured
-        bool is_exact = false;         ///< by a search, not followed
+        Index face = no_index;    ///< closest face of the reference surface
+        std::uint8_t corner = 0;  ///< nearest corner of the face; 3: the closest point is in its interior
+        double normal_deviation = -1;  ///< negative: not measured
+        bool is_exact = false;         ///< result of a global search, not tracked
     };
+    /// Finds residual i by a global search. \param near  a face that is probably near, or no_index
     void search(std::size_t i, Index near);
     void set_residual(std::size_t i, const engine::Vector3& p, const Bvh::Hit& hit);
     engine::Vector3 normal(std::size_t i) const;
@@ -101,38 +114,41 @@ private:
     std::span<const Triangle> triangles_;
     std::vector<SurfaceSample> samples_;
     std::vector<Residual> residuals_;
-    std::vector<double>
-        squared_distances_;  ///< lengths of the residuals, apart: the longest is looked for often
+    /// Squared lengths of the residuals, in an array of their own because the maximum is needed often.
+    std::vector<double> squared_distances_;
     std::vector<engine::Vector3> positions_;
 };
 
-/// Gaps from points that stay to a mesh that moves.
+/// Residuals from fixed points of the reference surface to a moving mesh.
 class ReferenceToMeshTracker {
 public:
-    /// \param triangles  of the moving mesh; refers to them
+    /// \param points     the fixed points
+    /// \param triangles  triangles of the moving mesh; must outlive this object
     ReferenceToMeshTracker(std::vector<OrientedPoint> points, std::span<const Triangle> triangles)
         : triangles_(triangles),
           points_(std::move(points)),
           residuals_(points_.size()),
           squared_distances_(points_.size()) {}
 
-    /// As MeshToReferenceTracker::update(), of the points whose closest face or a neighbour of it has moved. O(faces)
-    /// more.
-    /// \param flipped  of each triangle, or empty: nonzero has other corners than the last time
+    /// Same as MeshToReferenceTracker::update(), for the points whose closest face or one of its neighbours
+    /// has moved. Takes O(faces) in addition.
+    /// \param flipped  one per triangle, or empty; nonzero: the corners of this triangle have changed since
+    ///                 the last call
     void update(std::span<const engine::Vector3> positions, Workers workers,
                 std::span<const std::uint8_t> flipped = {});
 
-    /// As MeshToReferenceTracker::search_farthest(). O(faces) more.
+    /// Same as MeshToReferenceTracker::search_farthest(). Takes O(faces) in addition.
     void search_farthest(double share, Workers workers);
 
     std::size_t size() const { return points_.size(); }
     const OrientedPoint& point(std::size_t i) const { return points_[i]; }
-    /// Where on the moving mesh the point nearest to point i is.
+    /// The point of the moving mesh that is closest to point i.
     const SurfaceSample& sample(std::size_t i) const { return residuals_[i].sample; }
-    /// From there to point i.
+    /// Vector from that point to point i.
     const engine::Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
-    /// Its squared length.
+    /// Squared length of residual i.
     double squared_distance(std::size_t i) const { return squared_distances_[i]; }
+    /// Correspondence of point i, with the normal of the reference surface.
     Correspondence correspondence(std::size_t i) const {
         return {residuals_[i].sample, residuals_[i].residual, points_[i].normal};
     }
@@ -141,7 +157,7 @@ private:
     struct Residual {
         SurfaceSample sample;
         engine::Vector3 residual = engine::Vector3::Zero();
-        bool is_exact = false;  ///< by a search, not followed
+        bool is_exact = false;  ///< result of a global search, not tracked
     };
     void initialise(std::span<const engine::Vector3> positions, Workers workers);
     void search(std::size_t i, Index near);
@@ -150,12 +166,12 @@ private:
     std::span<const Triangle> triangles_;
     std::vector<OrientedPoint> points_;
     std::vector<Residual> residuals_;
-    std::vector<double>
-        squared_distances_;  ///< lengths of the residuals, apart: the longest is looked for often
+    /// Squared lengths of the residuals, in an array of their own because the maximum is needed often.
+    std::vector<double> squared_distances_;
     std::vector<engine::Vector3> positions_;
     VertexFaces vertex_faces_;
     std::optional<Bvh> tree_;
-    bool is_tree_outdated_ = false;  ///< the triangles have moved since
+    bool is_tree_outdated_ = false;  ///< the mesh has moved since the tree was built or refitted
 };
 
 }  // namespace detail

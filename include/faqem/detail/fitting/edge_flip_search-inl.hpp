@@ -19,16 +19,17 @@ namespace detail {
 
 using engine::Vector3;
 
-/// As much of the distance_integral must be left at most.
+/// Maximum ratio of the distance integrals after and before a flip.
 inline constexpr double max_error_ratio = 0.98;
-/// The farthest point of the quadrilateral may come this near to the farthest of all, as a share of squares.
+/// A flip may increase the squared maximum distance of its quadrilateral to this fraction of the overall one.
 inline constexpr double max_distance_share = 0.5;
-/// Of the area of the quadrilateral that each new face must have.
+/// Minimum area of a new face, as a fraction of the area of the quadrilateral.
 inline constexpr double min_flipped_area = 1e-3;
-/// Cosines: of new faces to the mean of the old ones, between the new faces, and to the faces around.
+/// Minimum cosines between the normals: of a new face and the mean of the old ones, of the two new faces, and
+/// of a new face and an adjacent one.
 inline constexpr double min_flip_normal_cosine = 0.2, min_flip_dihedral_cosine = -0.2,
                         min_flip_fold_cosine = -0.9;
-/// Barycentric weights of points that are spread over a face.
+/// Barycentric coordinates of the sample points of a face.
 inline constexpr std::array<Vec3, 10> sample_pattern = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                                          {0.2, 0.6, 0.2},
                                                          {0.2, 0.2, 0.6},
@@ -40,12 +41,13 @@ inline constexpr std::array<Vec3, 10> sample_pattern = {{{1.0 / 3, 1.0 / 3, 1.0 
                                                          {0.075, 0.075, 0.85},
                                                          {0.85, 0.075, 0.075}}};
 
-/// How well a surface fits.
+/// Deviation of a part of the surface.
 struct SurfaceDeviation {
-    double distance_integral = 0;     ///< integral of d^2.5
+    double distance_integral = 0;     ///< integral of d^2.5, d the distance
     double normal_deviation = 0;      ///< integral of the distances between the unit normals
-    double max_squared_distance = 0;  ///< squared
+    double max_squared_distance = 0;  ///< square of the maximum distance
 
+    /// \param weight  area that the point represents
     void add(double distance_squared, double weight) {
         distance_integral += weight * distance_squared * std::sqrt(std::sqrt(distance_squared));
         max_squared_distance = std::max(max_squared_distance, distance_squared);
@@ -55,6 +57,7 @@ struct SurfaceDeviation {
         normal_deviation += other.normal_deviation;
         max_squared_distance = std::max(max_squared_distance, other.max_squared_distance);
     }
+    /// \param far_enough  squared distance up to which the maximum distance may increase
     bool is_better_than(const SurfaceDeviation& other, double far_enough) const {
         if (!(distance_integral <= max_error_ratio * other.distance_integral)) return false;
         if (!(max_squared_distance <= std::max(other.max_squared_distance, far_enough))) return false;
@@ -63,6 +66,7 @@ struct SurfaceDeviation {
     }
 };
 
+/// Implementation of find_edge_flips().
 class EdgeFlipSearch {
 public:
     EdgeFlipSearch(const SimplifiedMeshRef& simplified, const ReferenceSurface& original,
@@ -107,7 +111,8 @@ private:
         return closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2]));
     }
 
-    /// Vertices come after even_samples points.
+    /// Groups the points of the original by their closest face, and finds the maximum distance. The vertices
+    /// of the original are numbered after the uniform samples.
     void group_points_by_face() {
         const std::size_t points = even_samples_.size() + original_vertices_.size();
         const auto face = [&](std::size_t i) {
@@ -149,7 +154,7 @@ private:
         return all;
     }
 
-    /// Would the new faces be no slivers, and look where the old ones did?
+    /// Whether the new faces are no slivers, have normals similar to the old ones, and make no fold.
     bool is_valid_flip(const Quadrilateral& q) const {
         const Vector3 old = area_vector(q.first()) + area_vector(q.second());
         const Vector3 s = area_vector(q.first_flipped()), t = area_vector(q.second_flipped());
@@ -164,7 +169,8 @@ private:
                !makes_fold(q.b, q.c, t);
     }
 
-    /// Would a new face on v and w look away from the one beyond that edge?
+    /// Whether a new face on the edge vw is folded over an existing face at that edge.
+    /// \param area  area vector of the new face
     bool makes_fold(Index v, Index w, const Vector3& area) const {
         bool any = false;
         for_each_face_at_edge(v, w, [&](const Halfedge& halfedge) {
@@ -182,7 +188,7 @@ private:
         for (; halfedge != halfedges_.end() && halfedge->edge() == edge; ++halfedge) visit(*halfedge);
     }
 
-    /// From the original's points that are closest to the two faces.
+    /// Adds the distances from the points of the original whose closest face is one of the two.
     void measure_from_original(Candidate& c) const {
         const Quadrilateral& q = c.corners;
         const std::array<Triangle, 2> old = {q.first(), q.second()},
@@ -211,7 +217,7 @@ private:
         error.normal_deviation += weight * (p.normal - normals[second < first]).norm();
     }
 
-    /// To the original from points of a face.
+    /// Deviation of a face, measured from its sample points to the original.
     SurfaceDeviation deviation_of(const Triangle& t) const {
         SurfaceDeviation error;
         const Vector3 area = area_vector(t), normal = area.normalized();
@@ -229,7 +235,7 @@ private:
         return original_.tree.closest(engine::to_array(Vector3(0.5 * (at(v) + at(w))))).distance_squared;
     }
 
-    /// Each face as it is, once, though it may be a candidate over three edges.
+    /// Measures each current face of the candidates once; it may belong to three candidates.
     void measure_faces(std::span<const Candidate> candidates) {
         std::vector<Index> wanted;
         for (const Candidate& c : candidates) wanted.insert(wanted.end(), c.faces.begin(), c.faces.end());
@@ -243,7 +249,8 @@ private:
         });
     }
 
-    /// From points of the faces to the original, if that can still turn out well.
+    /// Adds the distances from sample points of the faces to the original, and computes the gain. Ends early
+    /// if the flip cannot be an improvement.
     void measure_to_original(Candidate& c) const {
         const Quadrilateral& q = c.corners;
         for (const Index f : c.faces) c.before.add(face_deviation_[f]);
@@ -260,7 +267,7 @@ private:
             c.gain = c.before.distance_integral - c.after.distance_integral;
     }
 
-    /// The best ones of which no two touch.
+    /// Selects independent flips greedily, by decreasing gain.
     std::vector<EdgeFlip> select_independent(std::vector<Candidate>& candidates) const {
         std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
         std::stable_sort(candidates.begin(), candidates.end(),
@@ -291,12 +298,12 @@ private:
     const ReferenceSurface& original_;
     const ReferenceToMeshTracker& even_samples_;
     const ReferenceToMeshTracker& original_vertices_;
-    double weight_;  // area of an even_samples point
+    double weight_;  // area that a point of even_samples_ represents
     Workers workers_;
     std::vector<Halfedge> halfedges_;
-    double max_squared_distance_ = 0;      // squared
-    Buckets<std::size_t> points_of_face_;  // the original's points by the faces that they are closest to
-    std::vector<SurfaceDeviation> face_deviation_;  // of faces of candidates
+    double max_squared_distance_ = 0;               // over all points of the original
+    Buckets<std::size_t> points_of_face_;           // per face: points of the original that are closest to it
+    std::vector<SurfaceDeviation> face_deviation_;  // per face; set for those of candidates
 };
 
 FAQEM_INLINE std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simplified,

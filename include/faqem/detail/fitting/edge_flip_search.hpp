@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which edges of a simplified mesh should be flipped to come closer to the original.
+/// Search for edge flips that bring a simplified mesh closer to the original surface.
 
 #include <array>
 #include <cstdint>
@@ -13,30 +13,33 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A simplified mesh on its way to the original. Borrows.
+/// Non-owning view of a simplified mesh and its constraints.
 struct SimplifiedMeshRef {
     std::span<const engine::Vector3> positions;
-    std::span<const Triangle> triangles;  ///< a triangle with no_index corners is none
-    std::span<const std::uint8_t> fixed;  ///< per vertex: an edge between two that are not zero stays
-    std::span<const Index> groups;        ///< per triangle, or empty: edges between groups stay
+    std::span<const Triangle> triangles;  ///< triangles with no_index corners are ignored
+    std::span<const std::uint8_t> fixed;  ///< per vertex; edges between two nonzero vertices are not flipped
+    std::span<const Index> groups;        ///< per triangle, or empty; edges between groups are not flipped
 };
 
-/// Two faces whose common edge is to be flipped.
+/// The two faces whose common edge is to be flipped.
 using EdgeFlip = std::array<Index, 2>;
 
-/// Finds edges whose flip brings both surfaces closer: less of the integral of d^2.5 over points on both, no
-/// farther point, no larger loss in the normals, no slivers, no folds, no edge twice. An edge has two faces
-/// of the same winding. No two of them touch each other, so that all may be flipped.
+/// Finds edge flips that bring both surfaces closer. With the distance d, a flip must decrease the integral
+/// of d^2.5 over points on both surfaces by at least 2%. It may increase the maximum distance only where that
+/// is well below the overall maximum, and the normal deviation only by a smaller factor than it decreases the
+/// integral. It must not create slivers, folds or duplicate edges. Only edges with exactly two faces of
+/// consistent orientation are flipped. The returned flips are independent: no two of them have a face or an
+/// edge of their quadrilaterals in common, so that all may be applied.
 ///
-/// \param simplified     is flipped as it is now
-/// \param original  the surface it should be close to
-/// \param even_samples      points spread evenly over the original, measured where simplified is now
-/// \param original_vertices   the original's vertices, measured likewise: only the farthest counts
-/// \param area      of the original
-/// \param workers   the result does not depend on their number
-/// \return in order of what they gain
-/// \throws what the poll of the workers throws
-/// O(n log n). Source: Hoppe et al. 1993, Mesh Optimization (the operation)
+/// \param simplified         the mesh in its current state; not modified
+/// \param original           the surface it should be close to
+/// \param even_samples       uniform samples of the original, with residuals to the current mesh
+/// \param original_vertices  the vertices of the original, likewise; used for the maximum distance only
+/// \param area               surface area of the original
+/// \param workers            the result does not depend on the number of threads
+/// \return the flips, in order of decreasing gain
+/// \throws whatever `workers.check_cancelled` throws
+/// O(n log n). Source of the operation: Hoppe et al. 1993, Mesh Optimization
 std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simplified, const ReferenceSurface& original,
                                       const ReferenceToMeshTracker& even_samples,
                                       const ReferenceToMeshTracker& original_vertices, double area,

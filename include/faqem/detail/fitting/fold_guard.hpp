@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Edges at which a surface must not fold while its vertices move.
+/// Detection of folds that arise while the vertices of a mesh move.
 
 #include <array>
 #include <span>
@@ -12,18 +12,19 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The edges between two faces of a mesh that are no folds: the faces do not look away from each other,
-/// as seen from the side that the winding of the first one gives.
+/// The edges of a mesh with two faces that are initially not folded. An edge is folded if the cosine between
+/// the normals of its faces, after making their orientations consistent, is below a threshold.
 class FoldGuard {
 public:
-    /// \param mesh        as it is at the start; its triangles are referred to
-    /// \param min_fold_cosine  cosine between the faces' normals below which an edge is a fold
-    /// \throws what the poll throws
+    /// \param mesh             the mesh in its initial state; its triangles must outlive this object
+    /// \param min_fold_cosine  cosine between the normals below which an edge is folded, in [-1, 1]
+    /// \throws whatever `check_cancelled` throws
     /// O(faces log faces)
     FoldGuard(const MeshRef& mesh, double min_fold_cosine, engine::CancellationCheck check_cancelled = {});
 
-    /// Calls visit(Triangle, Triangle) for the faces of each edge that is a fold now.
-    /// \throws what the poll throws.
+    /// Calls visit(const Triangle&, const Triangle&) with the two faces of each edge that is folded.
+    /// \param positions  current vertex positions
+    /// \throws whatever `visit` or `check_cancelled` throws
     /// O(faces)
     template <class Visit>
     void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit,
@@ -38,7 +39,7 @@ public:
 private:
     struct Edge {
         std::array<Index, 2> faces;
-        bool has_same_direction;  ///< both faces go through it from the same end
+        bool has_same_direction;  ///< of both half-edges: the orientations are inconsistent
     };
     bool is_fold(const Edge& edge, std::span<const engine::Vector3> normals) const {
         const double cosine = normals[edge.faces[0]].dot(normals[edge.faces[1]]);

@@ -17,17 +17,19 @@ using engine::Vector3;
 using Matrix3 = Eigen::Matrix3d;
 
 inline constexpr double point_to_plane_weight = 0.9;
-/// Distances below this share of the mean weigh as if they were that: what fits holds the vertex too.
+/// Distances are weighted as if they were at least this fraction of the mean, so that points with small
+/// residuals keep the vertices in position.
 inline constexpr double min_distance_share = 0.1;
-/// Share of its own weight by which a vertex is held.
+/// Damping of a vertex, as a fraction of its own diagonal block.
 inline constexpr double damping = 0.02;
-/// The same, as a share of the mean weight: for vertices that hardly a correspondence tells about.
+/// Additional damping as a fraction of the mean diagonal block, for vertices with few correspondences.
 inline constexpr double mean_damping = 2e-4;
-/// Of conjugate gradients: at most so many iterations, until the residual is this share of the right side.
+/// Conjugate gradients end after this many iterations, or when the residual is below this fraction of the
+/// right-hand side.
 inline constexpr int max_iterations = 60;
 inline constexpr double residual_tolerance = 1e-3;
 
-/// A symmetric matrix.
+/// A symmetric 3 x 3 matrix.
 struct Symmetric3 {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 
@@ -47,21 +49,22 @@ struct Symmetric3 {
     }
 };
 
-/// Of one correspondence: how much its residual counts in each direction.
+/// Quadratic form of one residual: the weighted point-to-plane and point-to-point terms.
+/// \param n  unit normal
 inline Symmetric3 residual_metric(const Vector3& n, double weight) {
     const double a = weight * point_to_plane_weight, b = weight * (1 - point_to_plane_weight);
     return {a * n[0] * n[0] + b, a * n[0] * n[1], a * n[0] * n[2],
             a * n[1] * n[1] + b, a * n[1] * n[2], a * n[2] * n[2] + b};
 }
 
-/// The part of the system that belongs to one face.
+/// Contribution of one face to the system.
 struct FaceSystem {
-    std::array<Symmetric3, 3> diagonal;      ///< of each corner with itself
-    std::array<Symmetric3, 3> off_diagonal;  ///< of corner k with corner k + 1
+    std::array<Symmetric3, 3> diagonal;      ///< block of corner k
+    std::array<Symmetric3, 3> off_diagonal;  ///< block of corners k and k + 1 (modulo 3)
     std::array<Vector3, 3> rhs = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
 };
 
-/// Of the power asked for most std::pow took 5% of all the time of `best`.
+/// pow(x, power), faster for the power that is used most: std::pow took 5% of the time of preset `best`.
 inline double power_of(double x, double power) { return power == 0.5 ? std::sqrt(x) : std::pow(x, power); }
 
 inline void add(const Correspondence& correspondence, double weight, FaceSystem& face) {
@@ -75,6 +78,7 @@ inline void add(const Correspondence& correspondence, double weight, FaceSystem&
     }
 }
 
+/// Computes the contributions of all faces. Distances are normalized by their mean.
 inline std::vector<FaceSystem> face_systems(std::size_t faces,
                                             std::span<const Correspondence> correspondences, double power,
                                             Workers workers) {
@@ -103,7 +107,7 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
     return all;
 }
 
-/// The matrix of the system: rows and columns of fixed vertices are left out.
+/// The normal equations of a step. Rows and columns of fixed vertices are zero.
 class NormalEquations {
 public:
     NormalEquations(std::span<const Triangle> triangles, std::span<const Correspondence> correspondences,
@@ -146,7 +150,7 @@ public:
         }
     }
 
-    /// The inverse of the blocks on the diagonal.
+    /// Block-Jacobi preconditioner: multiplies by the inverses of the diagonal blocks.
     void precondition(std::span<const Vector3> x, std::vector<Vector3>& result) const {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = inverse_[v] * x[v];
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One Gauss-Newton step of fitting a mesh to correspondences at its points.
+/// Gauss-Newton step for fitting a mesh to correspondences.
 
 #include <array>
 #include <cstdint>
@@ -16,22 +16,25 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A point of the mesh, and where another surface wants it.
+/// A point of the mesh and its corresponding point on another surface.
 struct Correspondence {
-    SurfaceSample sample;
-    engine::Vector3 residual = engine::Vector3::Zero();  ///< from the point to its counterpart
-    engine::Vector3 normal = engine::Vector3::Zero();  ///< unit: the residual along it is most of what counts
+    SurfaceSample sample;                                ///< the point of the mesh
+    engine::Vector3 residual = engine::Vector3::Zero();  ///< vector from the point to the corresponding point
+    engine::Vector3 normal = engine::Vector3::Zero();    ///< unit normal, for the point-to-plane distance
 };
 
-/// The step of each vertex that would bring the points closest to their counterparts, if the surfaces were
-/// their tangent planes: nine tenths point to plane, one tenth point to point, weighted by their distance d
-/// to a power. Damped, so that what the correspondences say little about stays.
-/// \param triangles  a triangle with no_index corners is none
-/// \param fixed      one per vertex: nonzero stays
-/// \param power      p: what gets smaller is the sum of d^(2 + p); >= 0
-/// \param workers    the result does not depend on how many
-/// \return one step per vertex; not finite where the system cannot be solved
-/// O(correspondences + faces), and at most 60 steps of conjugate gradients
+/// Computes one damped Gauss-Newton step that decreases the distances of the correspondences. The squared
+/// distance is nine tenths point-to-plane and one tenth point-to-point, and is weighted by a power of the
+/// current distance d. The damping keeps vertices in position that the correspondences hardly determine. The
+/// system is solved by preconditioned conjugate gradients.
+/// \param triangles        triangles with no_index corners are ignored
+/// \param correspondences  samples on these triangles
+/// \param fixed            one per vertex; nonzero: the vertex does not move
+/// \param power            p >= 0: the step decreases the sum of d^(2 + p)
+/// \param workers          the result does not depend on the number of threads
+/// \return one step per vertex, in the units of the residuals; not finite if the system cannot be solved
+/// \throws whatever `workers.check_cancelled` throws
+/// O(correspondences + faces) per iteration, at most 60 iterations
 std::vector<engine::Vector3> gauss_newton_step(std::span<const Triangle> triangles,
                                                std::span<const Correspondence> correspondences,
                                                std::span<const std::uint8_t> fixed, double power,

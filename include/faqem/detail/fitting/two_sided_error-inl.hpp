@@ -17,27 +17,30 @@ namespace detail {
 using engine::Vector3;
 
 inline constexpr std::size_t samples_per_face = 10, min_samples = 5000, max_samples = 2'000'000;
-/// The original has more that could be missed: so many times as many points there.
+/// Number of samples on the original per sample on the mesh. The original has more detail that could be
+/// missed.
 inline constexpr std::size_t reference_sample_factor = 2;
-/// Distances beyond this share of the longest are searched for, the others are followed.
+/// Residuals longer than this fraction of the longest one are searched globally, the others are tracked.
 inline constexpr double sample_far_share = 0.9;
-/// Where the original has so many times as many faces or more, what is followed gets lost more often. All are
-/// searched for there, as long as the points are the fewest there are: that costs little.
+/// If the original has at least this many times as many faces as the mesh, tracking fails more often. All
+/// residuals are then searched globally if the number of points is the minimum, so that this costs little.
 inline constexpr std::size_t coarse_face_ratio = 33;
-/// Added to each point's distance between the normals: a fraction of a degree does not matter.
+/// Added to the normal deviation of each point, so that differences of a fraction of a degree have no
+/// influence.
 inline constexpr double normal_deviation_offset = 0.005;
-/// Original faces whose distances differ by less are tied.
+/// Faces of the original whose distances differ by less than this count as equally close.
 inline constexpr double tie_tolerance = 1e-9;
 
-/// The original's vertices: the last of the kinds of tracker.
+/// Number of the tracker of the original's vertices in for_each_tracker().
 inline constexpr std::size_t reference_vertex_tracker = 3;
 
+/// Number of triangles without no_index corners.
 inline std::size_t face_count(std::span<const Triangle> triangles) {
     return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
                                                   [](const Triangle& t) { return t[0] != no_index; }));
 }
 
-/// Those beyond a share of the longest are searched for.
+/// Updates a tracker. Residuals longer than a fraction of the longest are searched globally; 1: none.
 template <class Tracker>
 void move(Tracker& tracker, std::span<const Vector3> positions, double searched_share, Workers workers) {
     tracker.update(positions, workers);
@@ -83,14 +86,15 @@ FAQEM_INLINE std::vector<OrientedPoint> TwoSidedError::even_points() const {
     return points;
 }
 
-// The one with most points first: two threads have about as much to do.
+// Calls visit(tracker, number) for the four trackers. The one with the most points is first, so that two
+// threads get about the same amount of work.
 template <class Visit>
 void TwoSidedError::for_each_tracker(Visit&& visit) {
     visit(from_reference_, 0), visit(from_mesh_, 1), visit(*from_mesh_corners_, 2),
         visit(from_reference_vertices_, 3);
 }
 
-// Calls visit(tracker, poll) for the four, side by side.
+// Calls visit(tracker, number, check_cancelled) for the four trackers in parallel.
 template <class Visit>
 void TwoSidedError::for_each_tracker_in_parallel(Visit&& visit) {
     parallel_blocks(4, 1, workers_, [&](std::size_t wanted, std::size_t, CancellationCheck check_cancelled) {
@@ -145,8 +149,8 @@ FAQEM_INLINE std::vector<FaceDeviation> TwoSidedError::deviations() {
 FAQEM_INLINE std::span<const Correspondence> TwoSidedError::correspondences() {
     const std::size_t count = from_mesh_.size() + from_mesh_corners_->size() + from_reference_.size();
     if (count > correspondences_.capacity()) {
-        std::vector<Correspondence>().swap(correspondences_);  // they need not be copied,
-        correspondences_.reserve(count + count / 16);          // and other edges have some more
+        std::vector<Correspondence>().swap(correspondences_);  // avoids copying the old ones
+        correspondences_.reserve(count + count / 16);          // edge flips may increase the count slightly
     }
     correspondences_.resize(count);
     std::size_t first = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How well the faces of a mesh that moves fit a surface that stays, measured from points on both.
+/// Deviation between a moving mesh and a reference surface, measured per face from sample points on both.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,11 +16,11 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// How well faces fit.
+/// Deviation of one or more faces, over the sample points that belong to them.
 struct FaceDeviation {
-    double max_squared_distance = 0;  ///< largest squared distance of their points
-    double squared_distance_sum = 0;  ///< sum of these squared distances
-    double normal_deviation = 0;      ///< sum of the distances between the unit normals on either side
+    double max_squared_distance = 0;  ///< square of the maximum distance
+    double squared_distance_sum = 0;  ///< sum of the squared distances
+    double normal_deviation = 0;      ///< sum of the distances between corresponding unit normals
 
     void add(const FaceDeviation& other) {
         max_squared_distance = std::max(max_squared_distance, other.max_squared_distance);
@@ -29,45 +29,59 @@ struct FaceDeviation {
     }
 };
 
-/// Sum of all areas.
+/// Total surface area. O(faces)
 double area(const MeshRef& mesh);
 
-/// Points on both surfaces, each with its residual to the other one. Refers to its arguments.
+/// Sample points on a moving mesh and on a reference surface, with their residuals to the other surface. A
+/// point of the reference surface belongs to the face of the mesh that is closest to it.
 class TwoSidedError {
 public:
-    /// \param original   a surface of diagonal 1
-    /// \param triangles  of the mesh; two of them may be flipped later
-    /// \param positions  of the mesh, where it is now
-    /// \param workers    no result depends on how many
+    /// \param original   the reference surface, scaled to a bounding box diagonal of 1; must outlive this
+    ///                   object
+    /// \param triangles  triangles of the mesh; must outlive this object. Edges may be flipped in them later,
+    ///                   see resample_flipped().
+    /// \param positions  current vertex positions of the mesh
+    /// \param workers    the results do not depend on the number of threads
+    /// \throws whatever `workers.check_cancelled` throws, here and in the other functions
     TwoSidedError(const ReferenceSurface& original, std::span<const Triangle> triangles,
                   std::span<const engine::Vector3> positions, Workers workers);
 
-    /// Is there nothing to measure?
+    /// True if one of the surfaces has no area, so that there is nothing to measure.
     bool empty() const { return from_mesh_.size() == 0 || from_reference_.size() == 0; }
 
-    /// Finds how well each face fits where the vertices are now. The longest gaps are searched for, the
-    /// others followed; all are searched for where the mesh has few faces beside the surface.
+    /// Measures the deviation of each face for the given positions. The longest residuals are found by a
+    /// global search and the others are tracked; all are searched if the mesh is much coarser than the
+    /// reference surface.
+    /// \param positions  current vertex positions of the mesh
+    /// \return one entry per triangle
     /// \pre not empty()
+    /// O(points log faces) if all residuals are searched
     std::vector<FaceDeviation> measure(std::span<const engine::Vector3> positions);
 
-    /// As measure(), for a mesh of which little has moved: only the longest gaps are searched for.
+    /// Same as measure(), for small changes: only the longest residuals are searched.
     std::vector<FaceDeviation> remeasure(std::span<const engine::Vector3> positions);
 
-    /// As measure() finds what correspondences() needs, but searches not even for the longest gaps where it follows.
+    /// Updates the residuals that correspondences() returns. Faster than measure(): residuals are tracked
+    /// without any search, unless the mesh is much coarser than the reference surface.
     void update_correspondences(std::span<const engine::Vector3> positions);
 
-    /// The gaps of all points but the original's vertices. Valid until the next call.
+    /// The correspondences of all points except the vertices of the reference surface. Valid until the next
+    /// call of this function.
     std::span<const Correspondence> correspondences();
 
-    /// All gaps at some faces. \param faces  of each triangle: nonzero counts
+    /// The correspondences of all points that belong to some faces, including the vertices of the reference
+    /// surface.
+    /// \param faces  one per triangle; nonzero: include its points
     std::vector<Correspondence> correspondences_at(std::span<const std::uint8_t> faces) const;
 
-    /// Takes new points where triangles have been flipped.
-    /// \param flipped  of each triangle: nonzero has other corners than the last time
+    /// Replaces the sample points on triangles that were changed by edge flips.
+    /// \param positions  current vertex positions of the mesh
+    /// \param flipped    one per triangle; nonzero: its corners have changed since the last call
     void resample_flipped(std::span<const engine::Vector3> positions, std::span<const std::uint8_t> flipped);
 
-    /// From points spread over the original, and from its vertices.
+    /// Residuals from uniform samples of the reference surface.
     const ReferenceToMeshTracker& from_reference() const { return from_reference_; }
+    /// Residuals from the vertices of the reference surface.
     const ReferenceToMeshTracker& from_reference_vertices() const { return from_reference_vertices_; }
 
 private:
@@ -82,13 +96,12 @@ private:
     const ReferenceSurface& original_;
     std::span<const Triangle> triangles_;
     Workers workers_;
-    std::size_t faces_;  // of the mesh
-    bool is_coarse_;
-    MeshToReferenceTracker from_mesh_;                         // from points spread by area
-    std::optional<MeshToReferenceTracker> from_mesh_corners_;  // from corners and middles of edges
-    ReferenceToMeshTracker
-        from_reference_;  // from points spread by area: they pull, and say how well the faces fit
-    ReferenceToMeshTracker from_reference_vertices_;  // from the vertices: among them are the farthest points
+    std::size_t faces_;                 // number of faces of the mesh
+    bool is_coarse_;                    // the mesh is much coarser than the reference surface
+    MeshToReferenceTracker from_mesh_;  // from uniform samples
+    std::optional<MeshToReferenceTracker> from_mesh_corners_;  // from vertices and edge midpoints
+    ReferenceToMeshTracker from_reference_;                    // from uniform samples
+    ReferenceToMeshTracker from_reference_vertices_;           // from vertices, for the maximum distance
     std::vector<Correspondence> correspondences_;
 };
 

@@ -21,38 +21,44 @@ namespace detail {
 
 using engine::Vector3;
 
-/// Times that edges are flipped, with fewer steps after each.
+/// Number of rounds of edge flips.
 inline constexpr int flip_rounds = 2;
+/// Number of Gauss-Newton steps at the beginning and after each round of edge flips.
 inline constexpr int first_steps = 4, later_steps = 2;
-/// The sum of d^2.5 gets smaller: far points count more, so that the largest distance falls too.
+/// Steps minimize the sum of d^2.5, which emphasizes large distances and thus decreases the maximum as well.
 inline constexpr double power = 0.5;
-/// Points that end farther away than this share of the farthest at the start go back.
+/// Faces whose maximum distance has increased above this fraction of the initial maximum are reverted.
 inline constexpr double revert_share = 0.9;
-/// A face may not shrink below this share of its area.
+/// Minimum area of a face, as a fraction of its initial area.
 inline constexpr double min_fitted_area = 0.05;
-/// The fitting may not fold the surface at an edge: cosine between the normals.
+/// Cosine between the normals of adjacent faces below which an edge is folded.
 inline constexpr double min_fitted_fold = -0.9;
-/// Times that a step is halved where faces turn too far, before it is left out there.
+/// A step is halved this often at faces that it would make invalid, and then set to zero there.
 inline constexpr int max_halvings = 6;
-/// Times that far points are put back before all of them are.
+/// Maximum number of rounds of reverting vertices, before all of them are reverted if necessary.
 inline constexpr int max_revert_rounds = 6;
-/// Times that the farthest points are drawn in; they are those beyond this share of the farthest one; the
-/// power of their distance by which they count; the squared distance that counts as nearer; and how much of a
-/// factor gained there the sums may lose, as a power of it.
+/// Maximum number of rounds that decrease the maximum distance.
 inline constexpr int max_farthest_rounds = 40;
-inline constexpr double farthest_share = 0.9, farthest_power = 4, max_distance_ratio = 0.998,
-                        tradeoff_exponent = 0.15;
+/// Faces whose maximum distance exceeds this fraction of the overall maximum are moved in these rounds.
+inline constexpr double farthest_share = 0.9;
+/// Power of the distance by which points are weighted in these rounds.
+inline constexpr double farthest_power = 4;
+/// The squared maximum distance must decrease by at least this factor in a round.
+inline constexpr double max_distance_ratio = 0.998;
+/// If the squared maximum distance decreases by a factor f, the sums may increase by f to this power.
+inline constexpr double tradeoff_exponent = 0.15;
 
-/// Vertices on edges with one face.
+/// For each vertex, whether it is on an edge with exactly one face.
 inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> triangles, std::size_t vertices,
                                                    CancellationCheck check_cancelled) {
-    std::vector<std::uint8_t> border(vertices, 0);
+    std::vector<std::uint8_t> is_boundary(vertices, 0);
     for_each_edge(sorted_halfedges(triangles, check_cancelled), [&](std::span<const Halfedge> on) {
-        if (on.size() == 1) border[on[0].low] = border[on[0].high] = 1;
+        if (on.size() == 1) is_boundary[on[0].low] = is_boundary[on[0].high] = 1;
     });
-    return border;
+    return is_boundary;
 }
 
+/// Implementation of fit_vertices() and fit_vertices_and_flip_edges().
 class VertexFitting {
 public:
     VertexFitting(const MeshRef& original, const MeshRef& simplified, std::span<const std::uint8_t> fixed,
@@ -67,7 +73,7 @@ public:
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
-    /// Moves the vertices, by steps on all of them.
+    /// Takes Gauss-Newton steps on all vertices, and reverts those that do not improve the fit.
     void fit_all_vertices(int steps) {
         start_ = positions_;
         guard_.emplace(MeshRef{start_, triangles_}, min_fitted_fold, workers_.check_cancelled);
@@ -88,8 +94,9 @@ public:
         }
     }
 
-    /// Draws in the farthest points: the vertices around them alone take steps that count the far ones most,
-    /// as long as that helps. \pre fit_all_vertices()
+    /// Decreases the maximum distance: takes steps on the vertices around the most distant points only, with
+    /// a weighting that emphasizes large distances, as long as this is an improvement.
+    /// \pre fit_all_vertices() was called
     void reduce_max_distance() {
         if (deviations_.empty()) return;
         for (int round = 0; round < max_farthest_rounds; ++round) {
@@ -109,32 +116,34 @@ public:
         }
     }
 
-    /// Swaps edges where that helps. \pre fit_all_vertices()
+    /// Flips edges where this brings the surfaces closer. Returns the flips.
+    /// \pre fit_all_vertices() was called
     std::vector<EdgeFlip> flip_edges(std::span<const Index> groups) {
         if (error_.empty()) return {};
-        std::vector<EdgeFlip> better =
+        std::vector<EdgeFlip> flips =
             find_edge_flips({positions_, triangles_, fixed_, groups}, original_, error_.from_reference(),
                             error_.from_reference_vertices(), area(original_.mesh), workers_);
         std::vector<std::uint8_t> flipped(triangles_.size(), 0);
-        for (const EdgeFlip& flip : better) {
+        for (const EdgeFlip& flip : flips) {
             flip_edge(triangles_[flip[0]], triangles_[flip[1]]);
             flipped[flip[0]] = flipped[flip[1]] = 1;
         }
         error_.resample_flipped(positions_, flipped);
-        return better;
+        return flips;
     }
 
     std::vector<Vector3> take_positions() { return std::move(positions_); }
 
 private:
-    /// A gain in distance at the cost of the normals is none, unless it is the larger one.
+    /// Whether the normal deviation has increased, and its square by a larger factor than the squared
+    /// distances have decreased.
     static bool is_worse(const FaceDeviation& now, const FaceDeviation& before) {
         return now.normal_deviation > before.normal_deviation &&
                now.squared_distance_sum * now.normal_deviation * now.normal_deviation >
                    before.squared_distance_sum * before.normal_deviation * before.normal_deviation;
     }
 
-    /// Is the farthest nearer, and do the sums lose less than it gains?
+    /// Whether the maximum distance has decreased, without too large an increase of the sums.
     static bool has_reduced_max_distance(const FaceDeviation& now, const FaceDeviation& before) {
         if (!(now.max_squared_distance < max_distance_ratio * before.max_squared_distance)) return false;
         const double gain =
@@ -154,7 +163,7 @@ private:
         return sum(deviations).max_squared_distance;
     }
 
-    /// Of the faces around each vertex together.
+    /// For each vertex, the total deviation of its faces.
     std::vector<FaceDeviation> around_vertices(std::span<const FaceDeviation> deviations) const {
         std::vector<FaceDeviation> sums(start_.size());
         for (std::size_t f = 0; f < deviations.size(); ++f) {
@@ -165,7 +174,7 @@ private:
         return sums;
     }
 
-    /// Those with a vertex that is not fixed.
+    /// For each face, whether it has a vertex that is not fixed.
     std::vector<std::uint8_t> movable_faces(std::span<const std::uint8_t> fixed) const {
         std::vector<std::uint8_t> any(triangles_.size(), 0);
         for (std::size_t f = 0; f < any.size(); ++f) {
@@ -176,8 +185,7 @@ private:
         return any;
     }
 
-    /// Takes the steps, shorter where a face would turn too far from where it was at the start, or the
-    /// surface would fold.
+    /// Moves the vertices by the given steps. Steps are shortened at faces that would become invalid.
     void move(std::vector<Vector3> step) {
         for (std::size_t v = 0; v < step.size(); ++v) {
             if (fixed_[v] || !step[v].allFinite()) step[v] = Vector3::Zero();
@@ -198,7 +206,8 @@ private:
         positions_ = std::move(to);
     }
 
-    /// Faces that have turned too far, or look away from a neighbour that they did not look away from.
+    /// Calls visit(triangle) for the faces that have shrunk too much or whose normal deviates too much from
+    /// the initial one, and for the faces at edges that were not folded initially and are now.
     template <class Visit>
     void for_each_invalid_face(std::span<const Vector3> positions, Visit&& visit) const {
         for (const Triangle& t : triangles_) {
@@ -217,7 +226,8 @@ private:
                before.dot(after) >= min_normal_cosine_ * old_norm * new_norm;
     }
 
-    /// False, and all is as it was: neither the step nor its half or quarter helps.
+    /// Tries the step, half of it and a quarter of it.
+    /// \return false, with the positions restored, if none of them is an improvement
     bool reduce_max_distance(const FaceDeviation& before, std::vector<Vector3> step) {
         const std::vector<Vector3> from = positions_;
         for (int half = 0; half < 3; ++half) {
@@ -231,8 +241,11 @@ private:
         return false;
     }
 
-    /// Undoes the moves at faces with far points that were nearer before, and of vertices around which the
-    /// faces fit worse than before. False: there were none.
+    /// Moves vertices back to their initial positions: those of faces with distant points that were closer
+    /// initially, and those whose faces fit worse than initially.
+    /// \param first   initial deviation of each face
+    /// \param before  initial square of the maximum distance
+    /// \return whether any vertex was moved back
     bool revert(std::span<const FaceDeviation> first, double before) {
         const double limit = revert_share * revert_share * before;
         bool any = false;
@@ -248,10 +261,10 @@ private:
         for (Index v = 0; v < around.size(); ++v) {
             if (is_worse(around[v], before_around[v])) any |= revert(v);
         }
-        // A face with some of its corners back may have turned: then all of them go back.
-        for (bool turned = any; turned;) {
-            turned = false;
-            for_each_invalid_face(positions_, [&](const Triangle& t) { turned |= revert(t); });
+        // Moving back some corners of a face may make it invalid; then all of its corners are moved back.
+        for (bool reverted = any; reverted;) {
+            reverted = false;
+            for_each_invalid_face(positions_, [&](const Triangle& t) { reverted |= revert(t); });
         }
         return any;
     }
@@ -297,8 +310,8 @@ FAQEM_INLINE FittingResult fit_vertices_and_flip_edges(const MeshRef& original, 
     fitting.fit_all_vertices(first_steps);
     for (int round = 0; round < flip_rounds; ++round) {
         fitting.reduce_max_distance();
-        const std::vector<EdgeFlip> better = fitting.flip_edges(groups);
-        result.flips.insert(result.flips.end(), better.begin(), better.end());
+        const std::vector<EdgeFlip> flips = fitting.flip_edges(groups);
+        result.flips.insert(result.flips.end(), flips.begin(), flips.end());
         fitting.fit_all_vertices(later_steps);
     }
     fitting.reduce_max_distance();

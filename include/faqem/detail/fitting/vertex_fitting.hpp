@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Moves the vertices of a simplified mesh, whose connectivity stays, closer to the original surface.
+/// Fits the vertices of a simplified mesh to the original surface, optionally with edge flips.
 
 #include <cstdint>
 #include <span>
@@ -12,34 +12,39 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Fits the simplified mesh to the original: Gauss-Newton steps on points spread over both, each with its closest
-/// point on the other. A vertex stays, or goes back, where a face would turn by more than the flip veto
-/// allows, where a point would be nearly as far away as the farthest was before, and where the normals lose
-/// more than the distances gain; if the farthest is farther in the end, nothing moves. Then the vertices
-/// around the farthest points move on, as long as these come nearer for less than the rest loses.
-/// \param original    finite
-/// \param simplified       finite, in the same units
-/// \param fixed       one per vertex of simplified: nonzero must not move. Open borders do not move either.
-/// \param min_normal_cosine  cosine between old and new normal of a face, at least
-/// \param workers     the result does not depend on how many
-/// \return the positions of all vertices of simplified
-/// Complexity: O(points log faces) a step; ten points per face of the simplified mesh on it, twice as many on the
-/// original.
+/// Moves the vertices of a simplified mesh closer to the original surface; the connectivity is kept. Takes
+/// Gauss-Newton steps on sample points of both surfaces, each with its closest point on the other. A vertex
+/// is not moved, or moved back to its initial position, if
+/// * the normal of a face would deviate by more than `min_normal_cosine`, or a face would fold or shrink,
+/// * a point near it would become almost as distant as the most distant point was initially, or
+/// * the normal deviation around it would increase by more than the distances decrease.
+/// If the maximum distance has increased after these steps, all vertices keep their initial positions.
+/// Afterwards only the vertices around the most distant points are moved, as long as the maximum distance
+/// decreases by more than the other deviations increase.
+/// \param original           finite, scaled to a bounding box diagonal of about 1
+/// \param simplified         finite, in the same units
+/// \param fixed              one per vertex of `simplified`; nonzero: the vertex does not move. Boundary
+///                           vertices do not move either.
+/// \param min_normal_cosine  minimum cosine between the initial and the new normal of a face, in [-1, 1]
+/// \param workers            the result does not depend on the number of threads
+/// \return the positions of all vertices of `simplified`
+/// \throws whatever `workers.check_cancelled` throws
+/// O(points log faces) per step, with ten points per face of `simplified` (at least 5000, at most 2,000,000)
+/// and twice as many on the original
 std::vector<engine::Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,
                                           std::span<const std::uint8_t> fixed, double min_normal_cosine,
                                           Workers workers);
 
-/// What fit_vertices_and_flip_edges() did.
+/// Result of fit_vertices_and_flip_edges().
 struct FittingResult {
-    std::vector<engine::Vector3> positions;  ///< of all vertices of simplified
+    std::vector<engine::Vector3> positions;  ///< of all vertices of the simplified mesh
     std::vector<EdgeFlip> flips;             ///< in the order in which they were made
 };
 
-/// fit_vertices(), with edges flipped twice before the farthest points are drawn in: where that brings the surfaces
-/// closer, and each time with more steps after it.
-/// \param groups  of the triangles of simplified, or empty: edges between groups are not flipped
-/// The other parameters are those of fit_vertices().
-/// Complexity: that of fit_vertices(), about twice over.
+/// Same as fit_vertices(), with two rounds of edge flips that bring the surfaces closer. Each round is
+/// followed by further steps.
+/// \param groups  one per triangle of `simplified`, or empty; edges between groups are not flipped
+/// The other parameters are those of fit_vertices(). Takes about twice as long as fit_vertices().
 FittingResult fit_vertices_and_flip_edges(const MeshRef& original, const MeshRef& simplified,
                                           std::span<const std::uint8_t> fixed, std::span<const Index> groups,
                                           double min_normal_cosine, Workers workers);

@@ -14,12 +14,14 @@ namespace detail {
 using engine::CancellationCheck;
 using engine::Vector3;
 
+/// Number of bins of the surface area heuristic.
 inline constexpr int bins = 16;
-/// Ranges up to this long are halved, so that the last nodes are full.
+/// Ranges of at most this many triangles are split at the median, so that the lowest nodes are full.
 inline constexpr std::uint32_t max_halved_range = 16;
-/// Beyond that lengths in the frame would overflow, or their squares would be lost.
+/// Maximum scale of the frame. A larger one could let lengths overflow or their squares underflow.
 inline constexpr double max_scale = 1e90;
 
+/// Axis-aligned bounding box in double precision; empty by default.
 struct BuildBox {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
     Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
@@ -32,7 +34,7 @@ struct BuildBox {
         low = low.cwiseMin(other.low);
         high = high.cwiseMax(other.high);
     }
-    /// Half the surface; 0 for a box nothing was added to.
+    /// Half the surface area; 0 for an empty box.
     double half_area() const {
         if (!(low.x() <= high.x())) return 0;
         const Vector3 d = high - low;
@@ -40,18 +42,20 @@ struct BuildBox {
     }
 };
 
-/// The state of one construction.
+/// State of one construction.
 struct Bvh::Build {
     struct Item {
         BuildBox box;
         Vector3 centre;  ///< of the box
         std::uint32_t triangle;
     };
+    /// A range of `items`.
     struct Range {
         std::uint32_t begin, end;
-        std::size_t depth;  ///< splits so far
+        std::size_t depth;  ///< number of splits that produced the range
         std::uint32_t size() const { return end - begin; }
     };
+    /// A range that is not split yet, and its node.
     struct PendingRange {
         Range range;
         std::uint32_t node;
@@ -60,9 +64,12 @@ struct Bvh::Build {
     std::vector<Item> items;
     CancellationCheck check_cancelled;
 
-    /// Surface-area heuristic over bins of the longest axis; returns begin where it finds no split.
+    /// Partitions the range by the surface area heuristic, evaluated at equidistant planes along one axis.
+    /// \param centres  bounding box of the centres of the items
+    /// \param axis     0, 1 or 2; the longest axis of `centres`
+    /// \return the beginning of the second part, or `range.begin` if no split separates the items
     std::uint32_t split_by_sah(const Range& range, const BuildBox& centres, int axis) {
-        // Halved: the difference of the largest doubles is beyond them.
+        // Halved, because the difference of two very large doubles overflows.
         const double low = 0.5 * centres.low[axis], extent = 0.5 * centres.high[axis] - low;
         if (!(extent > 0)) return range.begin;
         const auto bin_of = [&](const Item& item) {
@@ -108,7 +115,9 @@ struct Bvh::Build {
         return static_cast<std::uint32_t>(middle - items.begin());
     }
 
-    /// Halves, of which the first has a multiple of four where it can.
+    /// Partitions the range near its median. If possible, the size of the first half is a multiple of
+    /// `width`, so that its nodes are full.
+    /// \return the beginning of the second half
     std::uint32_t halve(const Range& range, int axis) {
         const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
         const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
@@ -121,6 +130,8 @@ struct Bvh::Build {
         return middle;
     }
 
+    /// Partitions the range along the longest axis of its centres.
+    /// \return the beginning of the second part; both parts are nonempty
     std::uint32_t split(const Range& range) {
         BuildBox centres;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -136,7 +147,7 @@ struct Bvh::Build {
         return halve(range, axis);
     }
 
-    /// Up to four parts of a range: the longest one is split first.
+    /// Splits a range into up to `width` parts, always splitting the largest part.
     std::vector<Range> split_into_children(const Range& range) {
         std::vector<Range> all = {range};
         while (all.size() < width) {
@@ -158,12 +169,12 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
                                        CancellationCheck check_cancelled) {
     std::vector<Corners> all;
     all.reserve(triangles.size());
-    const auto place = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
+    const auto position = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
     for (std::size_t f = 0; f < triangles.size(); ++f) {
         check_cancelled();
         const auto [a, b, c] = triangles[f];
         if (a == no_index || b == no_index || c == no_index) continue;
-        all.push_back({place(a), place(b), place(c), static_cast<Index>(f)});
+        all.push_back({position(a), position(b), position(c), static_cast<Index>(f)});
     }
     return all;
 }
@@ -188,7 +199,7 @@ FAQEM_INLINE Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     for (int i = 0; i < 3; ++i) {
         const auto x = static_cast<float>(local[i]);
         const float error =
-            1.5e-7f * std::abs(x) + 1e-15f;  // of single precision here, of double in the frame
+            1.5e-7f * std::abs(x) + 1e-15f;  // rounding to float here, and in double in the frame
         low[static_cast<std::size_t>(i)] = x - error;
         high[static_cast<std::size_t>(i)] = x + error;
     }

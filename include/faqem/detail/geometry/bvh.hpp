@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Exact closest points on a triangle mesh, and what a ray meets, by a tree of boxes. Own code, because CGAL's
-/// AABB tree is GPL, Embree computes in single precision, and no other library with exact double distances is
-/// packaged.
+/// Bounding volume hierarchy for closest-point and ray queries on a triangle mesh. It is implemented
+/// here because CGAL's AABB tree is GPL, Embree computes in single precision, and no other library that
+/// computes distances in double precision is packaged.
 
 #include <array>
 #include <cstdint>
@@ -19,83 +19,94 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Tree of axis-aligned boxes over triangles, four children to a node. The boxes are in single precision and
-/// only ever too large; distances are in double, so that answers are exact but for double's rounding. Queries
-/// may come from several threads at once. Depends on nothing but the mesh: same input, same tree.
+/// Bounding volume hierarchy: a tree of axis-aligned bounding boxes over triangles, with four children per
+/// node. The boxes are stored in single precision and rounded outwards; distances are computed in double
+/// precision, so that results are exact except for the rounding of doubles. Queries are const and may be made
+/// by several threads at once. The tree depends on the mesh only: the same input gives the same tree.
 class FAQEM_EXPORT Bvh {
 public:
-    /// Of no triangles.
+    /// A tree without triangles.
     Bvh() = default;
 
-    /// \param positions  finite
-    /// \param triangles  corners < positions.size(); faces with a corner no_index are left out. Faces without
-    ///                   area count as the segment or point that they are.
-    /// Keeps copies. O(n log n) time, about 140 bytes per face.
-    /// \pre fewer than 2^31 triangles
-    /// \throws what the poll throws
+    /// Builds the tree by the surface area heuristic. Keeps copies of the corner positions.
+    /// \param positions        finite, in model units
+    /// \param triangles        vertex indices < positions.size(), fewer than 2^31 triangles. Triangles with a
+    ///                         corner no_index are left out. Triangles of zero area count as the segment or
+    ///                         point that they degenerate to.
+    /// \param check_cancelled  called during construction
+    /// \throws whatever `check_cancelled` throws
+    /// O(n log n) time, about 140 bytes per face
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
         engine::CancellationCheck check_cancelled = {});
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
         engine::CancellationCheck check_cancelled = {});
 
-    /// Takes over new positions; the tree's shape stays, and is good as long as little has moved.
-    /// \param triangles  those of the constructor
-    /// \throws what the poll throws: then the tree is of no use any more.
+    /// Replaces the positions and recomputes the boxes; the topology of the tree is kept. Queries stay
+    /// correct, but become slower if the vertices have moved far.
+    /// \param positions  finite, as many as were passed to the constructor
+    /// \param triangles  the triangles that were passed to the constructor
+    /// \throws whatever `check_cancelled` throws; the tree must not be used afterwards
     /// O(n)
     void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
                engine::CancellationCheck check_cancelled = {});
 
-    /// A point of the mesh.
+    /// Result of a closest-point query.
     struct Hit {
-        Index face = no_index;  ///< index into the constructor's triangles; no_index: nothing in range
-        Vec3 barycentric = {};  ///< weights of the face's corners, >= 0, sum 1
-        Vec3 point = {};
+        Index face = no_index;  ///< index into the constructor's triangles; no_index: no face in range
+        Vec3 barycentric = {};  ///< barycentric coordinates of `point` in the face; >= 0, sum 1
+        Vec3 point = {};        ///< the closest point
         double distance_squared = std::numeric_limits<double>::infinity();
     };
 
+    /// True if the tree has no triangles.
     bool empty() const { return triangles_.empty(); }
 
-    /// The point of the mesh closest to p, if it is at most sqrt(max_distance_squared) away (inclusive). Of
-    /// faces at the same distance the one with the smallest index. O(log n) typically.
+    /// Finds the point of the mesh that is closest to p. If several faces are at the same distance, the
+    /// result is the one with the smallest index.
+    /// \param p                     finite
+    /// \param max_distance_squared  the search radius squared, inclusive; in squared model units
+    /// \return the closest point, or a Hit without a face if none is within the radius
+    /// O(log n) typically
     Hit closest(const Vec3& p, double max_distance_squared = std::numeric_limits<double>::infinity()) const {
         return closest_if(
             p, [](Index) { return true; }, max_distance_squared);
     }
 
-    /// As closest() without limit, for one who knows a face near p; the nearer, the faster.
-    /// \param face     of the tree
-    /// \param a,b,c    its corners
+    /// Same as closest() without a limit, for callers that know a face near p. The nearer the face, the
+    /// faster the query.
+    /// \param face   a face of the tree
+    /// \param a,b,c  positions of its corners
     Hit closest_with_hint(const Vec3& p, Index face, const engine::Vector3& a, const engine::Vector3& b,
                           const engine::Vector3& c) const {
         const ClosestPoint near = closest_point_on_triangle(engine::to_eigen(p), a, b, c);
         const Hit hit = closest(p, near.distance_squared);
         if (hit.face != no_index) return hit;
-        // Rounding: the box may seem a last digit farther than what is in it.
+        // Because of rounding, the box may appear slightly farther away than the triangle in it.
         return {face, engine::to_array(near.barycentric), engine::to_array(near.point),
                 near.distance_squared};
     }
 
-    /// As closest(), over the faces f with filter(f) only. The filter is asked for faces that would be the
-    /// best so far.
-    /// \param max_rejections  that many times the filter may say no; then the best so far is the answer
+    /// Same as closest(), restricted to the faces f for which filter(f) returns true.
+    /// \param filter          bool(Index face); called only for faces closer than the best one so far
+    /// \param max_rejections  after this many rejections by the filter, the best face so far is returned
     template <class Filter>
     Hit closest_if(const Vec3& p, Filter&& filter,
                    double max_distance_squared = std::numeric_limits<double>::infinity(),
                    std::size_t max_rejections = std::numeric_limits<std::size_t>::max()) const;
 
-    /// Calls visit(face, const ClosestPoint&) for every face at most sqrt(distance_squared) from p, in no
-    /// particular but always the same order.
+    /// Calls visit(face, const ClosestPoint&) for every face within sqrt(distance_squared) of p (inclusive).
+    /// The order of the calls is unspecified, but the same for the same tree and query.
     template <class Visit>
     void visit_within(const Vec3& p, double distance_squared, Visit&& visit) const;
 
-    /// Which side of a triangle a ray comes from: seen from the front its corners go counter-clockwise.
+    /// The side of a triangle that a ray hits. Seen from the front, the corners are counter-clockwise.
     enum class Side { front, back };
 
-    /// Whether a ray meets a triangle that counts; edges and corners are of the triangle. One that the ray
-    /// lies in is not met.
-    /// \param origin     finite; the ray goes on without end
-    /// \param direction  finite, of about unit length
-    /// \param accepts     (face, Side) -> bool, asked for triangles that are met
+    /// Returns whether a ray intersects a triangle that is accepted. Edges and corners belong to the
+    /// triangle. Triangles that are coplanar with the ray are not hit.
+    /// \param origin     start of the ray, finite; the ray has no end
+    /// \param direction  finite, of approximately unit length
+    /// \param accepts    bool(Index face, Side side); called for intersected triangles until it returns true
     /// O(log n) typically. Source: Moeller and Trumbore 1997
     template <class Accepts>
     bool any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) const;
@@ -105,14 +116,16 @@ private:
     static constexpr int width = 4;
     using Lanes = Eigen::Array<float, width, 1>;
 
-    /// Where single precision is good enough: the whole mesh is about [-1, 1]^3. Both steps are monotone.
+    /// Normalized coordinates, in which the bounding box of the mesh is centred at 0 and the largest
+    /// coordinate is about 1, so that single precision is sufficient. The mapping is monotone in each
+    /// coordinate, also with rounding.
     struct Frame {
         Vector3 centre = Vector3::Zero();
         double scale = 1;
         Vector3 operator()(const Vector3& p) const { return (p - centre) * scale; }
     };
 
-    /// A query in the frame, as an interval that has it for certain.
+    /// A query point in the frame, as an interval per axis that certainly contains it.
     struct Query {
         Query(const Vector3& p, const Frame& frame);
         std::array<float, 3> low, high;
@@ -122,15 +135,15 @@ private:
     struct Ray {
         Ray(const Query& from, const Vector3& direction);
         Query origin;
-        std::array<float, 3> inverse;  ///< of the direction; large where that is zero
+        std::array<float, 3> inverse;  ///< reciprocal of the direction; large but finite where that is zero
     };
 
-    /// The boxes of up to four children, rounded outwards.
+    /// The bounding boxes of up to four children, rounded outwards.
     struct Node {
         std::array<Lanes, 3> low, high;
-        std::array<std::uint32_t, width> child = {};  ///< a node, or with `leaf_bit` one of `triangles_`
-        std::uint32_t count = 0;                      ///< of children
-        /// Of the children's boxes from p; less by rounding, but never more.
+        std::array<std::uint32_t, width> child = {};  ///< a node, or with `leaf_bit` a triangle
+        std::uint32_t count = 0;                      ///< number of children
+        /// Lower bounds of the squared distances of p to the children's boxes.
         Lanes distance_squared(const Query& p) const {
             Lanes sum = Lanes::Zero();
             for (std::size_t i = 0; i < 3; ++i) {
@@ -138,7 +151,8 @@ private:
             }
             return sum * (1 - 1e-6f);
         }
-        /// Which of the children's boxes a ray goes through; by rounding some that it passes by.
+        /// For each child, whether the ray may intersect its box. Because of rounding, this may also be true
+        /// for boxes that the ray narrowly misses.
         Eigen::Array<bool, width, 1> intersected_boxes(const Ray& ray) const {
             Lanes enter = Lanes::Zero(), leave = Lanes::Constant(std::numeric_limits<float>::max());
             for (std::size_t i = 0; i < 3; ++i) {
@@ -153,16 +167,19 @@ private:
             return enter <= leave * (1 + 1e-6f);
         }
     };
+    /// Corner positions of a triangle, and its index in the constructor's triangles.
     struct Corners {
         Vector3 a, b, c;
         Index face = no_index;
     };
+    /// A child that has not been visited yet.
     struct Pending {
         std::uint32_t child;
         float distance_squared;
     };
     static constexpr std::uint32_t leaf_bit = 1u << 31;
-    /// Splits halve the range from `sah_levels` on, so that no tree is deeper.
+    /// From depth `sah_levels` on, ranges are split at the median, which limits the depth of the tree to
+    /// `max_depth`.
     static constexpr std::size_t sah_levels = 48, max_depth = sah_levels + 32;
 
     template <class Positions>
@@ -174,15 +191,16 @@ private:
     Bvh(std::vector<Corners> triangles, engine::CancellationCheck check_cancelled);
     void fit_boxes(engine::CancellationCheck check_cancelled);
 
-    /// A squared distance in the frame, rounded up.
+    /// Converts a squared distance to the frame, rounded up.
     float limit_in_frame(double distance_squared) const;
 
-    /// Visits triangles, nearest box first, while their box is within limit() of p.
+    /// Calls leaf(corners) for the triangles whose bounding box is within the squared distance limit() of p,
+    /// nearest box first. limit() is evaluated again after each call.
     template <class Limit, class Leaf>
     void traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const;
 
     Frame frame_;
-    std::vector<Corners> triangles_;  ///< those of a node lie together
+    std::vector<Corners> triangles_;  ///< the triangles of one node are contiguous
     std::vector<Node> nodes_;
 };
 

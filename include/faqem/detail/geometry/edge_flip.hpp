@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The edge flip: two triangles trade the diagonal of their quadrilateral.
+/// Edge flip: replaces the common edge of two triangles by the other diagonal of their quadrilateral.
 
 #include <cstddef>
 #include <optional>
@@ -11,7 +11,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The corners of triangles (a, b, c) and (b, a, d).
+/// The corners of two triangles (a, b, c) and (b, a, d), which share the edge ab.
 struct Quadrilateral {
     Index a, b, c, d;
 
@@ -21,7 +21,9 @@ struct Quadrilateral {
     Triangle second_flipped() const { return {b, c, d}; }
 };
 
-/// Nothing where the triangles do not share one edge alone, or are wound differently.
+/// Finds the quadrilateral that two triangles form.
+/// \return nullopt unless the triangles share exactly one edge, have consistent orientation there and have
+///         different opposite corners. O(1)
 inline std::optional<Quadrilateral> quadrilateral(const Triangle& s, const Triangle& t) {
     std::optional<Quadrilateral> found;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -35,7 +37,8 @@ inline std::optional<Quadrilateral> quadrilateral(const Triangle& s, const Trian
     return found;
 }
 
-/// Swaps the edge that s and t share. \return false: they share none that can be, and nothing happens
+/// Flips the edge that s and t share. The winding is kept.
+/// \return false, with s and t unchanged, if they form no quadrilateral(). O(1)
 inline bool flip_edge(Triangle& s, Triangle& t) {
     const std::optional<Quadrilateral> q = quadrilateral(s, t);
     if (!q) return false;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The halfedges of triangles, sorted so that those on one edge lie together.
+/// List of half-edges, sorted so that those on the same edge are contiguous.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,24 +16,27 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A halfedge of a face.
+/// A half-edge of a face.
 struct Halfedge {
-    Index low = no_index, high = no_index;  ///< its ends
+    Index low = no_index, high = no_index;  ///< its vertices, low < high
     Index face = no_index;
-    std::uint8_t corner = 0;    ///< of the face, where the halfedge begins: 0, 1 or 2
-    bool is_ascending = false;  ///< from `low` to `high`
+    std::uint8_t corner = 0;    ///< corner of the face at which the half-edge starts: 0, 1 or 2
+    bool is_ascending = false;  ///< true if the half-edge leads from `low` to `high`
 
+    /// Key of the undirected edge.
     std::uint64_t edge() const { return std::uint64_t{low} << 32 | high; }
 };
 
-/// All halfedges of all triangles by low end, high end, face and corner. Triangles with no_index corners are
-/// none, and halfedges with equal ends are left out. O(n log n)
-/// \throws what the poll throws
+/// Lists the half-edges of all triangles, sorted by low vertex, high vertex, face and corner.
+/// \param triangles  triangles with no_index as first corner are skipped, and so are half-edges with two
+///                   equal vertices
+/// \throws whatever `check_cancelled` throws
+/// O(n log n)
 std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles,
                                        engine::CancellationCheck check_cancelled = {});
 
-/// Calls visit(std::span<const Halfedge>) for the halfedges on each edge.
-/// \param halfedges  sorted.
+/// Calls visit(std::span<const Halfedge>) once for each edge, with all half-edges on it.
+/// \param halfedges  as returned by sorted_halfedges()
 /// O(n)
 template <class Visit>
 void for_each_edge(std::span<const Halfedge> halfedges, Visit&& visit) {
@@ -44,10 +47,11 @@ void for_each_edge(std::span<const Halfedge> halfedges, Visit&& visit) {
     }
 }
 
-/// Calls join(i, j), i < j, for the halfedges on one edge that carry a surface on across it: two where there are
-/// no others; where three or more meet, those of a surface that has exactly two of them.
-/// \param count  of halfedges on the edge
-/// \param surface  of halfedge i < count: any number that tells surfaces apart
+/// Calls join(i, j), i < j, for the pairs of half-edges on one edge across which a surface is connected. If
+/// the edge has exactly two half-edges, these form the pair. If it has more (a non-manifold edge), the
+/// half-edges of each surface that has exactly two of them form a pair.
+/// \param count    number of half-edges on the edge
+/// \param surface  std::uint64_t(std::size_t i), i < count: identifies the surface of half-edge i
 /// O(count log count)
 template <class SurfaceId, class Join>
 void for_each_connected_pair(std::size_t count, SurfaceId&& surface, Join&& join) {

@@ -11,7 +11,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A number in [0, 1) that depends on its arguments only.
+/// Pseudorandom number in [0, 1): a hash of the arguments (SplitMix64).
 inline double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
     const auto mix = [](std::uint64_t x) { return engine::splitmix64(x + 0x9e3779b97f4a7c15u); };
     return static_cast<double>(mix(mix(mix(seed) + dimension) + sample) >> 11) * 0x1p-53;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Area-uniform, stratified samples of a surface that depend on their number and a seed only.
+/// Area-uniform, stratified pseudorandom samples of a surface. Each sample depends on its index, the
+/// number of samples and the seed only, so that samples can be computed in any order and on any thread.
 
 #include <cstdint>
 
@@ -10,18 +11,20 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A point of a surface.
+/// A sample point of a surface.
 struct RandomSample {
-    Index face = no_index;  ///< into Surface::triangles
-    Vec3 barycentric = {};  ///< weights of its corners, sum 1
-    Vec3 point = {};
+    Index face = no_index;  ///< index into Surface::triangles
+    Vec3 barycentric = {};  ///< barycentric coordinates in the face; >= 0, sum 1
+    Vec3 point = {};        ///< position
 };
 
-/// Sample i of n: a uniform point of the face that a uniform place in the i-th of n equal slices of the area
-/// falls into. O(log faces)
-/// \param s     with a face
-/// \param i     < n
-/// \param seed  another seed, other places
+/// Computes sample i of n. The faces, in order, are divided into n strata of equal area; a uniform random
+/// position in stratum i selects the face, and the sample is uniformly distributed over that face.
+/// \param s     has at least one face
+/// \param i     index of the sample, < n
+/// \param n     number of samples
+/// \param seed  different seeds give different samples
+/// O(log faces)
 FAQEM_EXPORT RandomSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
 
 }  // namespace detail

@@ -14,19 +14,20 @@ namespace detail {
 
 using engine::Vector3;
 
-/// Faces lower than this share of their longest edge have no normal worth comparing.
+/// Faces whose height is below this fraction of their longest edge have no reliable normal and are left out.
 inline constexpr double min_height_ratio = 1e-12;
 
 inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
     for (const Index v : t) {
         if (v >= vertices) {
             throw InputError({}, "face " + std::to_string(f),
-                             "refers to vertex " + std::to_string(v) + " of " + std::to_string(vertices));
+                             "vertex index " + std::to_string(v) + " is out of range, there are " +
+                                 std::to_string(vertices) + " vertices");
         }
     }
 }
 
-/// Keeps the used positions, each once, and makes the triangles refer to them.
+/// Merges equal positions, removes unreferenced ones, and updates the indices of the triangles.
 inline void weld(Surface& s, engine::CancellationCheck check_cancelled) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;
     for (const Triangle& t : s.triangles) {

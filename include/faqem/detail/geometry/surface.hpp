@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Meshes as surfaces to measure between: their faces with area, and nearest faces of many points.
+/// Surface of a mesh without degenerate faces, and closest-point queries for sequences of points; used
+/// to measure distances between meshes.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,53 +15,60 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The faces with area of a mesh.
+/// The faces of a mesh that have nonzero area.
 struct Surface {
-    std::vector<Vec3> positions;      ///< used ones, each once (-0 equals 0), in order of x, y, z
-    std::vector<Triangle> triangles;  ///< with area
-    std::vector<Index> faces;         ///< per triangle: the mesh's face, whose corners come in the same order
-    std::vector<engine::Vector3> normals;  ///< unit, per triangle
-    std::vector<double> cumulative_area;   ///< per triangle: area of it and all before
+    std::vector<Vec3> positions;      ///< referenced and distinct (-0 equals 0), sorted by x, y, z
+    std::vector<Triangle> triangles;  ///< of nonzero area
+    std::vector<Index> faces;         ///< per triangle: index in the mesh; the corners have the same order
+    std::vector<engine::Vector3> normals;  ///< per triangle: unit normal
+    std::vector<double> cumulative_area;   ///< per triangle: area of the triangles up to and including it
+    /// Axis-aligned bounding box; zero if there are no triangles.
     engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();
 
+    /// Diagonal of the bounding box.
     double diagonal() const { return (high - low).norm(); }
+    /// Position of corner k of triangle f; k is 0, 1 or 2.
     engine::Vector3 corner(Index f, std::size_t k) const {
         return engine::to_eigen(positions[triangles[f][k]]);
     }
-    /// Squared distance of p to face f.
+    /// Squared distance of p to triangle f.
     double distance_squared(const engine::Vector3& p, Index f) const {
         return closest_point_on_triangle(p, corner(f, 0), corner(f, 1), corner(f, 2)).distance_squared;
     }
 };
 
-/// Leaves out faces that are lower than 1e-12 of their longest edge, and those that are not finite. Nothing
-/// may be left.
-/// \throws InputError  an index is out of range
-/// \throws what the poll throws
+/// Copies the faces of a mesh into a Surface. Leaves out faces whose height is below 1e-12 of their longest
+/// edge, and faces with positions that are not finite. The result may be empty.
+/// \throws InputError  if a vertex index is out of range
+/// \throws whatever `check_cancelled` throws
 /// O(n log n)
 FAQEM_EXPORT Surface extract_surface(const MeshView& mesh, engine::CancellationCheck check_cancelled = {});
 
-/// The same, where something must be left.
-/// \param name  of the mesh, for errors
-/// \throws InputError  no face has area, or an index is out of range
+/// Same as extract_surface(), but the result must not be empty.
+/// \param name  name of the mesh in error messages
+/// \throws InputError  if no face has nonzero area, or a vertex index is out of range
 FAQEM_EXPORT Surface extract_nonempty_surface(const MeshView& mesh, const char* name);
 
-/// Largest cosine between a normal and those of the faces as near to p as the nearest one: at an edge or a
-/// corner there are several, and which of them comes first is chance.
-/// \param normals    unit, of the tree's triangles
+/// Largest cosine between a normal and the normals of all faces that are closest to p. At an edge or a vertex
+/// several faces are equally close, and which of them a query returns is arbitrary.
+/// \param tree       the tree of the faces
+/// \param normals    unit normals of the tree's triangles
 /// \param hit        tree.closest(p)
 /// \param normal     unit
-/// \param tolerance  faces that are farther by at most this are as near
+/// \param tolerance  in model units: faces count as closest up to this much beyond the smallest distance
+/// \return at most 1
 double max_normal_cosine(const Bvh& tree, std::span<const engine::Vector3> normals, const Vec3& p,
                          const Bvh::Hit& hit, const engine::Vector3& normal, double tolerance);
 
-/// Closest points for queries that come in spatial order: the answer to one bounds the next. Refers to its
-/// arguments; the tree is that of the surface.
+/// Closest-point queries for a sequence of points in spatial order: the closest face of one point is the
+/// initial bound for the next. For one thread at a time.
 class CoherentQuery {
 public:
+    /// \param surface  not empty; must outlive this object
+    /// \param tree     the tree of `surface`; must outlive this object
     CoherentQuery(const Surface& surface, const Bvh& tree) : surface_(surface), tree_(tree) {}
 
-    /// The point closest to p, as Bvh::closest().
+    /// The point of the surface that is closest to p; same result as Bvh::closest().
     Bvh::Hit operator()(const Vec3& p) {
         const Bvh::Hit hit = tree_.closest_with_hint(p, last_, surface_.corner(last_, 0),
                                                      surface_.corner(last_, 1), surface_.corner(last_, 2));
@@ -68,7 +76,7 @@ public:
         return hit;
     }
 
-    /// As the call with one argument, where p is thought to be near this face.
+    /// Same, with a face that is probably near p as the initial bound.
     Bvh::Hit operator()(const Vec3& p, Index near) {
         last_ = near;
         return (*this)(p);

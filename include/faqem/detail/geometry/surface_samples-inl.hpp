@@ -12,7 +12,7 @@ namespace detail {
 
 using engine::Vector3;
 
-/// The k-th point of a sequence that fills the triangle evenly.
+/// The k-th point of a low-discrepancy sequence in the triangle, as barycentric coordinates.
 inline Vec3 even_barycentric(std::size_t k) {
     const auto fraction = [&](double step) {
         const double x = 0.5 + step * static_cast<double>(k);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points on meshes where distances are worth measuring.
+/// Deterministic sample points of a mesh for distance measurements.
 
 #include <cstddef>
 #include <span>
@@ -14,26 +14,30 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Positions and the triangles that refer to them; a triangle with no_index corners is none. Borrowed.
+/// Non-owning view of a mesh: positions, and triangles that index them. Triangles with no_index corners are
+/// ignored.
 struct MeshRef {
     std::span<const engine::Vector3> positions;
     std::span<const Triangle> triangles;
 };
 
-/// Twice the area of a triangle, along its normal.
+/// Vector along the normal of a triangle whose length is twice the area.
 inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, const Triangle& t) {
     return engine::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
-/// Unit normal of each triangle; zero where it has no area, or is none.
+/// Unit normal of each triangle; zero if it has no area or no_index corners.
+/// \throws whatever `check_cancelled` throws
+/// O(faces)
 std::vector<engine::Vector3> unit_normals(const MeshRef& mesh,
                                           engine::CancellationCheck check_cancelled = {});
 
-/// A point of a face.
+/// A point of a face, in barycentric coordinates.
 struct SurfaceSample {
     Index face = no_index;
-    Vec3 barycentric = {};  ///< barycentric
+    Vec3 barycentric = {};  ///< >= 0, sum 1
 
+    /// Position of the point for the given vertex positions.
     engine::Vector3 position(std::span<const engine::Vector3> positions,
                              std::span<const Triangle> triangles) const {
         const Triangle& t = triangles[face];
@@ -42,23 +46,31 @@ struct SurfaceSample {
     }
 };
 
-/// A point of a surface and the unit normal there.
+/// A point of a surface and the unit normal at it.
 struct OrientedPoint {
     engine::Vector3 position, normal;
 };
 
-/// `count` points spread by area, in the order of the faces; none where there is no area.
-/// Source: Roberts 2018, the sequence of the plastic number. O(faces + count)
+/// Distributes points uniformly by area, using a low-discrepancy sequence.
+/// \param count  number of points
+/// \return `count` points, sorted by face; none if the mesh has no area
+/// \throws whatever `check_cancelled` throws
+/// O(faces + count). Source: Roberts 2018, R2 sequence (based on the plastic number)
 std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count,
                                                 engine::CancellationCheck check_cancelled = {});
 
-/// The corners of faces, each vertex once, and the middles of their edges, once for each face: where a simplified
-/// mesh sticks out. O(faces)
+/// The referenced vertices, each once, and the midpoints of the edges, once per face. A simplified mesh
+/// typically deviates most from the original at these points.
+/// \param triangles  triangles with no_index corners are ignored
+/// \throws whatever `check_cancelled` throws
+/// O(faces)
 std::vector<SurfaceSample> vertex_and_midpoint_samples(std::span<const Triangle> triangles,
                                                        engine::CancellationCheck check_cancelled = {});
 
-/// The vertices of faces, with the mean normal of the faces around each by area; zero where it has none.
-/// O(faces)
+/// The referenced vertices, each with the area-weighted mean of the normals of its faces, normalized; zero if
+/// the mean is zero.
+/// \throws whatever `check_cancelled` throws
+/// O(vertices + faces)
 std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh,
                                              engine::CancellationCheck check_cancelled = {});
 

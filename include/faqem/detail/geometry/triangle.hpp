@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Closest point on a triangle, safe for slivers, segments and points.
+/// Closest point on a triangle; robust for slivers and for triangles that degenerate to a segment or a point.
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@ namespace detail {
 /// The point of a triangle that is closest to a query point.
 struct ClosestPoint {
     engine::Vector3 point = engine::Vector3::Zero();
-    engine::Vector3 barycentric = engine::Vector3::Zero();  ///< weights of a, b, c; >= 0, sum 1
+    engine::Vector3 barycentric = engine::Vector3::Zero();  ///< barycentric coordinates; >= 0, sum 1
     double distance_squared = std::numeric_limits<double>::infinity();
 };
 
@@ -22,11 +22,12 @@ namespace closest_point {
 
 using engine::Vector3;
 
+/// Result for a given point of the triangle.
 inline ClosestPoint at(const Vector3& p, const Vector3& point, const Vector3& barycentric) {
     return {point, barycentric, (point - p).squaredNorm()};
 }
 
-/// Parameter in [0, 1] of the point of segment ab closest to p; 0 where a equals b.
+/// Parameter in [0, 1] of the point of segment ab that is closest to p; 0 if a equals b.
 inline double on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {
     const Vector3 d = b - a;
     const double length_squared = d.squaredNorm();
@@ -36,9 +37,10 @@ inline double on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {
     return t < 1 ? t : 1;
 }
 
+/// Closest point on the three edges of a triangle.
 inline ClosestPoint on_boundary(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
     const double s = on_segment(p, a, b), t = on_segment(p, b, c), u = on_segment(p, c, a);
-    // At the ends the corner itself: a + 1 (b - a) need not be b in floating point.
+    // Returns the corners themselves at both ends, because a + 1 (b - a) may differ from b in floating point.
     const auto mix = [](const Vector3& from, const Vector3& to, double x) -> Vector3 {
         if (x == 0) return from;
         if (x == 1) return to;
@@ -52,15 +54,18 @@ inline ClosestPoint on_boundary(const Vector3& p, const Vector3& a, const Vector
     return best;
 }
 
-/// Sine of the smallest angle, roughly, below which the interior formula has lost half its digits.
+/// Approximately the sine of the smallest angle below which the interior formula loses half of its digits.
 inline constexpr double sliver_ratio = 1e-6;
 
 }  // namespace closest_point
 
-/// The point of triangle abc that is closest to p, by Voronoi regions (Ericson, Real-Time Collision
-/// Detection, 5.1.5). The interior formula divides by the squared area, so triangles that are thin, or have
-/// no area at all, are treated by their three edges as well, and the nearer answer is taken. Corners are
-/// returned to the last bit. O(1)
+/// Finds the point of triangle abc that is closest to p, by Voronoi regions. The formula for interior points
+/// divides by the squared area; for thin and degenerate triangles, the closest point on the edges is
+/// therefore computed as well, and the closer of the two is returned. If the result is a corner, it is
+/// bitwise equal to that corner.
+/// \param p      finite
+/// \param a,b,c  corners, finite; may coincide
+/// O(1). Source: Ericson, Real-Time Collision Detection, 5.1.5
 inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const engine::Vector3& a,
                                               const engine::Vector3& b, const engine::Vector3& c) {
     using namespace closest_point;
@@ -97,7 +102,7 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
             const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
             return at(p, a + v * ab + w * ac, {va / sum, v, w});
         }
-        return on_boundary(p, a, b, c);  // rounding put the query between two regions
+        return on_boundary(p, a, b, c);  // because of rounding, no region contains the query point
     }
     if (!(va > 0 && vb > 0 && vc > 0)) return on_boundary(p, a, b, c);
     const double sum = va + vb + vc, v = vb / sum, w = vc / sum;

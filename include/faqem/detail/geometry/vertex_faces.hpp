@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The faces around each vertex of a mesh that stays as it is.
+/// Vertex-to-face adjacency of a mesh whose connectivity does not change.
 
 #include <cstddef>
 #include <span>
@@ -13,12 +13,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The faces around each vertex, in their order.
+/// For each vertex the indices of its faces, in increasing order.
 using VertexFaces = Buckets<Index>;
 
-/// \param vertices   their number
-/// \param triangles  a triangle with no_index corners is none
-/// \throws what the poll throws
+/// Lists the faces of each vertex.
+/// \param vertices   number of vertices
+/// \param triangles  vertex indices < vertices; triangles with no_index as first corner are skipped
+/// \throws whatever `check_cancelled` throws
 /// O(vertices + faces)
 inline VertexFaces make_vertex_faces(std::size_t vertices, std::span<const Triangle> triangles,
                                      engine::CancellationCheck check_cancelled = {}) {

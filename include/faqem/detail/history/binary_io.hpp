@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Arrays in the files of histories.
+/// Binary input and output of collapse histories, see docs/history-format.md.
 
 #include <algorithm>
 #include <array>
@@ -18,24 +18,31 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-static_assert(std::endian::native == std::endian::little, "the history format is written byte for byte");
+static_assert(std::endian::native == std::endian::little, "the history format is little-endian");
 static_assert(sizeof(Vec3) == 24 && sizeof(Triangle) == 12);
 
-/// The first bytes of a section.
+/// The first bytes of a file; they identify the format and its version.
 using HistoryMagic = std::array<char, 8>;
 
+/// A single history.
 inline constexpr HistoryMagic history_magic = {'F', 'A', 'Q', 'E', 'M', 'H', '0', '3'};
+/// A history with the levels of a chain.
 inline constexpr HistoryMagic chain_magic = {'F', 'A', 'Q', 'E', 'M', 'L', '0', '1'};
 
+/// \param section  invalid section or element
+/// \param what     what is wrong with it
+/// \throws InputError  always
 [[noreturn]] inline void fail_history(const std::string& section, const std::string& what) {
     throw InputError("history", section, what);
 }
 
+/// Writes the bytes of a value.
 template <class T>
 void put(std::ostream& out, const T& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+/// Writes the number of elements as 64-bit integer, then the elements.
 template <class T>
 void put_array(std::ostream& out, const std::vector<T>& values) {
     put(out, static_cast<std::uint64_t>(values.size()));
@@ -43,11 +50,14 @@ void put_array(std::ostream& out, const std::vector<T>& values) {
               static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
+/// \throws InputError  if fewer than `size` bytes are left
 inline void get_bytes(std::istream& in, void* to, std::size_t size, const char* section) {
     in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
     if (static_cast<std::size_t>(in.gcount()) != size) fail_history(section, "ends too early");
 }
 
+/// Reads a value that put() wrote.
+/// \throws InputError  if the stream ends before
 template <class T>
 T get(std::istream& in, const char* section) {
     T value = {};
@@ -55,7 +65,9 @@ T get(std::istream& in, const char* section) {
     return value;
 }
 
-/// Reads in pieces, so that a count that lies costs no more memory than the bytes that follow.
+/// Reads an array that put_array() wrote. Reads 1 MiB at a time, so that an invalid count does not allocate
+/// more memory than there are bytes in the stream.
+/// \throws InputError  if the stream ends before
 template <class T>
 std::vector<T> get_array(std::istream& in, const char* section) {
     constexpr std::uint64_t piece = (1u << 20) / sizeof(T);
@@ -70,7 +82,8 @@ std::vector<T> get_array(std::istream& in, const char* section) {
     return values;
 }
 
-/// What follows the magic of a history; it is validated.
+/// Reads and validates a history, starting after its magic bytes.
+/// \throws InputError  if the history is truncated or invalid
 CollapseHistory read_history_body(std::istream& in);
 
 }  // namespace detail

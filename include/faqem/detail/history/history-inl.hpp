@@ -18,7 +18,7 @@ namespace detail {
 using detail::get_array;
 using detail::put_array;
 
-// Collapses and deletions are written as parallel arrays: their structs have padding.
+// One member of all rows. Structs are written as parallel arrays, because they have padding.
 template <class T, class Member>
 auto column(const std::vector<T>& rows, Member member) {
     std::vector<std::decay_t<decltype(rows.front().*member)>> values;
@@ -27,10 +27,11 @@ auto column(const std::vector<T>& rows, Member member) {
     return values;
 }
 
+// Sets one member of all rows; the inverse of column().
 template <class T, class Value>
 void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value>& values,
                  const char* section) {
-    if (rows.size() != values.size()) detail::fail_history(section, "columns of different length");
+    if (rows.size() != values.size()) detail::fail_history(section, "arrays have different lengths");
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values[i];
 }
 
@@ -40,7 +41,7 @@ inline std::string numbered(const char* what, std::size_t i) {
 
 inline void check_position(const Vec3& position, const char* section, std::size_t i) {
     for (const double x : position) {
-        if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "a position that is not finite");
+        if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "position is not finite");
     }
 }
 
@@ -65,17 +66,17 @@ inline void check_faces(const CollapseHistory& h) {
     }
 }
 
-// Marks the versions that collapses use up; each is used once, after it was made.
+// Checks that each version is merged at most once and after its creation. Returns 1 for merged versions.
 inline std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
     const std::size_t versions = h.positions.size() + h.collapses.size();
-    if (versions >= no_index) detail::fail_history("collapses", "too many");
+    if (versions >= no_index) detail::fail_history("collapses", "too many for 32-bit version indices");
     std::vector<std::uint8_t> used(versions, 0);
     for (std::size_t k = 0; k < h.collapses.size(); ++k) {
         const Collapse& c = h.collapses[k];
         for (const Index v : {c.first, c.second}) {
             if (!(v < h.positions.size() + k))
-                detail::fail_history(numbered("collapses", k), "version not made yet");
-            if (used[v]) detail::fail_history(numbered("collapses", k), "version collapsed twice");
+                detail::fail_history(numbered("collapses", k), "version does not exist yet");
+            if (used[v]) detail::fail_history(numbered("collapses", k), "version was already merged");
             used[v] = 1;
         }
     }
@@ -86,26 +87,27 @@ inline void check_patches(const CollapseHistory& h) {
     if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
         h.patch_begin.back() != h.patch_faces.size() ||
         !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end())) {
-        detail::fail_history("patch_begin", "must rise from 0 to the number of patch faces");
+        detail::fail_history("patch_begin", "must increase from 0 to the number of patch faces");
     }
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
-        if (h.patch(k).size() != 2) detail::fail_history(numbered("patch_begin", k), "a flip has two faces");
+        if (h.patch(k).size() != 2)
+            detail::fail_history(numbered("patch_begin", k), "an edge flip must have two faces");
     }
     for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
         const Index f = h.patch_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index) {
-            detail::fail_history(numbered("patch_faces", i), "no such face");
+            detail::fail_history(numbered("patch_faces", i), "face does not exist");
         }
     }
     for (std::size_t i = 0; i < h.deleted_faces.size(); ++i) {
         if (!(h.deleted_faces[i].face < h.triangles.size()) ||
             !(h.deleted_faces[i].time <= h.collapses.size())) {
-            detail::fail_history(numbered("deleted_faces", i), "out of range");
+            detail::fail_history(numbered("deleted_faces", i), "time or face index out of range");
         }
     }
 }
 
-// Vertex of the simplified mesh for each version that is kept.
+// For each version, its vertex in the simplified mesh; no_index if it is not kept.
 inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
     std::vector<Index> vertex(h.positions.size() + h.collapses.size(), no_index);
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i)
@@ -113,7 +115,7 @@ inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
     return vertex;
 }
 
-// All faces over the vertices of the simplified mesh after the last flip; what was not kept has no_index corners.
+// For each input face, its vertices in the simplified mesh after the last edge flip; no_index if not kept.
 inline std::vector<Triangle> simplified_faces(const CollapseHistory& h) {
     const std::vector<Index> vertex = kept_vertex(h);
     const std::vector<Index> last = detail::final_versions(h);
@@ -124,13 +126,14 @@ inline std::vector<Triangle> simplified_faces(const CollapseHistory& h) {
         faces[f] = {vertex[last[t[0]]], vertex[last[t[1]]], vertex[last[t[2]]]};
         for (const Index v : faces[f]) {
             if (v == no_index)
-                detail::fail_history(numbered("kept_faces", i), "has a vertex that was not kept");
+                detail::fail_history(numbered("kept_faces", i), "refers to a vertex that is not kept");
         }
     }
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
         Triangle &s = faces[h.patch(k)[0]], &t = faces[h.patch(k)[1]];
         if (s[0] == no_index || t[0] == no_index || !detail::flip_edge(s, t))
-            detail::fail_history(numbered("patch_begin", k), "a flip of faces that share no edge");
+            detail::fail_history(numbered("patch_begin", k),
+                                 "faces of an edge flip must be kept and share an edge");
     }
     return faces;
 }
@@ -139,7 +142,7 @@ inline void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>
     for (std::size_t i = 0; i < h.kept_versions.size(); ++i) {
         const Index v = h.kept_versions[i];
         if (!(v < used.size()) || used[v])
-            detail::fail_history(numbered("kept_versions", i), "not a living version");
+            detail::fail_history(numbered("kept_versions", i), "version does not exist or was merged");
     }
     if (!h.kept_positions.empty() && h.kept_positions.size() != h.kept_versions.size()) {
         detail::fail_history("kept_positions", "needs one entry per kept version or none");
@@ -147,7 +150,7 @@ inline void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>
     for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
         const Index f = h.kept_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
-            detail::fail_history(numbered("kept_faces", i), "no such face");
+            detail::fail_history(numbered("kept_faces", i), "face does not exist");
     }
     simplified_faces(h);
 }
@@ -197,12 +200,12 @@ FAQEM_INLINE void write(const CollapseHistory& h, std::ostream& out) {
     detail::put_array(out, h.kept_versions);
     detail::put_array(out, h.kept_faces);
     out.flush();
-    if (!out) throw WriteError("the history could not be written");
+    if (!out) throw WriteError("cannot write the history");
 }
 
 FAQEM_INLINE CollapseHistory read_history(std::istream& in) {
     if (detail::get<detail::HistoryMagic>(in, "header") != detail::history_magic)
-        detail::fail_history("header", "not a collapse history of this version");
+        detail::fail_history("header", "not a collapse history, or of an unsupported version");
     return detail::read_history_body(in);
 }
 

@@ -27,7 +27,7 @@ inline bool is_same(const DeletedFace& a, const DeletedFace& b) {
     return a.time == b.time && a.face == b.face;
 }
 
-// Does a run that had done `part` go on to `whole`?
+// Whether the collapses and deletions of `part` are the first ones of `whole`, for the same original.
 inline bool is_prefix_of(const CollapseHistory& part, const CollapseHistory& whole) {
     const auto is_prefix = [](const auto& a, const auto& b, auto&& same) {
         return a.size() <= b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
@@ -52,11 +52,11 @@ inline HistoryLevel level_from_history(const CollapseHistory& history) {
     return level;
 }
 
-// The first collapses and deletions.
+// A history with the first collapses and deletions of `whole`, without kept elements.
 inline CollapseHistory history_prefix(const CollapseHistory& whole, std::size_t collapses,
                                       std::size_t deleted) {
     CollapseHistory h;
-    if (whole.patch_begin.empty()) return h;  // of nothing
+    if (whole.patch_begin.empty()) return h;  // empty history
     h.positions = whole.positions;
     h.triangles = whole.triangles;
     h.face_groups = whole.face_groups;
@@ -70,7 +70,7 @@ inline CollapseHistory history_prefix(const CollapseHistory& whole, std::size_t 
     return h;
 }
 
-// How far a history goes.
+// Number of collapses and deletions of a history.
 struct HistoryLength {
     std::size_t collapses = 0, deleted = 0;
     bool operator==(const HistoryLength&) const = default;
@@ -88,8 +88,8 @@ inline std::size_t faces_at_level(const ChainHistory& history, std::size_t level
                                           : history.before[level].kept_faces.size();
 }
 
-// Where a run to so many faces would have stopped, as an engine counts: what has lost its area counts too.
-// What is deleted between two collapses goes together.
+// The point at which a run to the given face count would have stopped. Faces are counted as by the collapse
+// loop, that is, with faces of zero area. All deletions between two collapses belong together.
 inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_t faces) {
     const Index made = static_cast<Index>(h.positions.size());
     std::vector<Triangle> corners = h.triangles;
@@ -105,7 +105,7 @@ inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_
         while (now.deleted < h.deleted_faces.size() && h.deleted_faces[now.deleted].time == now.collapses)
             remove(h.deleted_faces[now.deleted++].face);
     };
-    remove_deleted();  // what was pruned is among it
+    remove_deleted();  // includes the pruned components
     while (left > faces && now.collapses < h.collapses.size()) {
         const Collapse& c = h.collapses[now.collapses];
         for (const Index f : h.patch(now.collapses)) {
@@ -124,13 +124,12 @@ inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_
     return now;
 }
 
-// Fills what is kept as a run would that ended there: vertices and faces in the order of the input, none
-// without area.
+// Sets kept_versions and kept_faces like a run that ends there: in input order, without faces of zero area.
 inline void fill_kept_elements(CollapseHistory& h) {
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
     for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
-    // Vertices are in the order of the slots, and each version has the slot of the first it was made of.
+    // Vertices are sorted by slot; a collapse puts the new version into the slot of its first version.
     std::vector<Index> slot(last.size());
     std::iota(slot.begin(), slot.end(), Index{0});
     for (std::size_t k = 0; k < h.collapses.size(); ++k)
@@ -150,22 +149,23 @@ inline void fill_kept_elements(CollapseHistory& h) {
     }
 }
 
+// \throws InputError  if the parts have different numbers of levels
 inline void check_same_count(std::span<const ChainHistory> parts) {
     for (const ChainHistory& part : parts) {
         if (part.level_count() != parts.front().level_count())
-            throw InputError("history", "levels", "the parts have not the same number of them");
+            throw InputError("history", "levels", "the parts have different numbers of levels");
     }
 }
 
 }  // namespace detail
 
 FAQEM_INLINE ChainHistory join(std::span<const CollapseHistory> levels) {
-    if (levels.empty()) throw InputError("history", "levels", "there are none");
+    if (levels.empty()) throw InputError("history", "levels", "at least one level is required");
     ChainHistory result;
     result.last = levels.back();
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
         if (!detail::is_prefix_of(levels[i], levels[i + 1]))
-            detail::fail_history(detail::numbered(i), "the next one is of another run");
+            detail::fail_history(detail::numbered(i), "the next level is not from the same run");
         result.before.push_back(detail::level_from_history(levels[i]));
     }
     return result;
@@ -205,7 +205,7 @@ FAQEM_INLINE std::vector<CollapseHistory> truncate_to_faces(std::span<const Chai
     std::vector<CollapseHistory> result;
     if (parts.empty()) return result;
     detail::check_same_count(parts);
-    // Of each level, the first of them the original.
+    // Face count of a part. Level 0 is the original, level i + 1 is level i of the history.
     const auto faces_of = [](const ChainHistory& part, std::size_t level) -> std::uint64_t {
         if (level > 0) return detail::faces_at_level(part, level - 1);
         return static_cast<std::uint64_t>(std::count_if(part.last.triangles.begin(),
@@ -220,7 +220,7 @@ FAQEM_INLINE std::vector<CollapseHistory> truncate_to_faces(std::span<const Chai
     const std::size_t levels = parts.front().level_count();
     std::size_t below = 0;
     while (below < levels && faces_of_all(below) > faces) ++below;
-    const bool is_level = below > 0 && faces_of_all(below) >= faces;  // above it only at the last
+    const bool is_level = below > 0 && faces_of_all(below) >= faces;  // > only for the last level
     if (is_level) {
         for (const ChainHistory& part : parts) result.push_back(truncate_to_level(part, below - 1));
         return result;
@@ -267,7 +267,7 @@ FAQEM_INLINE void write(const ChainHistory& history, std::ostream& out) {
         detail::put_array(out, level.kept_faces);
     }
     out.flush();
-    if (!out) throw WriteError("the history could not be written");
+    if (!out) throw WriteError("cannot write the history");
 }
 
 FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
@@ -278,7 +278,7 @@ FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
         return history;
     }
     if (magic != detail::chain_magic)
-        detail::fail_history("header", "not a collapse history of this version");
+        detail::fail_history("header", "not a collapse history, or of an unsupported version");
     history.last = read_history(in);
     const auto count = detail::get<std::uint64_t>(in, "levels");
     detail::HistoryLength latest;
@@ -295,7 +295,7 @@ FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
                                  level.deleted <= history.last.deleted_faces.size();
         if (!is_monotone)
             detail::fail_history(detail::numbered(i),
-                                 "goes not as far as the one before it, or farther than the last");
+                                 "must not end before the previous level or after the last level");
         latest = detail::length_at_level(history, static_cast<std::size_t>(i));
         validate(truncate_to_level(history, static_cast<std::size_t>(i)));
     }

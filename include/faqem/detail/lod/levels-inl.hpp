@@ -14,27 +14,33 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
+/// \throws OptionError  always
 [[noreturn]] inline void fail(std::size_t level, const char* what) {
     throw OptionError("level " + std::to_string(level) + ": " + what);
 }
 
+/// Checks one level and converts it to numbers.
+/// \param number    index of the level, for error messages
+/// \param faces     number of faces of the original
+/// \param diagonal  bounding box diagonal of the original, model units
+/// \throws OptionError  if the level is unset or its value is out of range
 inline detail::LevelTarget level_target(const Level& level, std::size_t number, double faces,
                                         double diagonal) {
     if (const MaxError* error = std::get_if<MaxError>(&level)) {
         if (!(error->value > 0 && std::isfinite(error->value)))
-            fail(number, "a distance must be finite and > 0");
+            fail(number, "distance must be finite and > 0");
         return {std::nullopt, error->unit == MaxError::Unit::model ? error->value : error->value * diagonal};
     }
     const Target& target = std::get<Target>(level);
     switch (target.kind) {
         case Target::Kind::unset:
-            fail(number, "needs a ratio, a number of faces or a distance");
+            fail(number, "must be a ratio, a face count or a distance");
         case Target::Kind::ratio:
-            if (!(target.value > 0 && target.value <= 1)) fail(number, "a ratio must be in (0, 1]");
+            if (!(target.value > 0 && target.value <= 1)) fail(number, "ratio must be in (0, 1]");
             break;
         case Target::Kind::faces:
             if (!(target.value >= 1 && std::isfinite(target.value)))
-                fail(number, "a number of faces must be finite and >= 1");
+                fail(number, "face count must be finite and >= 1");
             break;
     }
     return {std::max(detail::min_target_faces, detail::target_face_count(target, faces))};
@@ -46,17 +52,19 @@ FAQEM_INLINE std::vector<detail::LevelTarget> detail::level_targets(const std::v
                                                                     const Options& options, double faces,
                                                                     double diagonal) {
     if (options.target.kind != Target::Kind::unset || options.max_error)
-        throw OptionError("target and max_error: of a chain the levels say them");
+        throw OptionError("target and max_error must be unset; set them per level");
     std::vector<LevelTarget> level_targets;
     LevelTarget last{std::numeric_limits<std::uint64_t>::max(), 0};
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const LevelTarget& next =
             level_targets.emplace_back(detail::level_target(levels[i], i, faces, diagonal));
         if (next.faces) {
-            if (*next.faces > *last.faces) detail::fail(i, "more faces than a level before it");
+            if (*next.faces > *last.faces)
+                detail::fail(i, "face count must not be larger than that of a previous level");
             last.faces = next.faces;
         } else {
-            if (next.allowed < last.allowed) detail::fail(i, "a smaller distance than a level before it");
+            if (next.allowed < last.allowed)
+                detail::fail(i, "distance must not be smaller than that of a previous level");
             last.allowed = next.allowed;
         }
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A chain of levels: from counts and distances to targets, results and their errors.
+/// Chain of levels of detail: checks the targets, runs the simplification and measures the errors.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,37 +18,45 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A level in numbers.
+/// Target of one level: a face count or a distance.
 struct LevelTarget {
-    std::optional<std::uint64_t> faces;  ///< else a distance
-    double allowed = std::numeric_limits<double>::infinity();
+    std::optional<std::uint64_t> faces;                        ///< face count, or nullopt for a distance
+    double allowed = std::numeric_limits<double>::infinity();  ///< allowed distance, model units
 };
 
-/// Checks the levels, and that options say nothing else, and takes all lengths to one unit.
-/// \param faces     of the original
-/// \param diagonal  of the original
+/// Checks the levels and converts ratios to face counts and all distances to model units.
+/// \param levels    from fine to coarse
+/// \param options   target and max_error must be unset
+/// \param faces     number of faces of the original
+/// \param diagonal  bounding box diagonal of the original, model units
 /// \throws OptionError  see simplify_levels()
+/// O(levels)
 FAQEM_EXPORT std::vector<LevelTarget> level_targets(const std::vector<Level>& levels, const Options& options,
                                                     double faces, double diagonal);
 
-/// A result, and the target that it was run to.
+/// The result of one run, and its target face count.
 template <class Result>
 struct Attempt : Result {
     std::uint64_t target = 0;
 };
 
-/// Runs and measures the levels. A door brings the runs.
-/// \tparam Out     has the members of SimplifiedLevel
-/// \param faces    of the original
-/// \param run      (targets, Options) -> results, as run_to_targets()
-/// \param measure  (Result, allowed, MeasureMode, CancellationCheck) -> MeasuredDistance
+/// Runs the simplification for all levels and measures each level against the original. Distances are first
+/// converted to face counts by a search each; then one run produces all levels.
+/// \tparam Out           a type with the members of SimplifiedLevel
+/// \param level_targets  as returned by level_targets()
+/// \param options        options of the runs; progress covers all runs and measurements
+/// \param faces          number of faces of the original
+/// \param run            (targets, Options) -> results, as run_to_targets()
+/// \param measure        (Result, allowed, MeasureMode, CancellationCheck) -> MeasuredDistance
+/// \return one element per level; fewer if cancelled, the last one with StopReason::cancelled
+/// \throws whatever `run`, `measure` or the progress callback throws, except Cancelled
 template <class Out, class Run, class Measure>
 std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
                                std::uint64_t faces, Run&& run, Measure&& measure) {
     using Result = decltype(Out::result);
     const auto searches = std::count_if(level_targets.begin(), level_targets.end(),
                                         [](const LevelTarget& g) { return !g.faces; });
-    double steps_done = 0;  // searches, and at last a run
+    double steps_done = 0;  // of searches + 1 steps; the last step is the run
     Options own = options;
     if (options.progress) {
         own.progress = [&](Phase phase, double fraction) {
@@ -105,7 +113,7 @@ std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const
     const auto done = [&](std::size_t levels) {
         return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out.size());
     };
-    // False: cancelled.
+    // Measures level i. Returns false if cancelled.
     const auto try_measure = [&](std::size_t i) {
         try {
             const MeasurementMonitor monitor(own, done(i));

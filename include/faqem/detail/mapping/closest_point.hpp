@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the small surface to the original by closest points: what a baker without history does.
+/// Map from the simplified mesh to the original by closest points, as for texture baking without a history.
 
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/mapping/replay.hpp"
@@ -11,17 +11,22 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The closest point of the whole original, with no regard to sides, sheets or groups. On thin walls that is
-/// the wrong side as often as not.
+/// Maps a point to the closest point of the whole original, regardless of normals, surface patches and
+/// groups. On thin walls the result is often on the wrong side.
 class ClosestPointMap {
 public:
-    /// \throws what the poll throws
+    /// \param history  valid; must outlive this object
+    /// \throws whatever `check_cancelled` throws
+    /// O(n log n) in the faces of the original, plus O(size of the history)
     explicit ClosestPointMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
 
-    /// Of faces at the same distance the one with the smallest index. O(log faces) typically
+    /// Maps one point. If several faces are equally close, the result is the one with the smallest index.
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners, >= 0, sum 1
+    /// O(log faces) typically
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// The same answer, sooner: `near` bounds the distance.
+    /// Same result as map(), faster: the result `near` for a nearby point bounds the distance.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:

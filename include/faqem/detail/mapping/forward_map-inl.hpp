@@ -33,7 +33,7 @@ FAQEM_INLINE std::vector<Index> vertex_map(const CollapseHistory& history) {
 }
 
 struct ForwardMap::Impl {
-    // The best place so far.
+    // The best point found so far.
     struct Best {
         Index face = no_index;
         bool is_opposite = true;
@@ -51,8 +51,9 @@ struct ForwardMap::Impl {
         return engine::to_eigen(simplified.positions[simplified.triangles[face][k]]);
     }
 
-    // A face that looks the other way is the back of a thin wall, and taken only where there is no other. Of
-    // faces at the same distance it is the one with the smallest index, whichever way led to it.
+    // Searches the one-ring of vertex v for a better point. A face with opposite normal is on the other side
+    // of a thin wall and is taken only if there is no other. Among equally close faces, the one with the
+    // smallest index is taken, so that the result does not depend on the order of the search.
     void search_vertex_faces(Index v, const engine::Vector3& p, const engine::Vector3& normal,
                              Best& best) const {
         for (const Index f : vertex_faces[v]) {
@@ -86,7 +87,7 @@ FAQEM_INLINE SimplifiedPoint ForwardMap::map(Index face, const Vec3& barycentric
     for (std::size_t k = 0; k < 3; ++k) at[k] = engine::to_eigen(impl_->history.positions[corners[k]]);
     const engine::Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
     const engine::Vector3 normal =
-        engine::area_vector(at[0], at[1], at[2]).normalized();  // zero without area
+        engine::area_vector(at[0], at[1], at[2]).normalized();  // zero for a face of zero area
     Impl::Best best;
     for (const Index v : corners) {
         if (impl_->vertex[v] != no_index) impl_->search_vertex_faces(impl_->vertex[v], p, normal, best);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the small surface to the original by the paper's heuristic.
+/// Map from the simplified mesh to the vertices of the original, by the heuristic of the FA-QEM paper.
 
 #include <vector>
 
@@ -12,22 +12,29 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// FA-QEM, "Successive Mapping Process": a point belongs to the closest corner of its small face, goes at
-/// every un-collapse to the closer of the two parents, and ends at a vertex of the original.
+/// Maps a point to a vertex of the original: starts with the closest corner of its simplified face, undoes
+/// the collapses that created this vertex, and each time continues with the closer of the two merged
+/// vertices.
+/// Source: FA-QEM, "Successive Mapping Process"
 class LineageMap {
 public:
-    /// \throws what the poll throws
+    /// \param history  valid; must outlive this object
+    /// \throws whatever `check_cancelled` throws
+    /// O(size of the history)
     explicit LineageMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
 
-    /// The answer is a face at the vertex, one of the small face's material group where there is one, then
-    /// the smallest index, with weight 1 at the vertex.
+    /// Maps one point. The result is at a vertex, in one of its faces: preferably a face of the same group as
+    /// the simplified face, and of these the one with the smallest index.
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners, >= 0, sum 1
+    /// O(number of collapses undone)
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
 private:
     const CollapseHistory& history_;
     ReplayTables replay_;
-    std::vector<std::uint64_t> first_face_;  ///< per original vertex: its range in faces_
-    std::vector<Index> faces_;               ///< by vertex, ascending
+    std::vector<std::uint64_t> first_face_;  ///< per original vertex: beginning of its range in faces_
+    std::vector<Index> faces_;               ///< faces of each vertex, in ascending order
 };
 
 }  // namespace detail

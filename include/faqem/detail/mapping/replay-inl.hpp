@@ -20,7 +20,7 @@ struct PatchEdge {
     bool operator<(const PatchEdge& o) const { return key != o.key ? key < o.key : entry < o.entry; }
 };
 
-// Buffers that live as long as the replay.
+// Labels the connected components of patches; reuses its buffers.
 struct ComponentLabeller {
     std::vector<PatchEdge> edges;
     std::vector<std::size_t> parent;
@@ -30,8 +30,9 @@ struct ComponentLabeller {
         return i;
     }
 
-    // Labels the patch's components over edges that join two faces: 0, 1, ... in the order of their first
-    // faces. surface_patch(e): of face e of the patch
+    // Numbers the connected components of a patch 0, 1, ... (at most 255) in the order of their first faces,
+    // see ReplayTables::patch_component.
+    // corners: per face of the patch; surface_patch(e): surface patch of face e of the patch
     template <class PatchId>
     void label(std::span<const Triangle> corners, PatchId&& surface_patch, std::span<std::uint8_t> labels) {
         edges.clear();
@@ -57,7 +58,7 @@ struct ComponentLabeller {
         }
         std::uint8_t next = 0;
         for (std::size_t e = 0; e < corners.size(); ++e) {
-            const std::size_t r = root(e);  // never behind e
+            const std::size_t r = root(e);  // r <= e
             labels[e] = r == e ? next : labels[r];
             if (r == e && next < 255) ++next;
         }
@@ -100,8 +101,8 @@ inline BoundingSphere bounding_sphere(const std::vector<Vec3>& positions, const 
     return bound;
 }
 
-// Calls before(k, entry, corners) for every patch face, then moves its corners to the new version, or flips
-// its edge.
+// Replays the collapses and edge flips. Calls before(patch, entry, corners) for each entry before it is
+// changed. Returns the final corner versions of all input faces.
 template <class Before>
 std::vector<Triangle> replay_forward(const CollapseHistory& history,
                                      engine::CancellationCheck check_cancelled, Before&& before) {
@@ -127,7 +128,7 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history,
     return now;
 }
 
-// The faces of the small mesh: their corners' versions, and where those are in the end.
+// Fills kept_corners and kept_positions. last: final corner versions of all input faces
 inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
                             engine::CancellationCheck check_cancelled, ReplayTables& result) {
     std::vector<Vec3> final_positions = result.positions;

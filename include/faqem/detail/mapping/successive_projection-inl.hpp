@@ -16,21 +16,23 @@ using engine::to_array;
 using engine::to_eigen;
 using engine::Vector3;
 
+// Minimum cosine between the normals of faces that have the same orientation.
 inline constexpr double min_facing_cosine = 0.17;
+// Penalties of the score, in mean edge lengths of the patch.
 inline constexpr double component_penalty = 0.3;
 inline constexpr double surface_patch_penalty = 1.0;
-// Of faces that the settling looks at in vain: where others lie between a point and its surface_patch, it would go
-// through all of them for every sample.
+// Maximum number of faces that a closest-point search rejects. If there are many other faces between a point
+// and its surface patch, it would otherwise visit all of them for every point.
 inline constexpr std::size_t max_rejections = 512;
-// Of faces, of a surface_patch that is searched face by face: fins are surface_patches of one face each, with hundreds of others
-// closer by.
+// Surface patches with at most this many faces are searched linearly. Fins, for example, are patches of one
+// face each, with hundreds of closer faces of other patches.
 inline constexpr std::size_t small_surface_patch = 32;
-// Of faces that a walk looks at, about ten times what is usual: a vertex that swallowed a whole plain, one
-// vertex after the other, was in a patch for each of them.
+// Maximum number of faces that a walk visits, about ten times the usual number. If all vertices of a plane
+// were collapsed into one vertex, one after the other, a face can be in the patches of all these collapses.
 inline constexpr std::uint64_t max_visited_faces = 2048;
-// Of the mean edge of a patch: so close a point lies on the face at hand.
+// A point lies on a face if its distance is at most this fraction of the mean edge length of the patch.
 inline constexpr double coincidence_tolerance = 1e-6;
-// Of a small face's longest edge: so close to it the closest face around is beyond doubt.
+// Distance below which no walk is needed, as a fraction of the longest edge of the simplified face.
 inline constexpr double near_threshold = 0.25;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -38,29 +40,31 @@ inline double distance_squared(const Vector3& p, const BoundingSphere& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
 }
 
+// A point of the simplified mesh, and properties of its face.
 struct SuccessiveProjection::Query {
-    Vector3 p0, n0;  // n0 zero: no side to look to
-    Triangle corners;
-    double longest_edge = 0;
-    Index original = no_index;  // what the small face was
+    Vector3 p0, n0;             // n0 is zero if the face has no area; then all orientations are accepted
+    Triangle corners;           // versions
+    double longest_edge = 0;    // model units
+    Index original = no_index;  // input face of the simplified face
     Index surface_patch = no_index, group = no_index;
-    double sign = 1;
+    double sign = 1;  // SurfacePatches::sign
 };
 
+// The best face of a patch, or the state of a walk.
 struct SuccessiveProjection::Best {
     Index face = no_index;
     std::uint64_t entry = 0;
-    bool is_approximate = false;
+    bool is_approximate = false;  // wrong orientation or other surface patch
     double score = infinity;
-    bool is_aborted = false;
+    bool is_aborted = false;  // the walk got too long
 };
 
-// One patch and the best of its faces so far.
+// A patch, and the best of its faces so far.
 struct SuccessiveProjection::Patch {
     const Query& query;
-    double edge = 0;  // mean length
-    std::uint8_t patch_component = 0;
-    Best best, best_away;
+    double edge = 0;                   // mean edge length
+    std::uint8_t patch_component = 0;  // of the current face
+    Best best, best_away;              // with the same orientation, and with another one
 };
 
 FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& history,
@@ -100,8 +104,9 @@ FAQEM_INLINE bool SuccessiveProjection::is_facing_away(Index candidate, const Ve
     return !(d > 0 && d * d >= min_facing_cosine * min_facing_cosine * area_vector.squaredNorm());
 }
 
-// The least score wins, then the smaller face, in whatever order the faces come: so the one that looks
-// closest comes first, and spheres rule out most of the others.
+// The face with the smallest score, or of equal ones the one with the smallest index. Since the result does
+// not depend on the order, the face with the closest bounding sphere is evaluated first, so that most others
+// can be skipped by their bounding spheres.
 FAQEM_INLINE SuccessiveProjection::Best SuccessiveProjection::best_of_patch(Index collapse, Index face,
                                                                             const Query& query,
                                                                             std::uint64_t& visited) const {
@@ -167,7 +172,7 @@ FAQEM_INLINE bool SuccessiveProjection::is_accepted(Index f, const Query& query)
         query);
 }
 
-// Has a corner that collapsed into one of the small face's.
+// Whether a corner of the original face was collapsed into a corner of the simplified face.
 FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, const Query& query) const {
     const Triangle& t = history_.triangles[original_face];
     return std::any_of(t.begin(), t.end(), [&](Index v) {
@@ -176,7 +181,7 @@ FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, co
     });
 }
 
-// The closest face of those that pass the tests and the filter.
+// The closest face that is accepted and passes the filter, within a distance.
 template <class Filter>
 Bvh::Hit SuccessiveProjection::closest_accepted_if(const Query& query, double distance_squared,
                                                    Filter&& filter) const {
@@ -188,7 +193,7 @@ Bvh::Hit SuccessiveProjection::closest_accepted_if(const Query& query, double di
     }
     Bvh::Hit best;
     best.distance_squared = distance_squared;
-    for (const Index f : surface_patch) {  // in ascending order: of two as close the first stays
+    for (const Index f : surface_patch) {  // ascending: of equally close faces, the smallest index is taken
         const ClosestPoint hit = on_original(f, query.p0);
         const bool nearer = hit.distance_squared < best.distance_squared ||
                             (hit.distance_squared == best.distance_squared && best.face == no_index);
@@ -210,7 +215,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::closest_preimage_face(const Quer
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
-// The closest face around that passes the tests, or `face` where none is as close.
+// The closest accepted preimage face, or `face` if none is as close as that.
 FAQEM_INLINE SurfacePoint SuccessiveProjection::snap_to_closest(const Query& query, Index face,
                                                                 MapStep step) const {
     const ClosestPoint here = on_original(face, query.p0);
@@ -257,8 +262,8 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_by_walk(Index face, const Qu
     return {end.face, to_array(here.barycentric), MapStep::approximate};
 }
 
-// Wherever a walk ends, settling takes the closest face that passes if it is around and no farther than the
-// longest edge: most samples need no walk.
+// Most points need no walk: wherever it ended, snap_to_closest() or map_by_walk() would select the closest
+// accepted face if that is a preimage face and near enough.
 FAQEM_INLINE SurfacePoint SuccessiveProjection::map(Index face, const Vec3& barycentric) const {
     const Query query = make_query(face, barycentric);
     const double close = near_threshold * query.longest_edge;
@@ -274,7 +279,8 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
     const ClosestPoint here = on_original(near.face, query.p0);
     const Bvh::Hit hit = closest_accepted(query, here.distance_squared);
     if (hit.face == no_index) return {near.face, to_array(here.barycentric), near.step};
-    // On flat ground most faces are not around: `near` would hold on to the sample for the rest of its row.
+    // In flat regions most faces are not preimage faces. Without the walk, all following points would keep
+    // the face of `near`.
     return is_preimage_face(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
                                              : map_by_walk(face, query);
 }

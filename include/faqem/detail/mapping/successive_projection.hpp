@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the small surface to the original by successive projection through the collapse history.
+/// Map from the simplified mesh to the original by successive projection along the collapse history.
 
 #include <span>
 #include <vector>
@@ -17,35 +17,50 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// After Liu et al. 2024 (arXiv 2409.15458), with rules that keep a sample on its side of thin walls.
+/// Maps points of the simplified mesh to the original by successive projection, with rules that keep a point
+/// on its side of thin walls. Immutable after construction; map() and map_near() may be called from several
+/// threads concurrently.
+/// Source: Liu et al. 2024 (arXiv 2409.15458)
 ///
-/// The point p0 and the normal n0 of its small face stay fixed. Backwards over the collapses that touched the
-/// face at hand, the walk moves to the best face of the patch as it was before:
-/// - of the small face's material group, always (the face at hand is one of them);
-/// - looking the way n0 does, where any does: s(f0) s(g) N_g . n0 >= 0.17, s: SurfacePatches::sign;
-/// - with the least distance from p0, plus 0.3 mean patch edges outside the patch_component of the face at hand,
-/// plus one mean patch edge on another surface_patch than the small face's.
+/// The point p0 and the normal n0 of its simplified face are fixed. The walk starts at the simplified face
+/// and follows the collapses that changed the current face backwards. At each of them, the next face is
+/// chosen among the faces g of the patch before the collapse:
+/// * g has the same group as the simplified face f0;
+/// * g has the same orientation as f0, if there is such a face: s(f0) s(g) N_g . n0 >= 0.17, where N_g is the
+///   unit normal of g and s is SurfacePatches::sign;
+/// * g has the smallest score: the distance from p0, plus 0.3 mean edge lengths of the patch if g is not in
+///   the ReplayTables::patch_component of the current face, plus one mean edge length if g is not in the
+///   surface patch of f0.
 ///
-/// A face at hand that p0 lies on is kept. Walks that get too long are given up for the closest face of the
-/// small face's surface_patch.
+/// If p0 lies on the current face, that face is kept. A walk that gets too long is aborted; the result is
+/// then the closest face of the surface patch.
 ///
-/// The faces that a walk moves over are those that were there at the time: where they were far from the
-/// original, neighbouring samples part ways. So in the end the closest point is taken, of all original faces
-/// around the small one that pass the same tests. Where that one is close by and no face is closer that passes,
-/// around or not, the walk could not change the answer and is left out.
+/// The intermediate faces of a walk may be far from the original, so that the walks of adjacent points
+/// diverge. Therefore the final result is the closest point on all preimage faces that are accepted. A
+/// preimage face is an original face with a corner that was collapsed into a corner of f0; a face is accepted
+/// if it has the surface patch, group and orientation of f0. If the closest accepted face is near p0 and is a
+/// preimage face, the walk could not change the result and is skipped.
 class SuccessiveProjection {
 public:
-    /// \param unwelded  as in find_surface_patches()
-    /// \throws what the poll throws
+    /// \param history   valid; must outlive this object
+    /// \param unwelded  see find_surface_patches()
+    /// \param workers   number of threads and cancellation check of the construction
+    /// \throws whatever `workers.check_cancelled` throws
+    /// O(n log n) in the faces of the original, plus O(size of the history)
     explicit SuccessiveProjection(const CollapseHistory& history, std::span<const Triangle> unwelded = {},
                                   Workers workers = {});
 
+    /// Maps one point.
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners, >= 0, sum 1
+    /// \return a point on the original; its face is never no_index
+    /// O(log faces) typically, plus the length of the walk if one is needed
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
-    /// As map(), but without the walk where it can do without: the answer for a sample close by on the same
-    /// small face bounds the distance instead. The same answer, but where the walk would find a face that is
-    /// not around the small one and looks another way or is of another surface_patch. Where `near` fails the tests of
-    /// surface_patch, group or side, or a closer face passes them that is not around, map() answers.
+    /// Same as map(), faster: the result `near` for a nearby point on the same simplified face bounds the
+    /// distance, and the walk is usually not needed. The result may differ only if the walk would find a face
+    /// that is not accepted. Calls map() if `near` is not accepted, and does the walk if the closest accepted
+    /// face is not a preimage face.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
 private:
@@ -70,10 +85,10 @@ private:
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
 
     const CollapseHistory& history_;
-    Bvh tree_;  // first, and alone: making it takes more for a while than it keeps
+    Bvh tree_;  // constructed before the other tables, because its construction needs temporary memory
     SurfacePatches surface_patches_;
     ReplayTables replay_;
-    std::vector<Index> last_;  ///< by version: what became of it in the end
+    std::vector<Index> last_;  ///< final_versions() of the history
 };
 
 }  // namespace detail

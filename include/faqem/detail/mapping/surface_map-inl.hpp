@@ -10,7 +10,8 @@
 FAQEM_NAMESPACE_BEGIN
 
 struct SurfaceMap::Impl {
-    std::unique_ptr<const detail::SuccessiveProjection> projection;  // one of the three
+    // Exactly one of these is set.
+    std::unique_ptr<const detail::SuccessiveProjection> projection;
     std::unique_ptr<const detail::LineageMap> lineage;
     std::unique_ptr<const detail::ClosestPointMap> closest;
 };

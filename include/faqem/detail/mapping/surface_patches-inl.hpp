@@ -16,23 +16,25 @@ using engine::Vector3;
 
 struct AdjacentFace {
     Index face = no_index;
-    bool same_winding = true;
+    bool same_winding = true;  // the orientations are consistent
 };
 
-// Of the angle between two faces at an edge: -1 where one continues the other.
+// Cosines of the angle between two faces at an edge; -1 if one continues the other without a bend. The angle
+// is at least 150 degrees for a continuation, and less than 120 degrees between its faces and any third face.
 inline constexpr double max_continuation_cosine = -0.87, min_separation_cosine = -0.5;
 
-// The two of three or more faces on an edge where one continues the other, and no third face continues either.
-// Calls join(i, j), i < j, for each such pair. has_no_neighbour(i): side i has no neighbour yet
+// Calls join(i, j), i < j, for the pairs of half-edges on a non-manifold edge whose faces continue each other
+// and are separated from all other faces there.
+// on: the half-edges on the edge; has_no_neighbour(i): half-edge i is not connected yet
 template <class Open, class Join>
 void for_each_continuation(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                            std::span<const Halfedge> on, Open&& has_no_neighbour, Join&& join) {
-    // More faces leave no room for pairs that are clear of others.
-    constexpr std::size_t most = 6;
-    if (on.size() < 3 || on.size() > most) return;
+    // With more faces, no pair can be separated from the others.
+    constexpr std::size_t max_edge_faces = 6;
+    if (on.size() < 3 || on.size() > max_edge_faces) return;
     const Vector3 start = to_eigen(positions[on[0].low]);
     const Vector3 edge = (to_eigen(positions[on[0].high]) - start).normalized();
-    std::array<Vector3, most> face_direction;  // each face, at right angles to the edge
+    std::array<Vector3, max_edge_faces> face_direction;  // per face: direction perpendicular to the edge
     for (std::size_t i = 0; i < on.size(); ++i) {
         const Vector3 apex =
             to_eigen(positions[triangles[on[i].face][(std::size_t{on[i].corner} + 2) % 3]]) - start;
@@ -55,7 +57,7 @@ void for_each_continuation(std::span<const Vec3> positions, std::span<const Tria
     }
 }
 
-// Neighbours over the three edges of each face.
+// For each face, the faces connected to it across its three edges.
 inline std::vector<AdjacentFace> adjacent_faces(std::span<const Vec3> positions,
                                                 std::span<const Triangle> triangles,
                                                 std::span<const Triangle> unwelded,
@@ -99,7 +101,7 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
     SurfacePatches result;
     result.surface_patch.assign(triangles.size(), no_index);
     result.sign.assign(triangles.size(), 1);
-    std::vector<Index> faces;  // of the surface_patch at hand, in breadth-first order
+    std::vector<Index> faces;  // of the current patch, in breadth-first order
     Index surface_patches = 0;
     for (std::size_t root = 0; root < triangles.size(); ++root) {
         if (triangles[root][0] == no_index || result.surface_patch[root] != no_index) continue;

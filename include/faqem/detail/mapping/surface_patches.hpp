@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// SurfacePatches of a triangle soup, and which of their faces are wound the wrong way round.
+/// Surface patches of a triangle soup, and the faces whose orientation disagrees with their patch.
 
 #include <cstdint>
 #include <span>
@@ -13,29 +13,34 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Components over edges with exactly two faces. Edges with more faces divide surface_patches, so that the two sides
-/// of a thin wall that touch in a fin stay apart. But two faces stay together that had such an edge to
-/// themselves before vertices were joined: so two boxes that touch in a full side stay whole. And so do two of
-/// which one continues the other (within 30 degrees), where no third face comes near to (within 60): so a
-/// surface_patch goes on under a fin, and two that cross stay two.
+/// Surface patches: sets of faces that are connected across edges. Two faces at an edge are connected if
+/// * the edge has exactly two faces, or
+/// * before welding they were the only two faces at the edge, so that a box remains one patch if it touches
+///   another box along a whole side, or
+/// * one continues the other (their angle differs from 180 degrees by at most 30) and no third face is within
+///   60 degrees of that continuation, so that a surface is not divided where a fin is attached to it, and two
+///   surfaces that cross remain two patches.
+/// All other non-manifold edges separate patches, so that the two sides of a thin wall that meet in a fin are
+/// different patches.
 struct SurfacePatches {
-    std::vector<Index> surface_patch;  ///< per face; no_index for faces with a corner no_index
-    std::vector<std::int8_t>
-        sign;                  ///< per face: -1 where it is wound against most of its surface_patch (by area)
-    std::vector<Index> faces;  ///< surface_patch by surface_patch, ascending within each
-    std::vector<Index> begin = {0};  ///< per surface_patch: of its own in `faces`; and their end
+    std::vector<Index> surface_patch;  ///< per face: number of its patch; no_index for removed faces
+    /// Per face: -1 if its orientation is opposite to that of most of its patch (by area), else 1.
+    std::vector<std::int8_t> sign;
+    std::vector<Index> faces;        ///< faces sorted by patch, in ascending order within each patch
+    std::vector<Index> begin = {0};  ///< per patch: beginning of its range in `faces`; and the end
 
-    /// The faces of a surface_patch.
+    /// The faces of patch s, in ascending order.
     std::span<const Index> of(Index s) const {
         return std::span(faces).subspan(begin[s], begin[s + 1] - begin[s]);
     }
 };
 
+/// Finds the surface patches of a triangle soup.
 /// \param positions  one per vertex
-/// \param triangles  faces with a corner no_index are left out
-/// \param unwelded   empty, or the faces as they were before vertices at one place were joined
-/// O(n log n) time, 48 bytes per face while it runs.
-/// \throws what the poll throws
+/// \param triangles  faces with no_index as first corner belong to no patch
+/// \param unwelded   empty, or the same faces with their vertex indices before welding
+/// \throws whatever `check_cancelled` throws
+/// O(n log n) time, 48 bytes per face of temporary memory
 SurfacePatches find_surface_patches(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                     std::span<const Triangle> unwelded = {},
                                     engine::CancellationCheck check_cancelled = {});

@@ -22,14 +22,16 @@ using engine::Vector3;
 inline constexpr std::size_t comparison_block = 4096;
 inline constexpr double degrees_per_radian = 57.295779513082320877;
 
-/// Neighbouring faces whose distances differ by less than this share of the diagonal are tied.
+/// Faces whose distances differ by less than this fraction of the diagonal count as equally close.
 inline constexpr double normal_tie_tolerance = 1e-9;
 
+/// Sums over samples; `max_squared` is a maximum.
 struct Sums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
 };
 
-/// Calls work(sums, begin, end) for blocks of [0, size) and returns the blocks' sums in order.
+/// Calls work(sums, begin, end) for each block of [0, size), in parallel.
+/// \return the sums of the blocks, in block order, so that totals do not depend on the number of threads
 template <class Work>
 std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
     std::vector<Sums> sums((size + comparison_block - 1) / comparison_block);

@@ -15,19 +15,19 @@ namespace detail {
 using engine::Vector3;
 
 inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128;
-/// Pieces taken at once: a multiple of the block, so that several threads have work.
+/// Number of pieces that are split in parallel: several blocks, so that several threads have work.
 inline constexpr std::size_t batch_size = 16 * piece_block;
 inline constexpr std::size_t stop_interval = 16 * vertex_block;
 
-/// Part of a face, with faces of the other surface that may be near all of it.
+/// A triangular part of a face, with faces of the other surface that are probably close to it.
 struct Piece {
     std::array<Vector3, 3> corner;
-    std::array<Index, 3> nearest;                                ///< face nearest to the corner
-    std::array<Index, 2> bounding_faces = {no_index, no_index};  ///< the faces that gave the bound
+    std::array<Index, 3> nearest;                                ///< face closest to each corner
+    std::array<Index, 2> bounding_faces = {no_index, no_index};  ///< the faces that determine the bound
     double bound_squared = std::numeric_limits<double>::infinity();
 };
 
-/// Up to 8 different faces.
+/// A set of up to 8 faces.
 struct Candidates {
     std::array<Index, 8> face;
     std::size_t size = 0;
@@ -53,9 +53,12 @@ inline Distances distances(const Surface& to, const Vector3& p, const Candidates
     return result;
 }
 
-/// Bound of a piece whose corners are nearer to f or to g: the polygon on f's side is bounded by its corners'
-/// distances to f, that on g's side by theirs to g. The cut is where parallel surfaces that meet in a
-/// straight edge would have it; any cut gives a bound.
+/// Squared upper bound of the distance of a piece to the faces f and g. The piece is divided into a polygon
+/// closer to f and one closer to g; since the distance to a face is convex, each polygon is bounded by the
+/// distances of its corners to its face. Any division gives a valid bound; this one would be optimal if f and
+/// g were planes through a common edge.
+/// \param to_f,to_g  squared distances of the corners to f and g
+/// \return infinity if the bound would not be below that of the piece
 inline double bound_by_two_faces(const Surface& to, const Piece& piece, Index f, Index g,
                                  const std::array<double, 3>& to_f, const std::array<double, 3>& to_g) {
     double bound = 0;
@@ -68,15 +71,15 @@ inline double bound_by_two_faces(const Surface& to, const Piece& piece, Index f,
         const Vector3 cut = piece.corner[k] + here / (here + there) * (piece.corner[n] - piece.corner[k]);
         const double at_cut = std::max(to.distance_squared(cut, f), to.distance_squared(cut, g));
         if (!(at_cut < piece.bound_squared))
-            return std::numeric_limits<double>::infinity();  // no use, or NaN
+            return std::numeric_limits<double>::infinity();  // no improvement, or NaN
         bound = std::max(bound, at_cut);
     }
     return bound;
 }
 
-/// Lowers the bound of a piece by what the candidates prove.
-/// \param at      the corners' distances to the candidates
-/// \param enough  a bound as low as this need not be lowered
+/// Lowers the bound of a piece as far as single candidates and pairs of candidates allow.
+/// \param at      squared distances of the three corners to the candidates
+/// \param enough  squared bound below which no further improvement is attempted
 inline void tighten(const Surface& to, Piece& piece, const Candidates& candidates,
                     const std::array<const Distances*, 3>& at, double enough) {
     for (std::size_t i = 0; i < candidates.size; ++i) {
@@ -102,18 +105,19 @@ inline void tighten(const Surface& to, Piece& piece, const Candidates& candidate
     }
 }
 
-/// Squared distance below which a bound is good enough while `value_squared` is the largest found.
+/// Squared upper bound at which a piece needs no further refinement.
+/// \param value_squared  largest squared distance found so far
 inline double enough_squared(double value_squared, const SearchLimits& limits) {
     const double enough = std::max(
         std::sqrt(value_squared) * (1 + limits.tolerance) + limits.absolute_tolerance, limits.stop_below);
     return enough * enough;
 }
 
-/// What a block of work found.
+/// Result of one block of work.
 struct Found {
-    double value_squared = 0;
-    double closed_squared = 0;  ///< largest bound of the pieces that are not kept
-    std::vector<Piece> open;
+    double value_squared = 0;   ///< largest squared distance found
+    double closed_squared = 0;  ///< largest bound of the pieces that need no further refinement
+    std::vector<Piece> open;    ///< pieces that need further refinement
 
     void keep(const Piece& piece, double enough) {
         if (piece.bound_squared <= enough) {
@@ -124,9 +128,12 @@ struct Found {
     }
 };
 
-/// Bounds whole faces.
-/// \param refine  keep those whose bound is not low enough; else they are bounded as well as their corners
-///                allow
+/// Computes upper bounds for whole faces.
+/// \param at_vertices  see one_sided_hausdorff()
+/// \param enough       squared bound at which a face needs no refinement
+/// \param refine       if true, the centre is queried as well, and faces whose bound exceeds `enough` are
+///                     kept as open pieces; if false, only the corners are used, and no face is kept
+/// \param begin,end    range of faces
 inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
                         const std::vector<NearestFace>& at_vertices, double enough, bool refine,
                         std::size_t begin, std::size_t end, CancellationCheck check_cancelled, Found& found) {
@@ -147,8 +154,8 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
         };
         bound(Candidates(piece));
         if (refine && !(piece.bound_squared <= enough)) {
-            // Where the surfaces coincide the corners' faces are any around them, the centre's is the right
-            // one.
+            // Where the surfaces coincide, each corner's closest face is an arbitrary one of its one-ring;
+            // that of the centre is unique.
             const Vector3 centre = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
             const Bvh::Hit hit = query(engine::to_array(centre), piece.bounding_faces[0]);
             found.value_squared = std::max(found.value_squared, hit.distance_squared);
@@ -160,7 +167,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
     }
 }
 
-/// Splits a piece at the middle of its longest edge.
+/// Splits a piece at the midpoint of its longest edge, and bounds both halves.
 inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, double enough, Found& found) {
     std::size_t longest = 0;
     double length = -1;
@@ -191,7 +198,7 @@ inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, d
     }
 }
 
-/// Open pieces, the one with the largest bound first, of equals the one that came first.
+/// Priority queue of open pieces: largest bound first, ties in order of insertion.
 class OpenPieces {
 public:
     bool empty() const { return heap_.empty(); }
@@ -327,7 +334,7 @@ FAQEM_INLINE HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tr
     value = largest(back, value);
     if (value > limits.stop_above) return {value, unknown, 0};
 
-    // What one direction finds, the other need not beat.
+    // The value of the first direction is a lower bound for the second.
     const HausdorffBounds first = one_sided_hausdorff(a, b, tree_b, there, value, limits);
     if (first.value > limits.stop_above) return {first.value, unknown, first.pieces};
     const HausdorffBounds second = one_sided_hausdorff(b, a, tree_a, back, first.value, limits);

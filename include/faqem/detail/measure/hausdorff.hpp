@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The largest distance from one surface to another, with a proven bound.
+/// Hausdorff distance between surfaces by branch and bound, with a guaranteed upper bound.
 
 #include <cstdint>
 #include <limits>
@@ -13,53 +13,66 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The nearest face of the other surface.
+/// The closest face of the other surface.
 struct NearestFace {
     Index face = no_index;
     double distance_squared = 0;
 };
 
-/// Per position of `from` the nearest face of `to`. Ends early, with fewer entries, once one of them is
-/// farther than stop_above; how early does not depend on the number of threads.
+/// For each position of `from`, finds the closest face of `to`.
+/// \param tree        the tree of `to`, which must not be empty
+/// \param workers     number of threads and cancellation check
+/// \param stop_above  the search ends early, with fewer entries, soon after a distance above this is found;
+///                    the number of entries does not depend on the number of threads. In model units.
+/// \throws whatever `workers.check_cancelled` throws
+/// O(positions log faces) typically
 std::vector<NearestFace> nearest_faces_of_vertices(
     const Surface& from, const Surface& to, const Bvh& tree, Workers workers,
     double stop_above = std::numeric_limits<double>::infinity());
 
-/// A gap between value and bound below this share of the diagonal is none: identical meshes have to end.
+/// Absolute tolerance as a fraction of the diagonal. It lets the search end for identical meshes.
 inline constexpr double min_relative_gap = 1e-9;
 
-/// What a search is to reach, and what ends it. Distances in model units.
+/// Termination criteria of a search. Distances in model units.
 struct SearchLimits {
-    double tolerance = 0.01;        ///< relative gap; infinity: bounds of whole faces only
-    double absolute_tolerance = 0;  ///< absolute gap that is as good as none
-    double stop_above = std::numeric_limits<double>::infinity();  ///< give up once the value exceeds it
-    double stop_below = 0;                                        ///< a bound this low is good enough
-    std::uint64_t max_pieces = 0;                                 ///< parts of faces to look at
+    double tolerance = 0.01;        ///< relative difference of bound and value; infinity: do not split faces
+    double absolute_tolerance = 0;  ///< absolute difference of bound and value
+    double stop_above = std::numeric_limits<double>::infinity();  ///< stop when the value exceeds this
+    double stop_below = 0;                                        ///< stop when the bound is at most this
+    std::uint64_t max_pieces = 0;  ///< maximum number of pieces of faces to evaluate
     Workers workers = {};
 };
 
-/// No point of the one surface is farther than `bound` from the other, and one is `value` away.
+/// Lower and upper bound of a distance, in model units: value <= distance <= bound, up to rounding.
 struct HausdorffBounds {
     double value = 0, bound = 0;
-    std::uint64_t pieces = 0;  ///< parts of faces looked at, beyond the whole faces
+    std::uint64_t pieces = 0;  ///< number of pieces evaluated, not counting whole faces
 };
 
-/// The largest distance from `from` to `to`, by branch and bound. The distance to one face is convex, so that
-/// over a part of a face it is largest at a corner; the smallest of these maxima over a few nearby faces
-/// bounds the part. Where two faces are nearby the part is cut in thought where they are equally near, and
-/// either bounds its side. The part with the largest bound is split at its longest edge. Results do not
-/// depend on the number of threads.
-/// \param tree         that of `to`
-/// \param at_vertices  nearest_faces_of_vertices(from, to), complete
-/// \param known        a distance that some point of `from` is known to have
-/// O((faces + pieces) log faces) typically; 150 bytes per piece that is still open.
+/// Computes the one-sided Hausdorff distance from `from` to `to` by branch and bound. The distance to one
+/// face is convex, so its maximum over a piece (a triangular part of a face) is at a corner; the smallest of
+/// these maxima over a few nearby faces is an upper bound for the piece. For pairs of nearby faces, the piece
+/// is also divided approximately where both are equally close, and each part is bounded by one of them. The
+/// piece with the largest bound is split at its longest edge. The result does not depend on the number of
+/// threads.
+/// \param from         surface whose points are measured
+/// \param to           surface to which distances are measured, not empty
+/// \param tree         the tree of `to`
+/// \param at_vertices  complete result of nearest_faces_of_vertices(from, to)
+/// \param known        distance of some point of `from`, or 0; a lower bound of the result
+/// \param limits       termination criteria
+/// \throws whatever the cancellation check of `limits.workers` throws
+/// O((faces + pieces) log faces) typically; 150 bytes per open piece
 HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, const Bvh& tree,
                                     const std::vector<NearestFace>& at_vertices, double known,
                                     const SearchLimits& limits);
 
-/// The larger of both directions. Where the value exceeds stop_above the bound may be infinite, and the other
-/// direction unknown.
-/// \param tree_a  that of `a`, as tree_b is that of `b`
+/// Computes the two-sided Hausdorff distance, the larger one of both directions. If the value exceeds
+/// limits.stop_above, the bound may be infinite.
+/// \param a,b            surfaces, not empty
+/// \param tree_a,tree_b  their trees
+/// \throws whatever the cancellation check of `limits.workers` throws
+/// O((vertices + faces + pieces) log faces) typically
 HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
                                     const SearchLimits& limits);
 

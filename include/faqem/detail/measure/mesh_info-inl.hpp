@@ -18,10 +18,10 @@ namespace detail {
 
 using engine::Vector3;
 
-/// For each vertex the smallest vertex at the same position; -0 equals 0.
+/// For each vertex, the smallest index of a vertex at the same position (-0 equals 0).
 inline std::vector<Index> weld_equal(const MeshView& mesh) {
     struct Key {
-        std::array<std::uint64_t, 3> bits;  // bits, because an order of doubles breaks at the first NaN
+        std::array<std::uint64_t, 3> bits;  // bit patterns, because NaN breaks the ordering of doubles
         Index vertex;
         bool operator<(const Key& other) const {
             return bits != other.bits ? bits < other.bits : vertex < other.vertex;
@@ -42,7 +42,9 @@ inline std::vector<Index> weld_equal(const MeshView& mesh) {
     return first;
 }
 
-/// The faces with three different corners, over welded vertices; counts the others.
+/// The faces with three different welded vertices. Stores their number and that of degenerate faces in
+/// `result`.
+/// \throws InputError  if a vertex index is out of range
 inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
     const std::vector<Index> first = weld_equal(mesh);
     std::vector<Triangle> faces;
@@ -51,9 +53,9 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result
         Triangle t = mesh.triangles[f];
         for (Index& v : t) {
             if (v >= first.size()) {
-                throw InputError(
-                    {}, "face " + std::to_string(f),
-                    "refers to vertex " + std::to_string(v) + " of " + std::to_string(first.size()));
+                throw InputError({}, "face " + std::to_string(f),
+                                 "vertex index " + std::to_string(v) + " is out of range, there are " +
+                                     std::to_string(first.size()) + " vertices");
             }
             v = first[v];
         }
@@ -67,6 +69,7 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result
     return faces;
 }
 
+/// Returns the number of edges. Stores the numbers of boundary and non-manifold edges in `result`.
 inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) {
     std::vector<std::uint64_t> edges;
     edges.reserve(3 * faces.size());

@@ -31,7 +31,7 @@ void check_views(const GltfChecker& checker) {
             member(checker.document, "buffers")[buffer]["byteLength"].get<std::uint64_t>();
         if (length == 0) checker.fail(child_path(where, "byteLength"), "is 0");
         if (offset > size || length > size - offset)
-            checker.fail(where, "needs " + bytes_text(length) + " from byte " + std::to_string(offset) +
+            checker.fail(where, "needs " + bytes_text(length) + " at offset " + std::to_string(offset) +
                                     ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
         if (is_fallback_buffer(member(checker.document, "buffers")[buffer]))
             check_meshopt(checker, views[i], where);
@@ -42,11 +42,11 @@ void check_views(const GltfChecker& checker) {
     }
 }
 
-/// Checks that `count` elements of `size` bytes, `stride` apart, fit into a view.
+/// Checks that `count` elements of `size` bytes with a distance of `stride` bytes fit into a view.
 void check_range(const GltfChecker& checker, const std::string& where, std::uint64_t view,
                  std::uint64_t offset, std::uint64_t count, std::uint64_t size, std::uint64_t stride) {
     const auto length = member(checker.document, "bufferViews")[view]["byteLength"].get<std::uint64_t>();
-    // Every element takes a byte at least, so a larger count fails, and smaller ones cannot overflow.
+    // Every element takes at least one byte. A count above the length fails; smaller counts do not overflow.
     if (count > length || offset > length || (count - 1) * stride + size > length - offset)
         checker.fail(where, "needs " +
                                 (count > length ? std::to_string(count) + " elements"
@@ -93,10 +93,10 @@ void check_accessor(const GltfChecker& checker, const Json& accessor, const std:
     const std::uint64_t component = checker.required_number(accessor, where, "componentType");
     if (component_size(component) == 0)
         checker.fail(child_path(where, "componentType"),
-                     "is " + std::to_string(component) + ", no type of glTF 2.0");
+                     "is " + std::to_string(component) + ", which is not a type of glTF 2.0");
     const std::string type = string_member(accessor, "type");
     if (component_count(type) == 0)
-        checker.fail(child_path(where, "type"), "'" + type + "' is no type of glTF 2.0");
+        checker.fail(child_path(where, "type"), "'" + type + "' is not a type of glTF 2.0");
     const Json& normalized = member(accessor, "normalized");
     if (!normalized.is_null() && !normalized.is_boolean())
         checker.fail(child_path(where, "normalized"), "is neither true nor false");
@@ -110,10 +110,10 @@ void check_accessor(const GltfChecker& checker, const Json& accessor, const std:
         const std::uint64_t stride = unsigned_member(buffer_view, "byteStride", size);
         if (stride < size)
             checker.fail(where, "has elements of " + bytes_text(size) + ", bufferView " +
-                                    std::to_string(*view) + " a stride of " + std::to_string(stride));
+                                    std::to_string(*view) + " has a stride of " + std::to_string(stride));
         check_range(checker, where, *view, offset, count, size, stride);
     } else if (count > file_bytes) {
-        // All zero, so that no bytes vouch for the count.
+        // All elements are zero and no bytes confirm the count, which is therefore limited by the file size.
         checker.fail(child_path(where, "count"), "is " + std::to_string(count) +
                                                      " without a bufferView, all buffers have " +
                                                      bytes_text(file_bytes));

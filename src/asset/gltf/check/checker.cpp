@@ -72,7 +72,7 @@ void GltfChecker::check_number_array(const Json& parent, const std::string& wher
         fail(child_path(where, key),
              "has " + std::to_string(values.size()) + " numbers instead of " + std::to_string(size));
     for (const Json& value : values)
-        if (!value.is_number()) fail(child_path(where, key), "holds something that is not a number");
+        if (!value.is_number()) fail(child_path(where, key), "contains an element that is not a number");
 }
 
 void validate_gltf(const Json& document, const std::string& file) {

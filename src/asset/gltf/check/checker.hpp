@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Typed and range-checked access to JSON that nobody has validated yet.
+/// Validation of glTF documents: typed and range-checked access to JSON.
 
 #include <cstdint>
 #include <optional>
@@ -10,48 +10,60 @@
 
 namespace faqem::detail {
 
-/// A document under validation. Every function throws InputError with the place in it on the first thing
-/// wrong.
+/// A document under validation.
+///
+/// The functions take a JSON object and `where`, the JSON pointer to it, which is used in messages. They
+/// throw InputError with the JSON pointer of the first invalid value.
 struct GltfChecker {
     const Json& document;
     const std::string& file;  ///< path for messages
 
+    /// \throws InputError  always
     [[noreturn]] void fail(const std::string& where, const std::string& what) const;
+    /// \throws UnsupportedError  always
     [[noreturn]] void fail_unsupported(const std::string& where, const std::string& what) const;
 
-    /// An unsigned integer; nothing where the key is absent.
+    /// The unsigned integer under `key`; empty if the key is absent.
     std::optional<std::uint64_t> number(const Json& object, const std::string& where, const char* key) const;
+    /// The unsigned integer under `key`, which must be present.
     std::uint64_t required_number(const Json& object, const std::string& where, const char* key) const;
-    /// An index into the document's top-level array `array`.
+    /// The index under `key` into the top-level array `array` of the document; empty if the key is absent.
     std::optional<std::uint64_t> reference(const Json& object, const std::string& where, const char* key,
                                            const char* array) const;
+    /// The index under `key` into the top-level array `array`, which must be present.
     std::uint64_t required_reference(const Json& object, const std::string& where, const char* key,
                                      const char* array) const;
-    /// Same for a value at hand, e.g. an element of a list.
+    /// Checks that a value is an index into the top-level array `array`. Returns the index.
+    /// \param where  JSON pointer of the value
     std::uint64_t checked_index(const Json& value, const std::string& where, const char* array) const;
-    /// An array (or nothing) under `key`.
+    /// The array under `key`; null if the key is absent.
     const Json& array(const Json& object, const std::string& where, const char* key) const;
-    /// An object (or nothing) under `key`.
+    /// The object under `key`; null if the key is absent.
     const Json& object(const Json& parent, const std::string& where, const char* key) const;
-    /// Array of exactly `size` numbers, if present.
+    /// Checks that the value under `key`, if present, is an array of exactly `size` numbers.
     void check_number_array(const Json& object, const std::string& where, const char* key,
                             std::uint64_t size) const;
 };
 
-/// Members and types of the whole document, asset.version, extensionsRequired, URIs.
+/// Checks the types of top-level members, asset.version, extensions and extensionsRequired.
 /// \throws InputError, UnsupportedError
 void check_document(const GltfChecker& checker);
 
-/// Buffers, views and accessors: every byte range in 64-bit arithmetic.
+/// Checks buffers, views and accessors. Byte ranges are checked in 64-bit arithmetic.
+/// \throws InputError, UnsupportedError
 void check_accessors(const GltfChecker& checker);
 
-/// Meshes, materials, textures, images and what they refer to.
+/// Checks meshes, materials, textures and images, and their references.
+/// \throws InputError, UnsupportedError
 void check_meshes_and_materials(const GltfChecker& checker);
 
-/// Nodes, scenes, skins and animations: references, one parent each, no cycle.
+/// Checks nodes, scenes, skins and animations: valid references, at most one parent per node, no cycles.
+/// \throws InputError
 void check_scene(const GltfChecker& checker);
 
-/// All of the above, in this order.
+/// Calls all of the above functions in this order.
+/// \param file  path for messages
+/// \throws InputError, UnsupportedError
 void validate_gltf(const Json& document, const std::string& file);
 
 }  // namespace faqem::detail

@@ -13,7 +13,7 @@ constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "
                                          "images",    "materials",  "meshes",  "nodes",       "samplers",
                                          "scenes",    "skins",      "textures"};
 
-/// Required extensions that we read, or that only decorate what we pass through.
+/// Required extensions that are read, or that are passed through and do not affect meshes and materials.
 constexpr std::array<std::string_view, 8> supported_extensions = {
     "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",    "KHR_xmp_json_ld",
     "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp"};
@@ -40,7 +40,7 @@ void check_version(const GltfChecker& checker) {
 
 void check_extension_list(const GltfChecker& checker, const char* key) {
     for (const Json& name : checker.array(checker.document, "", key))
-        if (!name.is_string()) checker.fail(child_path("", key), "holds something that is not a string");
+        if (!name.is_string()) checker.fail(child_path("", key), "contains an element that is not a string");
 }
 
 void check_required_extensions(const GltfChecker& checker) {
@@ -60,8 +60,8 @@ void check_required_extensions(const GltfChecker& checker) {
     }
 }
 
-/// Every `extensions` outside extras must be an object of objects: the writer relies on it.
-/// Recursion is bounded by max_json_depth.
+/// Checks that every `extensions` outside of extras is an object of objects, which the writer relies on. The
+/// recursion depth is limited by max_json_depth.
 void check_extensions(const GltfChecker& checker, const Json& value, const std::string& where) {
     if (value.is_array())
         for (std::uint64_t i = 0; i < value.size(); ++i)
@@ -80,7 +80,8 @@ void check_image_lights(const GltfChecker& checker) {
     for (std::uint64_t i = 0; i < lights.size(); ++i) {
         const std::string at = child_path(where + "/lights", i);
         for (const Json& mip : checker.array(lights[i], at, "specularImages")) {
-            if (!mip.is_array()) checker.fail(at + "/specularImages", "holds something that is not an array");
+            if (!mip.is_array())
+                checker.fail(at + "/specularImages", "contains an element that is not an array");
             for (const Json& image : mip) checker.checked_index(image, at + "/specularImages", "images");
         }
     }

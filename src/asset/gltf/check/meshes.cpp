@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::uint64_t max_mode = 6;  // TRIANGLE_FAN
 constexpr std::uint64_t max_uv_set = 255;
-constexpr std::uint64_t max_image_bytes = INT32_MAX;  // tinygltf counts them in an int
+constexpr std::uint64_t max_image_bytes = INT32_MAX;  // tinygltf stores the size in an int
 
 bool starts_with(std::string_view text, std::string_view start) {
     return text.substr(0, start.size()) == start;
 }
 
-/// The accessor type that an attribute must have; empty for attributes of an application's own.
+/// The accessor type that an attribute must have; empty for COLOR_n and application-specific attributes.
 std::string_view required_type(std::string_view attribute) {
     if (attribute == "POSITION" || attribute == "NORMAL") return "VEC3";
     if (attribute == "TANGENT" || starts_with(attribute, "JOINTS_") || starts_with(attribute, "WEIGHTS_"))
@@ -41,7 +41,9 @@ void check_attribute_format(const GltfChecker& checker, const std::string& where
         checker.fail(where, name + " cannot be 32-bit integers");
 }
 
-/// Checks the accessors of a primitive or morph target. \return their common count, or 0 where there are none
+/// Checks the accessors of a primitive or morph target.
+/// \param count  number of elements that the accessors must have; 0: not known yet
+/// \return their common number of elements; `count` if there are no attributes
 std::uint64_t check_attributes(const GltfChecker& checker, const Json& attributes, const std::string& where,
                                std::uint64_t count, bool in_target) {
     for (const auto& [name, value] : attributes.items()) {
@@ -81,7 +83,7 @@ void check_variants(const GltfChecker& checker, const Json& primitive, const std
 void check_primitive(const GltfChecker& checker, const Json& primitive, const std::string& where) {
     if (!primitive.is_object()) checker.fail(where, "is not an object");
     if (checker.number(primitive, where, "mode").value_or(4) > max_mode)
-        checker.fail(child_path(where, "mode"), "is no mode of glTF 2.0");
+        checker.fail(child_path(where, "mode"), "is not a primitive mode of glTF 2.0");
     checker.reference(primitive, where, "material", "materials");
     checker.object(primitive, where, "extensions");
     const Json& attributes = checker.object(primitive, where, "attributes");
@@ -97,7 +99,7 @@ void check_primitive(const GltfChecker& checker, const Json& primitive, const st
     }
     check_variants(checker, primitive, where);
 
-    // Optional Draco may come with plain data beside it, or leave the accessors without any.
+    // If Draco is optional, the accessors may have uncompressed data too.
     if (needs_draco(checker.document, primitive)) check_draco(checker, primitive, where);
 }
 
@@ -141,7 +143,7 @@ void check_texture(const GltfChecker& checker, const Json& texture, const std::s
     for (const auto& [name, extension] : extensions.items()) {
         const auto other = checker.reference(extension, where + "/extensions/" + name, "source", "images");
         if (other && !source && !(name == "EXT_texture_webp" && can_decode_image("image/webp")))
-            checker.fail_unsupported(where, "its only image is in " + name + ", only " +
+            checker.fail_unsupported(where, "its only image is in " + name + "; only " +
                                                 decodable_format_names() + " are supported");
     }
 }
@@ -154,10 +156,10 @@ void check_image(const GltfChecker& checker, const Json& image, const std::strin
     if (view && is_fallback_buffer(member(
                     checker.document,
                     "buffers")[index_member(member(checker.document, "bufferViews")[*view], "buffer")]))
-        checker.fail(where, "lies in a buffer that has no bytes");
+        checker.fail(where, "refers to a buffer without data");
     if (view &&
         unsigned_member(member(checker.document, "bufferViews")[*view], "byteLength", 0) > max_image_bytes)
-        checker.fail_unsupported(where, "images of 2 GiB are not supported");
+        checker.fail_unsupported(where, "images of 2 GiB or more are not supported");
 }
 
 }  // namespace

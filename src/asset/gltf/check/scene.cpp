@@ -21,7 +21,7 @@ void check_node(const GltfChecker& checker, const Json& node, const std::string&
         checker.checked_index(accessor, at + "/attributes/" + name, "accessors");
 }
 
-/// Parent of every node; `count` where it has none.
+/// Parent of each node; the number of nodes if it has none.
 std::vector<std::uint64_t> checked_parents(const GltfChecker& checker, const Json& nodes) {
     const std::uint64_t count = nodes.size();
     std::vector<std::uint64_t> parents(count, count);
@@ -40,7 +40,8 @@ std::vector<std::uint64_t> checked_parents(const GltfChecker& checker, const Jso
     return parents;
 }
 
-/// With one parent at most, walking up from a node ends at a root or comes back.
+/// Checks that there are no cycles. Since each node has at most one parent, the path from a node to its
+/// ancestors ends at a root or returns to a visited node. O(nodes)
 void check_no_cycle(const GltfChecker& checker, const std::vector<std::uint64_t>& parents) {
     const std::uint64_t count = parents.size();
     constexpr std::uint64_t unvisited = 0;
@@ -98,9 +99,8 @@ void check_animation(const GltfChecker& checker, const Json& animation, const st
     for (std::uint64_t i = 0; i < channels.size(); ++i) {
         const std::string at = child_path(child_path(where, "channels"), i);
         if (checker.required_number(channels[i], at, "sampler") >= samplers.size())
-            checker.fail(
-                child_path(at, "sampler"),
-                "refers to none of the " + std::to_string(samplers.size()) + " samplers of the animation");
+            checker.fail(child_path(at, "sampler"), "is out of range: the animation has " +
+                                                        std::to_string(samplers.size()) + " samplers");
         const Json& target = checker.object(channels[i], at, "target");
         if (target.is_null()) checker.fail(at, "has no target");
         checker.reference(target, child_path(at, "target"), "node", "nodes");

@@ -27,7 +27,7 @@ Wrap wrap_of(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-/// The plain image of a texture, else the WebP one.
+/// The image of a texture; if it has none, that of EXT_texture_webp.
 Index image_of(const SourceDocument& source, std::size_t index) {
     const Json& texture = source.document["textures"][index];
     const Index plain = index_member(texture, "source");
@@ -36,7 +36,8 @@ Index image_of(const SourceDocument& source, std::size_t index) {
                : index_member(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
 }
 
-/// \tparam Info  one of tinygltf's three texture infos
+/// Converts a texture info; unset if the texture has no usable image.
+/// \tparam Info  one of the three texture info types of tinygltf
 template <class Info>
 TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
     TextureRef ref;
@@ -44,7 +45,7 @@ TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
     const tinygltf::Texture& texture = loaded.model.textures[static_cast<std::size_t>(info.index)];
     const Index source = image_of(*loaded.source, static_cast<std::size_t>(info.index));
     const auto image = static_cast<std::size_t>(source);
-    // A texture without an image is drawn like none at all. Missing images were reported when they were read.
+    // A texture without an image is ignored. Missing images were reported when they were loaded.
     if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;
     ref.image = static_cast<Index>(image);
     ref.uv_set = static_cast<std::uint32_t>(info.texCoord);
@@ -65,7 +66,8 @@ TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
     return ref;
 }
 
-/// \param value  checked to be a texture info
+/// Converts a JSON value to a texture info.
+/// \pre is_texture_info() holds for the value
 tinygltf::TextureInfo texture_info(const tinygltf::Value& value) {
     tinygltf::TextureInfo info;
     info.index = value.Get("index").GetNumberAsInt();
@@ -76,7 +78,8 @@ tinygltf::TextureInfo texture_info(const tinygltf::Value& value) {
     return info;
 }
 
-/// Those that can be read: the others are passed through as what nobody knows.
+/// The known textures of material extensions whose images can be decoded. Others are passed through
+/// unchanged, like unknown extensions.
 std::vector<ExtensionTexture> extension_textures(LoadedGltf& loaded, const tinygltf::Material& from) {
     std::vector<ExtensionTexture> result;
     for (const KnownTexture& known : known_textures) {
@@ -127,7 +130,7 @@ Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
     return material;
 }
 
-/// Numbers too large for a float become what they are where nothing is said. \return how many
+/// Resets numbers that are too large for a float to their defaults. Returns how many were reset.
 std::uint64_t reset_non_finite(Material& material) {
     const Material defaults;
     std::uint64_t count = 0;
@@ -160,11 +163,12 @@ std::vector<Material> read_materials(LoadedGltf& loaded) {
         material.source = static_cast<Index>(materials.size());
         if (const std::uint64_t count = reset_non_finite(material); count != 0)
             loaded.warnings.push_back(child_path("/materials", materials.size()) + ": " +
-                                      pluralized(count, "number") + " too large for a float: reset");
+                                      pluralized(count, "number") +
+                                      " too large for a float, reset to the default");
         if (from.extensions.count("KHR_materials_pbrSpecularGlossiness") != 0)
             loaded.warnings.push_back(
                 child_path("/materials", materials.size()) +
-                ": KHR_materials_pbrSpecularGlossiness is passed through, but not understood");
+                ": KHR_materials_pbrSpecularGlossiness is passed through, but not interpreted");
         materials.push_back(std::move(material));
     }
     return materials;

@@ -13,14 +13,14 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-/// Which attributes the primitives of a mesh have between them.
+/// Union of the attributes of all triangle primitives of a mesh.
 struct PartLayout {
     bool normals = false, tangents = false, colors = false, joints = false, target_normals = false;
     std::size_t uv_sets = 0, targets = 0;
     std::set<std::string> ignored_attributes;
 };
 
-/// Counts of values that were not finite.
+/// Numbers of non-finite values that were replaced.
 struct Repairs {
     std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0;
 };
@@ -63,8 +63,8 @@ PartLayout layout_of(const tinygltf::Mesh& mesh) {
     return layout;
 }
 
-/// Appends `count` vectors to `out`: those of the accessor, or `fill` where there is none.
-/// \return how many of them were not finite and were replaced by `fill`
+/// Appends `count` vectors to `out`: those of the accessor, or `fill` if there is no accessor.
+/// \return the number of non-finite vectors that were replaced by `fill`
 template <std::size_t N>
 std::uint64_t append(std::vector<std::array<float, N>>& out, const SourceDocument& source, Index accessor,
                      std::size_t count, const std::array<float, N>& fill) {
@@ -104,7 +104,7 @@ void append_joints(Part& part, const SourceDocument& source, const Attributes& a
     }
 }
 
-/// Appends the vertices of a primitive. \return the index of the first
+/// Appends the vertices of a primitive. Returns the index of the first one.
 std::uint64_t append_vertices(Part& part, const PartLayout& layout, const SourceDocument& source,
                               const tinygltf::Primitive& primitive, Repairs& repairs) {
     const Attributes& from = primitive.attributes;
@@ -133,7 +133,7 @@ std::uint64_t append_vertices(Part& part, const PartLayout& layout, const Source
     return first;
 }
 
-/// The corners of a primitive as vertex numbers within it.
+/// The corners of a primitive as indices of its own vertices.
 std::vector<Index> corners_of(const LoadedGltf& loaded, const tinygltf::Primitive& primitive,
                               std::uint64_t vertices, const std::string& where) {
     std::vector<Index> corners;
@@ -145,14 +145,14 @@ std::vector<Index> corners_of(const LoadedGltf& loaded, const tinygltf::Primitiv
     corners = read_indices(*loaded.source, static_cast<Index>(primitive.indices));
     for (const Index corner : corners)
         if (corner >= vertices)
-            throw InputError(
-                loaded.file, where + "/indices",
-                "holds " + std::to_string(corner) + ", there are " + std::to_string(vertices) + " vertices");
+            throw InputError(loaded.file, where + "/indices",
+                             "contains " + std::to_string(corner) + ", there are " +
+                                 std::to_string(vertices) + " vertices");
     return corners;
 }
 
-/// Triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1). In strips and fans, triangles with two
-/// equal corners only steer the strip and are no faces.
+/// Triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1). Degenerate triangles of strips and fans,
+/// which only connect parts of the strip, are left out.
 std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
     std::vector<Triangle> triangles;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
@@ -171,7 +171,7 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
 
 bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
-/// Gives vertices whose position is not finite (their faces are gone) the first position that is.
+/// Replaces non-finite positions by the first finite position. Their faces have been removed before.
 void repair_positions(Part& part, Repairs& repairs) {
     const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite);
     const Vec3 replacement = finite == part.positions.end() ? Vec3{} : *finite;
@@ -188,16 +188,17 @@ void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, con
 
 void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& repairs,
                   std::uint64_t dropped_faces, std::uint64_t excess_corners, const PartLayout& layout) {
-    warn(loaded, where, dropped_faces, "faces with a position that is not finite were left out");
-    warn(loaded, where, repairs.positions, "positions that are not finite were moved to another vertex");
-    warn(loaded, where, repairs.normals, "normals that are not finite were reset");
-    warn(loaded, where, repairs.tangents, "tangents that are not finite were reset");
-    warn(loaded, where, repairs.uvs, "texture coordinates that are not finite were reset");
-    warn(loaded, where, repairs.colors, "vertex colours that are not finite were reset");
-    warn(loaded, where, repairs.weights, "joint weights that are not finite were reset");
-    warn(loaded, where, repairs.targets, "morph target vectors that are not finite were reset");
+    warn(loaded, where, dropped_faces, "faces with a non-finite position were left out");
+    warn(loaded, where, repairs.positions,
+         "non-finite positions were replaced by the position of another vertex");
+    warn(loaded, where, repairs.normals, "non-finite normals were reset");
+    warn(loaded, where, repairs.tangents, "non-finite tangents were reset");
+    warn(loaded, where, repairs.uvs, "non-finite texture coordinates were reset");
+    warn(loaded, where, repairs.colors, "non-finite vertex colours were reset");
+    warn(loaded, where, repairs.weights, "non-finite joint weights were reset");
+    warn(loaded, where, repairs.targets, "non-finite morph target vectors were reset");
     warn(loaded, where, excess_corners,
-         "indices at the end of a triangle list make no triangle and were left out");
+         "indices at the end of a triangle list do not form a triangle and were left out");
     for (const std::string& name : layout.ignored_attributes)
         loaded.warnings.push_back(where + ": the attribute " + name + " was left out");
 }
@@ -215,7 +216,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     part.morph_targets.resize(layout.targets);
     Repairs repairs;
     std::uint64_t dropped = 0, excess = 0;
-    // Primitives often share their vertices and differ in indices and material only.
+    // Primitives often share their vertices and differ only in indices and material.
     std::map<std::pair<Attributes, std::vector<Attributes>>, std::uint64_t> first_vertex;
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = mesh.primitives[p];

@@ -12,7 +12,8 @@
 namespace faqem::detail {
 namespace {
 
-/// \throws UnsupportedError  a texture of the core material model is of a kind that cannot be decoded
+/// Checks that the textures of the core material model can be decoded.
+/// \throws UnsupportedError  if the image format of one of them is not supported
 void check_image_types(const Asset& asset, const SourceDocument& source, const std::string& file) {
     const auto check = [&](const TextureRef& ref) {
         if (!ref) return;
@@ -21,12 +22,12 @@ void check_image_types(const Asset& asset, const SourceDocument& source, const s
         throw UnsupportedError(file, child_path("/images", ref.image),
                                "is " +
                                    (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
-                                   ", only " + decodable_format_names() + " are supported");
+                                   "; only " + decodable_format_names() + " are supported");
     };
     for (const Material& material : asset.materials) for_each_core_texture(material, check);
 }
 
-/// Gives the asset the images its materials use, each once, and renumbers the references.
+/// Copies the images that the materials use to the asset, each one once, and updates the references.
 void add_used_images(Asset& asset, const SourceDocument& source) {
     std::vector<Index> new_index(source.images.size(), no_index);
     for (const Material& material : asset.materials)
@@ -44,9 +45,10 @@ void add_used_images(Asset& asset, const SourceDocument& source) {
         });
 }
 
-/// Everything in the scene must be at a place that doubles can say, so that it can be flattened and measured.
+/// Checks that all world-space positions are within the range of double, so that the scene can be flattened
+/// and measured.
 void check_world_positions(const Asset& asset, const std::string& file) {
-    std::vector<double> max_coordinate(asset.parts.size(), 0);  // largest coordinate of each part
+    std::vector<double> max_coordinate(asset.parts.size(), 0);  // largest absolute coordinate of each part
     for (std::size_t p = 0; p < max_coordinate.size(); ++p)
         for (const Vec3& position : asset.parts[p].positions)
             for (const double x : position) max_coordinate[p] = std::max(max_coordinate[p], std::abs(x));
@@ -58,7 +60,7 @@ void check_world_positions(const Asset& asset, const std::string& file) {
                                                 std::abs(m[12 + r]);
             if (!std::isfinite(max_world_coordinate))
                 throw InputError(file, child_path("/meshes", asset.parts[instance.part].source),
-                                 "a node places it beyond the range of numbers");
+                                 "a node transform moves it out of the range of double");
         }
     }
 }
@@ -80,7 +82,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
         faces += asset.parts.back().triangles.size();
     }
     if (faces == 0 && dropped_faces != 0)
-        throw InputError(loaded.file, "/meshes", "all faces have a position that is not finite");
+        throw InputError(loaded.file, "/meshes", "all faces have a non-finite position");
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
     check_world_positions(asset, loaded.file);

@@ -1,17 +1,20 @@
 #pragma once
 /// \file
-/// From tinygltf's model to parts and materials.
+/// Conversion of the tinygltf model to parts and materials.
 
 #include "asset/gltf/load.hpp"
 
 namespace faqem::detail {
 
-/// Joins the triangle primitives of a mesh to one part; points and lines stay in the source.
-/// \param dropped_faces  is increased by the faces left out for a position that is not finite
-/// \throws InputError  an index is out of range
+/// Joins the triangle primitives of a mesh to one part. Points and lines remain in the source document only.
+/// \param loaded         the document; warnings are added to it
+/// \param mesh           index of the mesh
+/// \param dropped_faces  increased by the number of faces left out because of a non-finite position
+/// \throws InputError  if an index is out of range or there are too many vertices
 Part read_part(LoadedGltf& loaded, Index mesh, std::uint64_t& dropped_faces);
 
-/// All materials; TextureRef::image is an index into the document's images.
+/// Reads all materials. TextureRef::image is an index into the images of the document.
+/// \param loaded  the document; warnings are added to it
 std::vector<Material> read_materials(LoadedGltf& loaded);
 
 }  // namespace faqem::detail

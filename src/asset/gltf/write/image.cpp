@@ -5,7 +5,7 @@
 namespace faqem::detail {
 namespace {
 
-// glTF's numbers.
+// glTF constants of filters and wrap modes.
 constexpr int nearest = 9728, linear = 9729, nearest_mipmap_nearest = 9984, linear_mipmap_linear = 9987;
 constexpr int repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
 

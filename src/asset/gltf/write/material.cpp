@@ -16,7 +16,7 @@ Json json_floats(const std::array<float, N>& values) {
     return array;
 }
 
-/// Writes a member only where it changed, so that untouched numbers keep their digits.
+/// Writes a member only if it changed, so that unmodified numbers keep their digits. Erases default values.
 template <class T>
 void set_if_changed(Json& object, const char* key, const T& current, const T& original,
                     const T& default_value, const Json& value) {
@@ -45,7 +45,8 @@ Json make_texture_info(GltfWriter& writer, const TextureRef& ref) {
     return info;
 }
 
-/// Puts the texture info under `key` right: kept where nothing changed, made anew or erased otherwise.
+/// Updates the texture info under `key`: kept with a new index if the reference is unchanged, rebuilt if it
+/// changed, erased if it is unset.
 void write_texture_info(GltfWriter& writer, Json& holder, const char* key, const TextureRef& current,
                         const TextureRef& original) {
     if (!current) {
@@ -57,7 +58,7 @@ void write_texture_info(GltfWriter& writer, Json& holder, const char* key, const
     }
 }
 
-/// normalTexture.scale or occlusionTexture.strength.
+/// Updates the factor of a texture info: `scale` of a normal texture or `strength` of an occlusion texture.
 void write_texture_factor(Json& holder, const char* key, const char* number, float current, float original) {
     const auto slot = holder.find(key);
     if (slot == holder.end() || (current == original && slot->contains(number))) return;
@@ -87,7 +88,7 @@ void write_metallic_roughness(GltfWriter& writer, Json& json, const Material& cu
 void write_alpha(Json& json, const Material& current, const Material& original) {
     const char* mode = current.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
     set_if_changed(json, "alphaMode", current.alpha_mode, original.alpha_mode, AlphaMode::opaque, mode);
-    // Only valid with the mode MASK.
+    // alphaCutoff is valid only with the mode MASK.
     if (current.alpha_mode != AlphaMode::mask)
         json.erase("alphaCutoff");
     else
@@ -95,8 +96,9 @@ void write_alpha(Json& json, const Material& current, const Material& original) 
                        shortest_decimal(current.alpha_cutoff));
 }
 
-/// Texture infos in `holder`, but for those that are `known`: followed, or removed where the UVs are new.
-/// \return the names of those that were removed
+/// Updates the texture infos in `holder` except the `known` ones: copies their textures, or removes them if
+/// the material has new UVs.
+/// \return the names of the removed texture infos
 std::vector<std::string> remap_or_remove_textures(GltfWriter& writer, const Material& material, Json& holder,
                                                   std::initializer_list<std::string_view> known = {}) {
     std::vector<std::string> infos;
@@ -113,7 +115,7 @@ std::vector<std::string> remap_or_remove_textures(GltfWriter& writer, const Mate
     return material.rebaked ? infos : std::vector<std::string>();
 }
 
-/// \param part  of it that is meant: `textures`
+/// Adds a warning that `part` (for example "textures") of `what` was removed because the UVs are new.
 void warn_about_removed(GltfWriter& writer, const Material& material, const std::string& what,
                         const std::string& part) {
     writer.warnings.push_back("material '" + material.name + "': the " + part + " of " + what +
@@ -127,8 +129,9 @@ const ExtensionTexture* find_texture(const Material& material, const std::string
     return nullptr;
 }
 
-/// Texture infos of the source's extension that the material does not have any more: erased. What was there in
-/// places must not be everywhere, so the factor of such a texture goes too. \return how many
+/// Erases the texture infos of a source extension that the material no longer has, with the factors that
+/// enable their effect: without the texture, the effect would apply to the whole surface. Returns the number
+/// of erased textures.
 std::size_t erase_textures(const Material& current, const Material& original, const std::string& name,
                            Json& extension) {
     std::vector<std::string> removed;
@@ -144,7 +147,7 @@ std::size_t erase_textures(const Material& current, const Material& original, co
     return removed.size();
 }
 
-/// The textures of the source's extension that are not the material's are followed.
+/// Copies the remaining textures of a source extension that are not in Material::extension_textures.
 void remap_textures(GltfWriter& writer, const Material& current, const std::string& name, Json& extension) {
     for (auto& [key, value] : extension.items()) {
         if (is_texture_info(key, value) && !find_texture(current, name, key))
@@ -152,7 +155,7 @@ void remap_textures(GltfWriter& writer, const Material& current, const std::stri
     }
 }
 
-/// Its directions are those of the texture coordinates, with or without a texture.
+/// The directions of this extension are relative to the texture coordinates, even without a texture.
 constexpr const char* anisotropy = "KHR_materials_anisotropy";
 
 void write_extensions(GltfWriter& writer, const Material& current, const Material& original, Json& json) {
@@ -176,7 +179,7 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
     }
 }
 
-/// Textures of members that glTF does not have.
+/// Updates the textures of members that are not part of glTF.
 void write_unknown_textures(GltfWriter& writer, const Material& material, Json& json) {
     std::vector<std::string> removed = remap_or_remove_textures(
         writer, material, json, {"normalTexture", "occlusionTexture", "emissiveTexture"});

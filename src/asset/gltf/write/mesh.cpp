@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants = "KHR_materials_variants";
 
-/// Primitive extensions that describe the vertices of the source, which are not there any more.
+/// Primitive extensions that describe the source vertices, which no longer exist.
 constexpr std::array<std::string_view, 3> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata"};
 
@@ -30,7 +30,7 @@ void remap_variants(GltfWriter& writer, Json& primitive) {
         mapping["material"] = write_source_material(writer, index_member(mapping, "material"));
 }
 
-/// The source primitives that a part's primitive with this material is made of.
+/// The source primitives that correspond to the primitive of a part with this material.
 std::vector<const Json*> source_primitives(const GltfWriter& writer, const Part& part,
                                            const Material* material) {
     std::vector<const Json*> found;
@@ -43,7 +43,7 @@ std::vector<const Json*> source_primitives(const GltfWriter& writer, const Part&
     return found;
 }
 
-/// object[key] of all primitives if they agree, else null.
+/// The member `key` of the primitives if it is equal in all of them, else null.
 Json common_member(const std::vector<const Json*>& primitives, const char* key) {
     const Json& first = member(*primitives.front(), key);
     for (const Json* primitive : primitives)
@@ -55,7 +55,7 @@ bool any_has(const std::vector<const Json*>& primitives, const char* key) {
     return std::any_of(primitives.begin(), primitives.end(), [&](const Json* p) { return p->contains(key); });
 }
 
-/// Accessor types that only KHR_mesh_quantization allows.
+/// Whether the accessor type is allowed only with KHR_mesh_quantization.
 bool is_quantized(const std::string& attribute, const Json& accessor) {
     const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
     if (type == ComponentType::f32) return false;
@@ -73,7 +73,7 @@ void copy_attributes(GltfWriter& writer, Json& attributes) {
     }
 }
 
-/// Points and lines as they were.
+/// Copies a primitive of points or lines from the source.
 Json copy_primitive(GltfWriter& writer, const Json& source, const std::string& mesh) {
     Json primitive = source;
     copy_attributes(writer, primitive["attributes"]);
@@ -107,7 +107,7 @@ void write_used_materials(GltfWriter& writer) {
     for (const Part& part : writer.asset.parts)
         for (const Index material : part.face_material)
             if (material != no_index) used[material] = 1;
-    // With a new texture, variants are left out.
+    // Material variants are left out if a material was rebaked.
     if (std::none_of(materials.begin(), materials.end(), [](const Material& m) { return m.rebaked; }))
         for (const Json& mesh : source_array(writer, "meshes"))
             for (const Json& primitive : member(mesh, "primitives"))
@@ -118,7 +118,7 @@ void write_used_materials(GltfWriter& writer) {
         if (used[i]) write_material(writer, i);
 }
 
-/// Weights and names of morph targets must match their number.
+/// Removes weights and names of morph targets that do not match the number of targets.
 void update_morph_targets(Json& mesh, std::uint64_t targets) {
     if (array_size(mesh, "weights") != targets) mesh.erase("weights");
     if (targets == 0 && member(mesh, "extras").is_object()) {
@@ -127,8 +127,9 @@ void update_morph_targets(Json& mesh, std::uint64_t targets) {
     }
 }
 
-/// Appends a mesh of the given parts, on top of what the source says about it.
-/// \return no_index if it has no primitive, which glTF does not allow
+/// Appends a mesh with the given parts. Other members are copied from the source mesh.
+/// \param source  source mesh, or null
+/// \return index of the mesh; no_index if it has no primitives, which glTF does not allow
 Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const Part*>& parts) {
     Json mesh = source.is_null() ? Json::object() : source;
     Json primitives = Json::array();
@@ -145,7 +146,7 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         targets = std::max(targets, array_size(primitive, "targets"));
     }
     if (primitives.empty()) {
-        warn_mesh(writer, name, "has nothing left and was left out");
+        warn_mesh(writer, name, "has no primitives left and was left out");
         return no_index;
     }
     update_morph_targets(mesh, targets);

@@ -20,7 +20,7 @@ Json accessor_description(ComponentType component, const char* type, std::size_t
     return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
 }
 
-/// Adds min and max. They are written exactly: readers compare them with the floats.
+/// Adds min and max. They are written exactly, since readers compare them with the floats.
 void add_bounds(Json& description, const std::vector<Vec3f>& values) {
     Vec3f low = values[0], high = values[0];
     for (const Vec3f& value : values)
@@ -47,7 +47,8 @@ Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values) {
     return add_vertices(writer, std::move(description), values);
 }
 
-/// Colours as 16-bit integers: 8 bits are too few for linear light. Beyond [0, 1] as floats.
+/// Writes colours as normalised 16-bit integers, since 8 bits are too few for linear colours; as floats if a
+/// value is outside [0, 1].
 Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
     const bool in_range = std::all_of(colors.begin(), colors.end(), [](const Vec4f& color) {
         return std::all_of(color.begin(), color.end(), [](float x) { return x >= 0 && x <= 1; });
@@ -75,7 +76,7 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
     return add_vertices(writer, accessor_description(ComponentType::u8, "VEC4", bytes.size()), bytes);
 }
 
-/// Indices in 16 bits where they fit; 65535 itself would restart a strip.
+/// Writes indices with 16 bits if they fit, else with 32 bits. The value 65535 is primitive restart.
 Index add_indices(GltfWriter& writer, const PrimitiveData& data) {
     if (data.vertices.size() > 65535)
         return writer.binary.add_accessor(
@@ -86,7 +87,7 @@ Index add_indices(GltfWriter& writer, const PrimitiveData& data) {
                                       bytes_of(indices), AccessorUse::indices);
 }
 
-/// Morph target vectors; all zero ones need no bytes.
+/// Writes morph target displacements. If all are zero, no bytes are stored.
 Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bool with_bounds) {
     Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
     if (with_bounds) add_bounds(description, values);
@@ -132,7 +133,7 @@ Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData&
     return json;
 }
 
-/// Faces by material, in order of first use.
+/// Groups faces by material, in the order of the first use of each material.
 std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& part) {
     std::vector<std::pair<Index, std::vector<Index>>> groups;
     std::map<Index, std::size_t> group_of;
@@ -161,8 +162,8 @@ void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
         primitives.push_back(std::move(primitive));
     }
     if (degenerate_faces > 0)
-        writer.warnings.push_back("part '" + part.name + "': glTF holds positions as floats; " +
-                                  pluralized(degenerate_faces, "face") + " closed up");
+        writer.warnings.push_back("part '" + part.name + "': glTF stores positions as floats; " +
+                                  pluralized(degenerate_faces, "face") + " became degenerate");
 }
 
 }  // namespace faqem::detail

@@ -12,7 +12,7 @@
 namespace faqem::detail {
 namespace {
 
-/// Extensions whose references to other objects we follow, or that have none.
+/// Extensions whose references are remapped, or that have no references.
 constexpr std::array<std::string_view, 7> remapped_extensions = {
     "EXT_mesh_gpu_instancing", "EXT_lights_image_based", "EXT_texture_webp",
     "EXT_lights_ies",          "MSFT_texture_dds",       "MSFT_lod",
@@ -58,7 +58,7 @@ void update_node(GltfWriter& writer, Json& node) {
     if (node.contains("skin") && was_skinned(writer, source_mesh) && !is_skinned(writer, mesh)) {
         node.erase("skin");
         writer.warnings.push_back("node '" + string_member(node, "name") +
-                                  "': its mesh has no joints any more; the skin was left out");
+                                  "': its mesh no longer has joints; the skin was left out");
     }
     if (node.contains("weights") && array_size(node, "weights") != morph_target_count(writer, node))
         node.erase("weights");
@@ -84,7 +84,8 @@ void add_nodes(GltfWriter& writer, const std::vector<Index>& new_meshes) {
     for (const Json& root : roots) nodes.push_back(root);
 }
 
-/// Puts a new index into a pointer like /materials/3/emissiveFactor. \return false if the object is gone
+/// Replaces the index in a JSON pointer such as /materials/3/emissiveFactor. Returns false if the object was
+/// not written.
 bool remap_pointer(GltfWriter& writer, std::string& pointer) {
     const bool is_material = pointer.compare(0, 11, "/materials/") == 0;
     const bool is_mesh = pointer.compare(0, 8, "/meshes/") == 0;
@@ -133,7 +134,7 @@ void update_animations(GltfWriter& writer) {
                 channels.push_back(std::move(channel));
             else
                 writer.warnings.push_back("animation '" + name +
-                                          "': a channel has lost its target and was left out");
+                                          "': a channel was left out because its target was removed");
         if (channels.empty()) continue;
         animation["channels"] = std::move(channels);
         for (Json& sampler : animation["samplers"])
@@ -173,8 +174,8 @@ void warn_about_unknown_extensions(GltfWriter& writer) {
     for (const std::string& name : unknown)
         writer.warnings.push_back(
             "the extension " + name +
-            " is not known and was passed through; numbers in it that refer to meshes, materials, "
-            "textures or accessors may be wrong");
+            " is unknown and was passed through; indices of meshes, materials, textures or accessors "
+            "in it may be wrong");
 }
 
 }  // namespace
@@ -194,7 +195,7 @@ void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
 }
 
 void write_extension_lists(GltfWriter& writer) {
-    // The list of variants is of no use when no primitive has any.
+    // The list of variants is removed if no primitive has variants.
     bool has_variants = false;
     if (writer.out.contains("meshes"))
         for_each_extension(writer.out["meshes"], [&](const std::string& name, const Json&) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Arrays that are built anew.
+/// Top-level arrays that are rebuilt instead of copied.
 constexpr std::array<std::string_view, 8> rebuilt_arrays = {
     "accessors", "bufferViews", "buffers", "images", "materials", "meshes", "samplers", "textures"};
 
@@ -35,7 +35,8 @@ Json start_document(const Json& source) {
     return out;
 }
 
-/// Animation times and positions must have bounds; files exist that lack them.
+/// Adds min and max if they are missing: they are required for animation times and positions, but some files
+/// do not have them.
 void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dense) {
     const auto type = static_cast<ComponentType>(unsigned_member(description, "componentType", 0));
     if (description.contains("min") || description.contains("max") || type != ComponentType::f32) return;
@@ -94,7 +95,7 @@ void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     write_file(file, glb_bytes(writer, file.string()), overwrite);
 }
 
-/// The images, the buffer and, last because it refers to them, the JSON.
+/// Writes the images, the buffer and then the JSON, which refers to them.
 void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     const std::string stem = file.stem().string();
     std::vector<FileContent> files;
@@ -123,7 +124,7 @@ void write_output(GltfWriter& writer, const fs::path& file, Overwrite overwrite)
         write_glb(writer, file, overwrite);
 }
 
-/// Positions of a document stay as they are: its nodes, skins and animations fit them.
+/// The origin is not changed if there is a source document, whose nodes, skins and animations depend on it.
 GltfWriter make_writer(const Asset& asset) {
     static const SourceDocument none;
     const SourceDocument& source = asset.source ? *asset.source : none;
@@ -155,7 +156,8 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
     if (!is_new) return entry->second;
     Json description = source_array(writer, "accessors")[accessor];
     for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
-    // Zeros without a bufferView, too: of the result's bytes there may be too few to vouch for the count.
+    // Zero elements without a bufferView are stored too: readers limit the count of such accessors by the
+    // number of bytes in the file, which may be too small.
     const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
     if (use == AccessorUse::vertices || string_member(description, "type") == "SCALAR")
         add_missing_bounds(description, dense);
@@ -187,7 +189,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     auto next = new_meshes.begin();
     for (const Part& part : asset.parts)
         mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
-    // Only the first level is in the scene.
+    // Only the meshes of the first level are added to the scene.
     const std::size_t other_part_count =
         asset.parts.size() - std::min(asset.parts.size(), leveled.parts_per_level);
     new_meshes.resize(new_meshes.size() - other_part_count);

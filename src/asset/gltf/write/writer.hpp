@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// State shared by the rooms that write glTF. What the output needs is copied from the source when it is
-/// first asked for, so that nothing unused gets in.
+/// State shared by the functions that write glTF. Objects of the source document are copied to the output
+/// when they are first needed, so that the output has no unused objects.
 
 #include <map>
 #include <string>
@@ -13,71 +13,77 @@
 
 namespace faqem::detail {
 
+/// The output document under construction, and maps from source and asset objects to output objects.
 struct GltfWriter {
     const Asset& asset;
-    const SourceDocument& source;  ///< an empty one where the asset has none
-    Json out;                      ///< the document under construction
-    Vec3 origin = {0, 0, 0};       ///< of all positions; the nodes of new meshes put it back
+    const SourceDocument& source;  ///< empty if the asset has no source document
+    Json out;                      ///< the output document
+    Vec3 origin = {0, 0, 0};       ///< subtracted from all positions; translation of the nodes of new meshes
     GltfBufferBuilder binary = {};
     std::vector<std::string> warnings = {};
 
     std::map<Index, Index> accessors = {};         ///< source accessor to output accessor
     std::map<Index, Index> asset_materials = {};   ///< asset material to output material
-    std::map<Index, Index> source_materials = {};  ///< copied as they were
+    std::map<Index, Index> source_materials = {};  ///< source material, copied unchanged, to output material
     std::map<Index, Index> source_textures = {};
     std::map<Index, Index> source_samplers = {};
     std::map<Index, Index> source_images = {};
-    std::map<Index, Index> asset_images = {};  ///< those that are not among the source's
+    std::map<Index, Index> asset_images = {};  ///< asset image without an equal source image to output image
     std::map<std::tuple<Index, Wrap, Wrap, Filter>, Index> textures = {};
     std::map<std::tuple<Wrap, Wrap, Filter>, Index> samplers = {};
-    std::vector<const Image*> images = {};  ///< by output image
+    std::vector<const Image*> images = {};  ///< the output images, borrowed
     std::vector<Index> source_image_of =
-        {};                            ///< per asset image: the source image of equal bytes, or no_index
-    std::vector<Index> mesh_map = {};  ///< source mesh to output mesh, no_index: left out
-    bool needs_quantization = false;   ///< a primitive that is passed through needs KHR_mesh_quantization
+        {};                            ///< per asset image: a source image with equal bytes, or no_index
+    std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
+    bool needs_quantization = false;   ///< a copied primitive needs KHR_mesh_quantization
 };
 
-/// The source's array `key`, or null.
+/// The top-level array `key` of the source document, or null.
 const Json& source_array(const GltfWriter& writer, const char* key);
 
-/// Appends to the output's array `key`. \return the new element's index
+/// Appends an element to the top-level array `key` of the output. Returns its index.
 Index append(GltfWriter& writer, const char* key, Json value);
 
-/// Copies an accessor of the source with its data, once. Sparse ones become plain.
+/// Copies a source accessor with its data on first use. Sparse accessors become dense.
+/// \return the output accessor
 Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use);
 
-/// Output texture for a texture of the source, sampler, extras and alternatives included.
+/// Copies a source texture on first use, with its sampler, extras and the images of extensions.
+/// \return the output texture
 Index copy_texture(GltfWriter& writer, Index texture);
 
-/// Output texture for a reference of the asset.
+/// Creates the output texture for a texture reference of the asset. Equal textures are shared.
 Index make_texture(GltfWriter& writer, const TextureRef& ref);
 
-/// Output image for an image of the source.
+/// Copies a source image on first use. Returns the output image.
 Index copy_image(GltfWriter& writer, Index image);
 
-/// Fills source_image_of.
+/// Computes GltfWriter::source_image_of.
 void find_source_images(GltfWriter& writer);
 
-/// Output material for a material of the asset.
+/// Writes an asset material on first use. Returns the output material.
 Index write_material(GltfWriter& writer, Index material);
 
-/// Output material for a material of the source that some primitive or variant still uses.
+/// Writes a source material that is used by a copied primitive or a material variant, on first use.
+/// \return the output material
 Index write_source_material(GltfWriter& writer, Index material);
 
-/// Extras and extensions for the primitive of a part that has the given asset material: those of the source's
-/// triangle primitives it stems from, as far as they agree.
+/// Extras and extensions of the output primitive of a part with the given asset material: those of the
+/// corresponding triangle primitives of the source, if they agree.
 Json primitive_base(GltfWriter& writer, const Part& part, Index material);
 
-/// Appends the primitives of a part, one per material in order of first use.
+/// Appends the primitives of a part: one per material, in the order of first use.
 void write_part(GltfWriter& writer, const Part& part, Json& primitives);
 
-/// Writes all meshes and fills mesh_map; `new_meshes` gets those of parts without a source.
+/// Writes all meshes and sets GltfWriter::mesh_map.
+/// \param new_meshes  receives the output meshes of parts without a source mesh
 void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes);
 
-/// Nodes, skins, animations and what extensions refer to.
+/// Writes nodes, skins and animations, and remaps the references of extensions.
+/// \param new_meshes  output meshes that get new nodes
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes);
 
-/// extensionsUsed and extensionsRequired, from what the output really holds.
+/// Writes extensionsUsed and extensionsRequired according to the extensions in the output.
 void write_extension_lists(GltfWriter& writer);
 
 }  // namespace faqem::detail
