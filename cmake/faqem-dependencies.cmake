@@ -1,21 +1,21 @@
-# The one place that says what faqem needs: used by its own build and by the installed package.
-# No include_guard: a second find_package(faqem) with more components must come through here again.
+# Dependencies of faqem, used by its own build and by the installed package.
+# No include_guard: a second find_package(faqem) with more components must evaluate this file again.
 #
-# faqem_find_dependencies(COMPONENT...) finds what the named components need. Components:
+# faqem_find_dependencies(COMPONENT...) finds the dependencies of components:
 #   core      header-only templates             Eigen
 #   faqem     compiled presets                  threads (Eigen and nanoflann while building)
-#   openmesh  OpenMesh door                     OpenMesh
-#   asset     files                             tinygltf and OpenImageIO, hidden inside; Draco and meshoptimizer
-#                                               where FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT say so
-#   bake      baker                             as asset
-#   c         C door                            nothing: what it needs is inside it
+#   openmesh  OpenMesh interface                OpenMesh
+#   asset     reading and writing of files      tinygltf and OpenImageIO (private); Draco and meshoptimizer
+#                                               if FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT are set
+#   bake      texture baking                    as asset
+#   c         C interface                       none: a shared library that contains its dependencies
 
 # Components that a component links to.
 set(faqem_needs_openmesh faqem)
 set(faqem_needs_asset faqem)
 set(faqem_needs_bake asset faqem)
 
-# Debian 12 exports TinyGLTF::TinyGLTF, upstream tinygltf::tinygltf: we use the upstream name.
+# Debian 12 exports TinyGLTF::TinyGLTF, upstream exports tinygltf::tinygltf. The upstream name is used here.
 macro(faqem_find_tinygltf)
     if(NOT TARGET tinygltf::tinygltf)
         find_package(TinyGLTF CONFIG QUIET)
@@ -28,7 +28,7 @@ macro(faqem_find_tinygltf)
     endif()
 endmacro()
 
-# Debian 12's OpenImageIO target lists include folders that its packages do not install.
+# The OpenImageIO target of Debian 12 lists include directories that its packages do not install.
 macro(faqem_find_openimageio)
     if(NOT TARGET OpenImageIO::OpenImageIO)
         find_package(OpenImageIO CONFIG REQUIRED)
@@ -45,8 +45,9 @@ macro(faqem_find_openimageio)
     endif()
 endmacro()
 
-# Debian's Draco exports another tinygltf, of another layout. Saying that tinygltf needs Draco puts it first in every
-# link, and whoever comes first is taken. Draco's archive would not do: its members are taken before any shared library.
+# Debian's Draco library exports symbols of another tinygltf with another memory layout. Making Draco a
+# dependency of tinygltf puts tinygltf first on every link line, so that its symbols are used. Draco must be
+# the shared library: the members of its static archive would be linked before any shared library.
 macro(faqem_find_draco)
     find_package(draco CONFIG REQUIRED)
     set_property(TARGET tinygltf::tinygltf APPEND PROPERTY INTERFACE_LINK_LIBRARIES draco::draco)
@@ -71,7 +72,7 @@ macro(faqem_find_dependencies)
                 find_package(meshoptimizer CONFIG REQUIRED)
             endif()
         elseif(NOT faqem_component STREQUAL "c")
-            message(FATAL_ERROR "faqem has no component named ${faqem_component}")
+            message(FATAL_ERROR "unknown component of faqem: ${faqem_component}")
         endif()
     endforeach()
 endmacro()

@@ -1,5 +1,5 @@
-# Installs headers, libraries and the CMake package. One export set per component, so that a user of the arrays
-# alone needs neither OpenMesh nor OpenImageIO on the machine.
+# Installs headers, libraries and the CMake package. Each component has its own export set, so that users of
+# the component faqem need neither OpenMesh nor OpenImageIO.
 include(CMakePackageConfigHelpers)
 
 set(faqem_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/faqem)

@@ -1,4 +1,5 @@
-# Debian packages, made by `cpack -G DEB`: faqem (the command), libfaqem0.1 (what is shared), libfaqem-dev (the rest).
+# Debian packages, made by `cpack -G DEB`: faqem (the command), libfaqem0.1 (shared libraries), libfaqem-dev
+# (headers, static libraries and package files).
 set(CPACK_PACKAGE_CONTACT "The faqem maintainers <faqem@localhost>")
 set(CPACK_PACKAGE_VENDOR "")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -15,7 +16,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfaqem-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}\n Headers, libraries, CMake package and pkg-config files.")
-# Each for one component of the CMake package: whoever has arrays alone needs none.
+# Each is needed by one component of the CMake package. The component faqem needs none of them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, libopenmesh-dev, libtinygltf-dev, libopenimageio-dev")
 foreach(decoder IN ITEMS DRACO MESHOPT)
     if(FAQEM_HAS_${decoder})
@@ -35,12 +36,12 @@ if(FAQEM_BUILD_C OR BUILD_SHARED_LIBS)
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
     set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}\n The shared libraries.")
     set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
-    set(CPACK_COMPONENT_TOOL_DEPENDS runtime)  # for the module of images, if for nothing else
+    set(CPACK_COMPONENT_TOOL_DEPENDS runtime)  # at least for the image plugin
     set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/faqem ${PROJECT_BINARY_DIR}/src/asset
                                                     ${PROJECT_BINARY_DIR}/src/bake ${PROJECT_BINARY_DIR}/src/capi)
 endif()
 
-# Each package has the licence.
+# Each package contains the licence.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER ${component} upper)
     install(FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright COMPONENT ${component}

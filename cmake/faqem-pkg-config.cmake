@@ -1,6 +1,7 @@
-# The pkg-config files: faqem (arrays, C++20) and faqem-c. What links to OpenImageIO and tinygltf is for CMake.
+# The pkg-config files faqem (C++20 library for arrays) and faqem-c (C interface). The components that depend
+# on OpenImageIO and tinygltf are available only through CMake.
 
-# faqem_install_pc(NAME DESCRIPTION LIBS)
+# faqem_install_pc(NAME DESCRIPTION LIBS) installs NAME.pc.
 function(faqem_install_pc faqem_pc_name faqem_pc_description faqem_pc_libs)
     set(faqem_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
     file(RELATIVE_PATH faqem_pc_to_prefix /prefix/${faqem_pc_dir} /prefix)

@@ -1,12 +1,12 @@
-# What all faqem targets share.
+# Functions that set the common properties of faqem's targets.
 
-# In the names of shared libraries. Before 1.0 a minor version may break what was (CHANGELOG.md).
+# ABI version in the names of shared libraries. Before 1.0, minor versions may be incompatible (CHANGELOG.md).
 set(faqem_abi ${PROJECT_VERSION_MAJOR})
 if(faqem_abi EQUAL 0)
     set(faqem_abi 0.${PROJECT_VERSION_MINOR})
 endif()
 
-# faqem_export(TARGET NAME): the target is faqem::NAME, here and in the installed package.
+# faqem_export(TARGET NAME) makes the target available as faqem::NAME, here and in the installed package.
 function(faqem_export target name)
     add_library(faqem::${name} ALIAS ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
@@ -15,7 +15,7 @@ function(faqem_export target name)
         set(scope INTERFACE)
     else()
         set(scope PUBLIC)
-        # Installed libraries find each other wherever the tree is moved to.
+        # INSTALL_RPATH is relative, so that an installed tree can be moved.
         set_target_properties(${target} PROPERTIES OUTPUT_NAME ${target} VERSION ${PROJECT_VERSION} SOVERSION ${faqem_abi}
                                                    INSTALL_RPATH "\$ORIGIN" DEFINE_SYMBOL "")
     endif()
@@ -24,7 +24,7 @@ function(faqem_export target name)
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
-# faqem_compile_options(TARGET): our warnings, and arithmetic that is the same everywhere.
+# faqem_compile_options(TARGET) enables warnings, and disables fused multiply-add for reproducible results.
 function(faqem_compile_options target)
     target_compile_features(${target} PRIVATE cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -35,7 +35,8 @@ function(faqem_compile_options target)
     endif()
 endfunction()
 
-# faqem_hide(TARGET MAP): of a shared library, what FAQEM_EXPORT marks and MAP names is all that is seen from outside.
+# faqem_hide(TARGET MAP): a shared library exports only symbols that are marked with FAQEM_EXPORT and listed
+# in the version script MAP.
 function(faqem_hide target map)
     get_target_property(type ${target} TYPE)
     if(NOT type STREQUAL "SHARED_LIBRARY")
@@ -43,6 +44,6 @@ function(faqem_hide target map)
     endif()
     set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                                LINK_DEPENDS ${map})
-    # What libraries instantiate of the standard library would be seen in spite of that.
+    # The version script hides instantiations of the standard library, which have default visibility.
     target_link_options(${target} PRIVATE -Wl,--version-script=${map})
 endfunction()

@@ -1,12 +1,14 @@
 #!/bin/sh
-# Installs what faqem needs to build and test on Debian 12, and the packages named on the command line.
-# Uses sudo only when not root.
+# Installs the packages that building and testing faqem needs on Debian 12, and the packages given as
+# arguments.
+# Uses sudo unless run as root.
 set -eu
 
 packages="build-essential cmake ninja-build file pkg-config libeigen3-dev libnanoflann-dev nlohmann-json3-dev \
 libopenmesh-dev libtinygltf-dev libopenimageio-dev libdraco-dev libmeshoptimizer-dev openimageio-tools libcli11-dev catch2 doxygen \
 python3-numpy python3-pip python3-setuptools python3-wheel zsh $*"
-# The glTF validator runs on Node. A Node from elsewhere brings its own npm, which Debian's package conflicts with.
+# The glTF validator needs Node. A Node that was not installed from Debian's packages has its own npm, which
+# conflicts with Debian's.
 command -v npm >/dev/null 2>&1 || packages="$packages npm"
 
 missing=""
@@ -14,7 +16,7 @@ for package in $packages; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing="$missing $package"
 done
 if [ -z "$missing" ]; then
-    echo "packages: all there"
+    echo "packages: all installed"
     exit 0
 fi
 

@@ -1,14 +1,16 @@
 #!/bin/sh
-# Builds faqem and runs every test. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
-# CMakePresets.json; default: release. Needs Debian 12 and nothing else: packages are installed first.
-# --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak,
-# fuzzing, examples, the site), and runs each test program in one process: under two minutes.
+# Installs dependencies, builds faqem and runs all tests, on Debian 12.
+# Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]]; PRESET is a configure preset of CMakePresets.json,
+# default:
+# release.
+# --quick omits slow tests (package, Python, validator, viewer, soak, fuzzing, examples, documentation site)
+# and runs each test program in one process, in under two minutes.
 set -eu
 cd "$(dirname "$0")/.."
 quick=""
 if [ "${1:-}" = --quick ]; then
     quick="^(package|python|validator|viewer|soak|fuzz|examples)/|^docs/(commands work|the site)"
-    quick="$quick|^(faqem|step_counts|asset|bake|cli|openmesh)/"  # programs/ runs these
+    quick="$quick|^(faqem|step_counts|asset|bake|cli|openmesh)/"  # replaced by the tests programs/*
     shift
 fi
 preset=${1:-release}
@@ -20,7 +22,7 @@ case $preset in
     *) cmake/install-packages.sh ;;
 esac
 echo "== configure ($preset)"
-cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start turns them off
+cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start may have turned them off
 echo "== build"
 cmake --build --preset "$preset"
 echo "== test"

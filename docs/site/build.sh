@@ -1,6 +1,7 @@
 #!/bin/sh
-# Builds the site from the pages and the headers; a warning is an error. SITE has the Doxyfile and gets pages/ and html/;
-# without TOOL the command's own words are left out. Usage: build.sh PYTHON DOXYGEN SOURCE SITE [TOOL]
+# Builds the documentation site from the pages and the headers. A warning of Doxygen is an error. SITE
+# contains the Doxyfile and receives pages/ and html/. Without TOOL the page with the help texts of the
+# command is omitted. Usage: build.sh PYTHON DOXYGEN SOURCE SITE [TOOL]
 set -eu
 python=$1 doxygen=$2 source=$3 site=$4 tool=${5:-}
 rm -rf "$site/pages" "$site/html"

@@ -17,7 +17,7 @@ constexpr std::uint32_t min_texture_size = 64;
 constexpr std::uint64_t min_faces = 4;
 constexpr int max_runs = 8;
 
-/// Bytes per face change a little from run to run.
+/// Factor on the estimated face target: the number of bytes per face varies slightly between runs.
 constexpr double safety_factor = 0.98;
 
 bool is_image(const fs::path& file) {
@@ -30,14 +30,14 @@ std::string encoding_name(const BakeOptions& bake) {
         case ImageFormat::png:
             return "PNG";
         case ImageFormat::jpeg:
-            return "JPEG " + std::to_string(bake.jpeg_quality);
+            return "JPEG quality " + std::to_string(bake.jpeg_quality);
         case ImageFormat::source:
-            return "as the source";
+            return "format of the source";
     }
     return {};
 }
 
-/// One search.
+/// One search for a result within the budget, see simplify_within_bytes().
 class ByteBudgetSearch {
 public:
     ByteBudgetSearch(const Asset& source, const Options& options, const ByteBudget& budget)
@@ -54,10 +54,11 @@ public:
             if (!is_done()) reduce_faces(size_.images < budget_.bytes ? budget_.bytes - size_.images : 0);
         }
         if (!is_done()) {
-            throw BudgetError("the smallest result has " + std::to_string(size_.total()) + " bytes, " +
-                              std::to_string(budget_.bytes) + " allowed: " + summary());
+            throw BudgetError("the smallest result has " + std::to_string(size_.total()) +
+                              " bytes, but --max-bytes allows " + std::to_string(budget_.bytes) + ": " +
+                              summary());
         }
-        if (!is_cancelled()) result_.report.warnings.push_back("made smaller for --max-bytes: " + summary());
+        if (!is_cancelled()) result_.report.warnings.push_back("reduced to fit --max-bytes: " + summary());
         return std::move(result_);
     }
 
@@ -75,7 +76,7 @@ private:
         if (!is_cancelled()) size_ = model_bytes(result_.asset, budget_.file);
     }
 
-    // Until the geometry is within `bytes`, or no fewer faces come out.
+    // Lowers the face target until the geometry fits into `bytes` or the face count no longer decreases.
     void reduce_faces(std::uint64_t bytes) {
         for (int run = 0; run < max_runs && !is_cancelled() && size_.geometry > bytes; ++run) {
             const std::uint64_t faces = result_.report.faces_out;
@@ -88,7 +89,7 @@ private:
         }
     }
 
-    // The next step down. False at the last.
+    // Selects the next smaller image encoding or size. Returns false if there is none.
     bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
         if (budget_.encoding == ImageEncodingChoice::automatic && bake.image_format != ImageFormat::jpeg) {
@@ -102,16 +103,16 @@ private:
 
     std::string summary() const {
         std::string text = std::to_string(result_.report.faces_out) + " faces, " +
-                           std::to_string(size_.geometry) + " bytes without images";
+                           std::to_string(size_.geometry) + " bytes of geometry";
         if (size_.images == 0) return text;
-        text += ", images of " + std::to_string(size_.images) + " bytes";
+        text += ", " + std::to_string(size_.images) + " bytes of images";
         if (!makes_atlas(options_.bake.kind)) return text;
-        return text + " (" + encoding_name(options_.bake) + ", up to " +
-               std::to_string(options_.bake.texture_size) + " texels)";
+        return text + " (" + encoding_name(options_.bake) + ", at most " +
+               std::to_string(options_.bake.texture_size) + " texels per side)";
     }
 
     const Asset& source_;
-    Options options_;  // of the run at hand
+    Options options_;  // of the current run
     const ByteBudget& budget_;
     SimplifiedParts simplified_parts_;
     SimplifiedAsset result_;

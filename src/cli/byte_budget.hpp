@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// simplify --max-bytes: fewer faces and smaller images until the files are small enough.
+/// `faqem simplify --max-bytes`: reduces faces and images until the output files fit into a byte budget.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,44 +10,47 @@
 
 namespace faqem::cli {
 
-/// No result is as small as it was asked to be. The tool exits with 10.
+/// Thrown if even the smallest result exceeds the byte budget. The command exits with code 10.
 class BudgetError : public Error {
 public:
     using Error::Error;
 };
 
-/// Who chose the encoding of the images: one that the user named stays.
+/// Whether the encoding of baked images may be changed. An encoding specified by the user is kept.
 enum class ImageEncodingChoice { automatic, user_specified };
 
 /// A byte budget for the files of one model.
 struct ByteBudget {
-    std::uint64_t bytes = 0;     ///< all files together, > 0
-    std::filesystem::path file;  ///< the result's name: its extension decides what is counted
+    std::uint64_t bytes = 0;     ///< total size of all files, > 0
+    std::filesystem::path file;  ///< name of the output; its extension selects the format
     ImageEncodingChoice encoding = ImageEncodingChoice::automatic;
 };
 
-/// What a model takes on disk.
+/// Size of the files of a model.
 struct ModelBytes {
-    std::uint64_t geometry = 0;  ///< all but the images
-    std::uint64_t images = 0;
+    std::uint64_t geometry = 0;  ///< bytes other than those of images
+    std::uint64_t images = 0;    ///< bytes of encoded images
 
     std::uint64_t total() const { return geometry + images; }
 };
 
-/// Saves the asset to a temporary folder and counts. \throws WriteError, UnsupportedError
+/// Returns the size of the files that save() would write for `file`. Saves to a temporary directory.
+/// \throws WriteError        a temporary file cannot be written
+/// \throws UnsupportedError  the format of `file` cannot be written
 ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 
-/// simplify(), and where the result is larger than the budget:
-/// 1. fewer faces, until what is not images takes half of the budget, or what the images leave if these are
-///    not baked anew;
-/// 2. images that are baked: JPEG instead of PNG unless the encoding is as asked, then half the side, again
-///    and again, down to 64 texels;
-/// 3. fewer faces still, where the smallest images leave less than half.
-/// The first result that fits is taken; a warning says what was given up.
-/// \param options  its target and texture size are the most there will be; without max_error
-/// \throws BudgetError  nothing fits
-/// \throws as simplify() and model_bytes()
-/// At most 8 simplifications for each of 1 and 3, and 9 bakings, each a quarter of the one before.
+/// Calls simplify() and, while the result exceeds the budget, reduces it in this order:
+/// 1. fewer faces, until the geometry takes at most half of the budget, or what existing images leave of it
+///    if no image is baked;
+/// 2. smaller baked images: JPEG instead of PNG unless the user specified the encoding, then half the side,
+///    repeatedly, down to 64 texels;
+/// 3. fewer faces, if the smallest images leave less than half of the budget.
+/// Returns the first result that fits. If anything was reduced, the report has a warning with the sizes.
+/// Complexity: at most 8 simplifications for each of steps 1 and 3, and 9 bakes in step 2, each with a
+/// quarter of the texels of the previous one.
+/// \param options  target and texture size are upper limits; max_error must be unset
+/// \throws BudgetError  no result fits
+/// \throws whatever simplify() and model_bytes() throw
 SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget);
 
 }  // namespace faqem::cli

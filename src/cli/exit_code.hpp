@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How the command ends.
+/// Exit codes of the command and the messages of errors.
 
 #include <exception>
 #include <string>
@@ -23,10 +23,10 @@ enum ExitCode : int {
     exit_no_memory = 11,
 };
 
-/// The exit code for an exception.
+/// Returns the exit code for an exception; exit_internal for unknown types.
 ExitCode exit_code_of(const std::exception& error);
 
-/// What to tell about it.
+/// Returns the text that is printed for an exception: what(), or a readable text for std::bad_alloc.
 std::string message_of(const std::exception& error);
 
 }  // namespace faqem::cli

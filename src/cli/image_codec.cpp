@@ -1,4 +1,5 @@
-// Takes the place of the library's own image_codec(), which is linked to OpenImageIO.
+// Replaces the library's image_codec(), which links OpenImageIO: the command loads the image plugin when the
+// first image is read or written.
 
 #include "asset/image/image_codec.hpp"
 

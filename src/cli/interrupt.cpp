@@ -12,7 +12,7 @@ namespace faqem::cli {
 
 namespace {
 
-// Atomic: a batch asks on several threads.
+// Atomic because a batch calls is_interrupted() on several threads.
 std::atomic<int> signal_count = 0, exit_on_interrupt = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
@@ -32,7 +32,8 @@ void install_signal_handlers() {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    // A file above the limit of the shell (ulimit -f) is then a write that fails, not the end.
+    // Ignored, so that a file larger than the limit of the shell (ulimit -f) is a failed write with an error
+    // message.
     action.sa_handler = SIG_IGN;
     sigaction(SIGXFSZ, &action, nullptr);
 }
@@ -41,7 +42,7 @@ bool is_interrupted() { return signal_count != 0; }
 
 ExitOnInterrupt::ExitOnInterrupt() {
     ++exit_on_interrupt;
-    if (signal_count != 0) _exit(exit_cancelled);  // it came after the last question and before this
+    if (signal_count != 0) _exit(exit_cancelled);  // received since the last call of is_interrupted()
 }
 ExitOnInterrupt::~ExitOnInterrupt() { --exit_on_interrupt; }
 

@@ -1,17 +1,20 @@
 #pragma once
 /// \file
-/// SIGINT and SIGTERM.
+/// Handling of SIGINT and SIGTERM.
 
 namespace faqem::cli {
 
-/// From now on a signal is noted, to be asked for with is_interrupted(). While nobody asks (see ExitOnInterrupt), or
-/// when it comes a second time, it removes temporary files and ends the process with exit code 8. A file that
-/// grows above the shell's limit becomes a failed write.
+/// Installs handlers for SIGINT and SIGTERM. The first signal sets the flag that is_interrupted() returns. A
+/// second signal, or one received while an ExitOnInterrupt exists, removes temporary files and ends the
+/// process with exit code 8. Also ignores SIGXFSZ, so that a file larger than the shell's limit is a failed
+/// write.
 void install_signal_handlers();
 
+/// Returns whether a signal was received. May be called from any thread.
 bool is_interrupted();
 
-/// Alive while work is done that does not ask: reading and writing files, loading libraries.
+/// While an object of this class exists, a signal ends the process immediately. For work that does not call
+/// is_interrupted(): reading and writing files, loading libraries.
 class ExitOnInterrupt {
 public:
     ExitOnInterrupt();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// JSON on stdout.
+/// Printing of JSON to stdout.
 
 #include <nlohmann/json.hpp>
 
@@ -10,13 +10,13 @@ namespace faqem::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// The members of a MeshInfo, box as two points.
+/// Returns the members of a MeshInfo as a JSON object with the keys documented in docs/cli.md.
 Json info_json(const MeshInfo& info);
 
-/// File and material names need not be UTF-8: what is not is shown as U+FFFD.
+/// Prints indented JSON. File and material names need not be UTF-8: invalid bytes are printed as U+FFFD.
 void print_json(const Json& json);
 
-/// On one line, and at once: whoever reads along need not wait.
+/// Prints JSON on one line and flushes stdout, so that a reader of a pipe gets each line immediately.
 void print_json_line(const Json& json);
 
 }  // namespace faqem::cli

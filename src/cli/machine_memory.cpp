@@ -15,14 +15,15 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; no limit where there is no file, or `max` in it.
+/// Returns the number in a file; `unlimited` if there is no such file or it contains `max`.
 std::uint64_t read_limit(const fs::path& file) {
     std::ifstream in(file);
     std::uint64_t limit = 0;
     return in >> limit ? limit : unlimited;
 }
 
-/// \param group  begins with a slash
+/// Returns the minimum of the limits in the files called `name` of a group and of all its ancestors.
+/// \param group  path of the group, begins with a slash
 std::uint64_t min_limit_of_ancestors(const fs::path& mount, const fs::path& group, const char* name) {
     std::uint64_t min_limit = read_limit(mount / name);
     for (fs::path below = group.relative_path(); !below.empty(); below = below.parent_path())
@@ -39,7 +40,7 @@ bool has_memory_controller(const std::string& controllers) {
 std::uint64_t cgroup_memory_limit(const fs::path& membership, const fs::path& mounts) {
     std::uint64_t min_limit = unlimited;
     std::ifstream in(membership);
-    // A line is NUMBER:CONTROLLERS:PATH, in version 2 without controllers.
+    // Each line is NUMBER:CONTROLLERS:PATH; CONTROLLERS is empty in version 2.
     for (std::string line; std::getline(in, line);) {
         const std::size_t first = line.find(':');
         const std::size_t second = line.find(':', first + 1);

@@ -1,4 +1,4 @@
-// The faqem command: errors on stderr, data on stdout.
+// The faqem command. Errors are printed to stderr, data to stdout.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,7 +27,7 @@ int fail(const std::exception& error) {
 int run(const Action& action) try {
     const int code = action();
     std::cout.flush();
-    if (!std::cout) throw WriteError("standard output: cannot be written");
+    if (!std::cout) throw WriteError("cannot write to standard output");
     return code;
 } catch (const std::exception& error) {
     return fail(error);
@@ -40,7 +40,7 @@ int parse_and_run(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
         std::vector<std::string> all = expand_profile(command_tree(app), words);
-        std::reverse(all.begin(), all.end());  // as CLI11 takes them
+        std::reverse(all.begin(), all.end());  // CLI11 expects the arguments in reverse order
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) return exit_ok;

@@ -16,15 +16,15 @@ namespace faqem::cli {
 
 namespace {
 
-/// Of the process so far: what is given back to the heap is used again.
+/// Peak resident memory of the process so far, bytes. Memory that was returned to the heap is assumed to be
+/// reused.
 double peak_resident_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Bytes for each face of the mesh that is worked on. Measured on meshes of 0.06 to 1 million faces, rounded
-/// up.
+/// Bytes per face of the mesh being simplified. Measured on meshes of 0.06 to 1 million faces, rounded up.
 double simplify_bytes_per_face(const Options& options) {
     switch (options.preset) {
         case Preset::fast:
@@ -41,14 +41,14 @@ double simplify_bytes_per_face(const Options& options) {
     return 700;
 }
 
-constexpr double history_bytes_per_face = 250;     // the history, and what baking finds its way with
-constexpr double visibility_bytes_per_face = 400;  // of all instances: --visibility, before anything else
-constexpr double search_factor = 1.3;              // --max-error: the best mesh so far, and what measures it
+constexpr double history_bytes_per_face = 250;  // collapse history and the data structures of the baking map
+constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
+constexpr double search_factor = 1.3;  // --max-error: best mesh so far and the distance measurement
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes =
-    140e6;  // come with the first image that is decoded or encoded (images/load.hpp)
+    140e6;  // libraries loaded with the first image that is decoded or encoded (image_plugin/load.hpp)
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
-constexpr double bake_bytes_per_layer_texel = 9;  // of a texture of a material's extensions
+constexpr double bake_bytes_per_layer_texel = 9;  // per texel of each texture of material extensions
 
 std::size_t attribute_values_per_corner(const Part& part) {
     return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4);
@@ -58,7 +58,7 @@ double decoded_image_bytes(const Asset& asset) {
     double bytes = 0;
     for (const Image& image : asset.images) {
         const auto size = detail::declared_size(image.encoded);
-        // What is refused takes nothing.
+        // Larger images are rejected before memory for their pixels is allocated.
         if (size && size->width <= detail::max_image_side && size->height <= detail::max_image_side)
             bytes += 4.0 * static_cast<double>(size->pixels());
     }
@@ -91,12 +91,12 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'
 std::uint64_t estimated_loading_memory(const std::filesystem::path& model) {
     std::vector<std::filesystem::path> files;
     std::error_code ignored;
-    // A pipe would have to be opened to be asked.
+    // The size of a pipe is unknown, and it must not be opened here.
     if (std::filesystem::is_regular_file(model, ignored)) {
         if (lower_case_extension(model) != ".obj") files = referenced_files(model);
         files.push_back(model);
     }
-    // The bytes, the arrays made of them, and these again while they grow.
+    // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow.
     return static_cast<std::uint64_t>(peak_resident_memory() +
                                       5 * static_cast<double>(total_file_size(files)));
 }
@@ -124,7 +124,7 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) 
 
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
     if (needed <= allowed) return;
-    throw MemoryError(file.string() + ": may take " + megabytes(needed) + " of memory, " +
+    throw MemoryError(file.string() + ": may need " + megabytes(needed) + " of memory, but only " +
                       megabytes(allowed) + " are allowed (--max-memory)");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much memory simplify takes, told before it does.
+/// Estimates of the memory that `faqem simplify` needs, made before the work starts.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,24 +11,26 @@
 
 namespace faqem::cli {
 
-/// The work would take more memory than is allowed.
+/// Thrown if the estimated memory exceeds the limit. The command exits with code 11.
 class MemoryError : public Error {
 public:
     using Error::Error;
 };
 
-/// An upper estimate of what loading takes, from the sizes of the files alone, bytes. Compressed glTF may
-/// take more: what it holds is only known when it is read. What an OBJ refers to is not counted: finding that
-/// takes as long as reading it.
+/// Returns an upper estimate, in bytes, of the memory needed to load a model, from the file sizes alone.
+/// Compressed glTF may need more, because its decoded size is known only after reading. Files that an OBJ
+/// file refers to are not counted, because finding them takes as long as reading the file.
 std::uint64_t estimated_loading_memory(const std::filesystem::path& model);
 
-/// An upper estimate of what the whole run takes at its peak, bytes: the process, the model, its history, the
-/// work on the largest mesh, and what baking decodes and makes. By what was measured, see docs/robustness.md.
-/// O(parts + images)
+/// Returns an upper estimate, in bytes, of the peak memory of the whole run: the process, the model, its
+/// history, the simplification of the largest mesh, and decoded and baked images. The factors are measured,
+/// see docs/robustness.md. Complexity: O(parts + images).
 std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options);
 
+/// Checks an estimate against the limit.
+/// \param file             file name for the message
 /// \param needed, allowed  bytes
-/// \throws MemoryError  more is needed than allowed: with the name of the file and both numbers
+/// \throws MemoryError  `needed` exceeds `allowed`; the message has the file name and both numbers
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed);
 
 }  // namespace faqem::cli

@@ -17,21 +17,21 @@ void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Ove
     std::error_code error;
     for (const fs::path& input : inputs) {
         if (fs::equivalent(file, input, error)) {
-            throw OptionError(file.string() + ": is the input " + input.string() +
-                              "; choose another name for the output");
+            throw OptionError(file.string() + ": is the same file as the input " + input.string() +
+                              "; choose another output file");
         }
     }
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, error))
-        throw WriteError(file.string() + ": there is no folder " + folder.string());
-    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a folder");
+        throw WriteError(file.string() + ": no such directory: " + folder.string());
+    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
         throw WriteError(file.string() + ": is not a regular file");
     if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
-        throw WriteError(file.string() + ": exists; --force replaces it");
+        throw WriteError(file.string() + ": the file exists; use --force to overwrite it");
     }
     if (access(folder.c_str(), W_OK) != 0)
-        throw WriteError(file.string() + ": the folder cannot be written to");
+        throw WriteError(file.string() + ": the directory is not writable");
 }
 
 std::string lower_case_extension(const fs::path& file) {
@@ -47,7 +47,7 @@ void check_extension(const fs::path& file, const std::vector<std::string_view>& 
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
     std::string known;
     for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
-    throw OptionError(file.string() + ": the name must end in one of " + known);
+    throw OptionError(file.string() + ": the file name must end in one of " + known);
 }
 
 std::string extension_of_format(const std::string& format) {
@@ -61,7 +61,7 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error || !fs::is_directory(folder, error))
-        throw WriteError(folder.string() + ": cannot make this folder");
+        throw WriteError(folder.string() + ": cannot create the directory");
 }
 
 void write_output(const fs::path& file, std::string_view content, Overwrite overwrite) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is checked about output files before any work is done, and how they are written.
+/// Checks of output files before the work starts, and writing of files.
 
 #include <filesystem>
 #include <string>
@@ -11,28 +11,31 @@
 
 namespace faqem::cli {
 
-/// Makes sure that a file may be written: its folder is there and can be written to, it is none of the inputs
-/// (by inode, so that links do not hide it), it is no device or pipe, and it does not exist unless that is
-/// allowed.
-/// \throws OptionError  it is an input
-/// \throws WriteError   otherwise
+/// Checks that a file can be written: its directory exists and is writable, it is not one of the inputs
+/// (compared by inode, so that links are recognized), it is not a directory, device or pipe, and it exists
+/// only if it may be overwritten.
+/// \throws OptionError  the file is one of the inputs
+/// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
                   Overwrite overwrite);
 
-/// The extension of the name with its dot, in lower case.
+/// Returns the extension of a file name with its dot, in lower case (ASCII).
 std::string lower_case_extension(const std::filesystem::path& file);
 
-/// Makes sure that the name ends in one of the extensions, in any case.
-/// \throws OptionError
+/// Checks that a file name has one of the extensions, ignoring case.
+/// \param extensions  in lower case, with the dot
+/// \throws OptionError  the extension is another one
 void check_extension(const std::filesystem::path& file, const std::vector<std::string_view>& extensions);
 
-/// The extension of a format's files: `.glb` of `glb`. \throws OptionError  --format has no such value
+/// Returns the file extension of a value of --format, for example `.glb` for `glb`.
+/// \throws OptionError  --format has no such value
 std::string extension_of_format(const std::string& format);
 
-/// Makes a folder where there is none. \throws WriteError
+/// Creates a directory and its parents if they do not exist. \throws WriteError  this fails
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes a text or binary file, complete or not at all. \throws WriteError
+/// Writes a text or binary file atomically: after a failure the file is unchanged. \throws WriteError
+/// writing fails
 void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
 
 }  // namespace faqem::cli

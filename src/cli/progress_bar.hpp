@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A line on stderr that says how far the work is; only where stderr is a terminal.
+/// A progress bar on stderr.
 
 #include "faqem/progress.hpp"
 
@@ -8,16 +8,18 @@ namespace faqem::cli {
 
 enum class Bar { hidden, shown };
 
+/// One line on stderr with the current phase and its progress.
 class ProgressBar {
 public:
-    /// Nothing is ever drawn when stderr is no terminal.
+    /// Nothing is drawn if stderr is not a terminal.
     explicit ProgressBar(Bar bar);
-    /// Wipes the line.
+    /// Clears the line.
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// \param fraction  of the phase, in [0, 1]
+    /// Draws the bar if the phase or the percentage changed. \param fraction  completed share of the phase,
+    /// in [0, 1]
     void show(Phase phase, double fraction);
 
 private:

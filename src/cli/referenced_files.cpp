@@ -30,7 +30,8 @@ void add_referenced_file(std::vector<fs::path>& files, const fs::path& folder, c
     }
 }
 
-/// The JSON of a .glb file: the first chunk, behind 12 bytes of header and 8 of its own.
+/// Returns the JSON of a .glb file: the first chunk, which follows a file header of 12 bytes and a chunk
+/// header of 8 bytes. Empty if the file is not a GLB file.
 std::string glb_json(const fs::path& model) {
     std::ifstream in(model, std::ios::binary);
     std::array<char, 20> head = {};
@@ -71,7 +72,8 @@ void add_mtl_references(const fs::path& model, const fs::path& mtl_file, std::ve
     }
 }
 
-/// Of a line that begins with mtllib: the whole rest, and every word.
+/// Adds the library files of an mtllib line. The rest of the line is tried as one name with spaces, and each
+/// of its words as a name.
 void add_mtl_files(const fs::path& model, std::string_view rest, std::vector<fs::path>& mtl_files) {
     const auto skip_blanks = [&rest] {
         rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
@@ -88,7 +90,7 @@ void add_mtl_files(const fs::path& model, std::string_view rest, std::vector<fs:
 }
 
 void add_obj_references(const fs::path& model, std::vector<fs::path>& files) {
-    // Line by line: this is done before memory is asked for.
+    // Read line by line, because this runs before memory is reserved for the model.
     std::ifstream in(model, std::ios::binary);
     std::vector<fs::path> mtl_files;
     for (std::string line; std::getline(in, line);) {

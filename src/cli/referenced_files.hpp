@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// By what a batch tells that a model has changed, and how much there is of it.
+/// The files that belong to a model, their total size, and a stamp that changes when one of them changes.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,14 +9,15 @@
 
 namespace faqem::cli {
 
-/// The files that a model refers to: buffers and images of glTF, libraries and their images of OBJ. Those
-/// that cannot be read are left out, and so are those of a model that is damaged: load() will say why.
+/// Returns the files that a model refers to: buffers and images of glTF, material libraries and their images
+/// of OBJ.
+/// Files that cannot be found and references of a damaged model are omitted; load() reports the reason.
 std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model);
 
-/// Size and time of the last change of files, as text. Empty if there is none.
+/// Returns the sizes and modification times of files as text. Missing files are omitted.
 std::string modification_stamp(const std::vector<std::filesystem::path>& files);
 
-/// Sum of the sizes of the files that are there.
+/// Returns the total size, in bytes, of the files that exist.
 std::uint64_t total_file_size(const std::vector<std::filesystem::path>& files);
 
 }  // namespace faqem::cli

@@ -32,7 +32,8 @@ BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
     const bool bare = source.materials.empty() && no_part_has(&Part::colors);
     if (extension == ".stl") {
         requested.kind = Bake::none;
-        // Nothing is requested of the original then. Where it has normals, save() says that STL has none.
+        // Flat normals need no map to the original. If the source has normals, save() warns that STL cannot
+        // store them.
         requested.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
     }
     if (extension == ".ply") requested.kind = bare ? Bake::none : Bake::vertex;
@@ -56,10 +57,12 @@ ExitCode rejection_code(const Report& report, bool strict_target) {
 std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report) {
     std::ostringstream text;
     if (rejection == exit_target_missed) {
-        text << "target missed: " << report.faces_out << " faces, " << report.target_faces << " wanted; ";
+        text << "target missed: the result has " << report.faces_out << " faces, the target is "
+             << report.target_faces << "; ";
     } else {
-        text << "max error exceeded: " << report.faces_out << " faces are up to " << report.max_error->bound
-             << " from the original, " << report.max_error->allowed << " allowed; ";
+        text << "max error exceeded: the result with " << report.faces_out
+             << " faces may have a distance of up to " << report.max_error->bound << ", "
+             << report.max_error->allowed << " is allowed; ";
     }
     text << out.string() << " was not written";
     return text.str();

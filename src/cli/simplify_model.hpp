@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What simplify and batch hold a model to.
+/// Loading, simplifying and checking one model, shared by `simplify`, `batch`, `lod` and `truncate`.
 
 #include <filesystem>
 #include <optional>
@@ -14,13 +14,16 @@
 
 namespace faqem::cli {
 
-/// Whether what load() repairs or leaves out is an error.
+/// Whether input that load() repairs or leaves out is an error.
 enum class Strictness { lenient, strict };
 
-/// load(), and a model without triangles is an error. \throws ReadError, InputError, UnsupportedError
+/// Loads a model and checks that it has triangles.
+/// \throws ReadError         the file cannot be read
+/// \throws InputError        the file is damaged or has no triangles, or with Strictness::strict needs repair
+/// \throws UnsupportedError  the format or a feature of the file is not supported
 Asset load_model(const std::filesystem::path& file, Strictness strictness);
 
-/// Does the work. What is wrong with an asset is said with the name of its file.
+/// Returns `work()`. The file name is prepended to the message of any InputError or UnsupportedError.
 template <class Work>
 auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
     try {
@@ -32,23 +35,24 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
     }
 }
 
-/// What Bake::automatic comes to where the result's file holds no textures, or no more than bare geometry was
-/// read: there is nothing to lay out an atlas for. PLY: vertex colours, where the source has any look; STL,
-/// and bare geometry into PLY and OBJ: none; STL has no vertex normals from the original either, which would
-/// need the map. Other kinds, and other files, stay as they are.
-/// \param out  its extension decides
+/// Replaces Bake::automatic for output formats without textures and for sources without appearance.
+/// STL, and PLY and OBJ if the source has neither materials nor colours: Bake::none. PLY otherwise:
+/// Bake::vertex. For STL the transfer of normals is also turned off, because it would need the map to the
+/// original. Other kinds and other formats are returned unchanged.
+/// \param out  output file; only its extension is used
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);
 
-/// simplify(), within a budget where there is one. What is wrong with an asset is said with the name of its
-/// file.
+/// Calls simplify_within_bytes() if there is a budget, otherwise simplify().
+/// \param file  name of the source, prepended to error messages
+/// \throws whatever these functions throw
 SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
                                const std::optional<ByteBudget>& budget = std::nullopt);
 
-/// Why the result is not to be written, or exit_ok.
+/// Returns exit_target_missed or exit_error_exceeded if the result must not be written, otherwise exit_ok.
 ExitCode rejection_code(const Report& report, bool strict_target);
 
-/// One sentence about a result that was refused.
+/// Returns the error message for a rejected result. \pre `rejection` is not exit_ok
 std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report);
 
 }  // namespace faqem::cli

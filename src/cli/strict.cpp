@@ -10,7 +10,8 @@
 namespace faqem::cli {
 namespace {
 
-/// Corners by position, the smallest place first, so that doubles are equal and faces back to back are not.
+/// Returns the corner positions, rotated so that the lexicographically smallest one comes first: duplicates
+/// compare equal, faces of opposite orientation do not.
 std::array<Vec3, 3> corner_positions(const Part& part, const Triangle& t) {
     std::array<Vec3, 3> p = {part.positions[t[0]], part.positions[t[1]], part.positions[t[2]]};
     std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
@@ -20,7 +21,8 @@ std::array<Vec3, 3> corner_positions(const Part& part, const Triangle& t) {
 void require_nonzero_area(const Part& part, const std::string& where) {
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         const auto [a, b, c] = corner_positions(part, part.triangles[f]);
-        if (detail::has_no_area(a, b, c)) throw InputError(where, "face " + std::to_string(f), "has no area");
+        if (detail::has_no_area(a, b, c))
+            throw InputError(where, "face " + std::to_string(f), "has zero area");
     }
 }
 
@@ -40,13 +42,14 @@ void require_no_duplicate_faces(const Part& part, const std::string& where) {
         if (key(order[i - 1]) == key(order[i]) && order[i] < later) earlier = order[i - 1], later = order[i];
     if (later != no_index)
         throw InputError(where, "face " + std::to_string(later),
-                         "is face " + std::to_string(earlier) + " again");
+                         "is a duplicate of face " + std::to_string(earlier));
 }
 
 }  // namespace
 
 void require_clean(const Asset& asset, const std::string& file) {
-    if (!asset.warnings.empty()) throw InputError(file, "", "not clean: " + asset.warnings.front());
+    if (!asset.warnings.empty())
+        throw InputError(file, "", "rejected by --strict: " + asset.warnings.front());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const std::string where = file + ": " + detail::part_title(asset, p);
         require_nonzero_area(asset.parts[p], where);

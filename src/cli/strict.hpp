@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// --strict: what is otherwise repaired is an error.
+/// `--strict`: input that would otherwise be repaired is an error.
 
 #include <string>
 
@@ -8,10 +8,10 @@
 
 namespace faqem::cli {
 
-/// Makes sure that nothing was repaired or left out when the asset was loaded, and that every face has an
-/// area and is there once.
-/// \param file  for messages
-/// \throws InputError  naming the first of each
+/// Checks that nothing was repaired or left out when the asset was loaded, and that it has no faces of zero
+/// area and no duplicate faces (same corners, winding and material).
+/// \param file  file name for the message
+/// \throws InputError  a condition is violated; the message names the first such element
 void require_clean(const Asset& asset, const std::string& file);
 
 }  // namespace faqem::cli

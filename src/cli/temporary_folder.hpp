@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A folder for files that nobody is meant to keep.
+/// A temporary directory.
 
 #include <cstdlib>
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace faqem::cli {
 
-/// A new folder among the system's temporary ones, gone afterwards with all that is in it.
+/// Creates a directory in the system's temporary directory, and deletes it with its contents at destruction.
 class TemporaryFolder {
 public:
-    /// \param name  begins with it.
-    /// \throws WriteError  it cannot be made
+    /// \param name  prefix of the directory's name
+    /// \throws WriteError  the directory cannot be created
     explicit TemporaryFolder(const std::string& name) {
         std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
-        if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot be made");
+        if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot create a temporary directory");
         path_ = path;
     }
     ~TemporaryFolder() {

@@ -9,16 +9,17 @@
 
 namespace {
 
-// Counted on demand only: the shared counters would slow threads down that allocate much.
+// Counting is enabled only while a PeakMemory exists, because shared counters slow down threads that allocate
+// often.
 std::atomic<bool> counting{false};
-std::atomic<std::int64_t> held{0}, most{0};
+std::atomic<std::int64_t> held{0}, peak{0};
 
 void* counted(void* memory) {
     if (!memory) throw std::bad_alloc();
     if (counting.load(std::memory_order_relaxed)) {
         const auto size = static_cast<std::int64_t>(malloc_usable_size(memory));
         const std::int64_t now = held.fetch_add(size) + size;
-        for (std::int64_t old = most; now > old && !most.compare_exchange_weak(old, now);) continue;
+        for (std::int64_t old = peak; now > old && !peak.compare_exchange_weak(old, now);) continue;
     }
     return memory;
 }
@@ -47,14 +48,14 @@ namespace faqem::bench {
 
 PeakMemory::PeakMemory() {
     held = 0;
-    most = 0;
+    peak = 0;
     counting = true;
 }
 
 PeakMemory::~PeakMemory() { counting = false; }
 
 std::uint64_t PeakMemory::bytes() const {
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(most, 0));
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(peak, 0));
 }
 
 }  // namespace faqem::bench

@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// Counts what operator new hands out, as malloc_usable_size() has it. A program that links this counts all
-/// of its own and of the libraries' code; what calls malloc() itself is not counted.
+/// Measures memory allocated with operator new, by malloc_usable_size(). A program that links this file
+/// measures its own code and that of its libraries. Direct calls of malloc() are not counted.
 
 #include <cstdint>
 
 namespace faqem::bench {
 
-/// The largest amount of memory held at once since this was made, above what was held then.
+/// Measures the peak of allocated memory from construction on, relative to the amount at construction. Only
+/// one object may exist at a time.
 class PeakMemory {
 public:
     PeakMemory();
@@ -15,6 +16,7 @@ public:
     PeakMemory(const PeakMemory&) = delete;
     PeakMemory& operator=(const PeakMemory&) = delete;
 
+    /// Returns the peak so far, bytes.
     std::uint64_t bytes() const;
 };
 

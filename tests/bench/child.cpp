@@ -19,10 +19,11 @@ namespace faqem::bench {
 
 namespace {
 
-/// On a busy machine a process waits longer than it works.
-constexpr unsigned waits_at_most = 10;
+/// Limit of the elapsed time as a multiple of the limit of CPU time. On a busy machine a process mostly
+/// waits.
+constexpr unsigned elapsed_time_factor = 10;
 
-/// Fixed part of what the child writes; strings and arrays of these sizes follow.
+/// Fixed part of the data that the child writes; strings and arrays of the given sizes follow.
 struct Header {
     double seconds, cpu_seconds, core_seconds, peak_mebibytes;
     std::uint64_t error, report, vertices, faces;
@@ -34,11 +35,13 @@ struct Close {
 using File = std::unique_ptr<std::FILE, Close>;
 
 void write(std::FILE* file, const void* data, std::size_t bytes) {
-    if (bytes && std::fwrite(data, bytes, 1, file) != 1) throw std::runtime_error("cannot write the result");
+    if (bytes && std::fwrite(data, bytes, 1, file) != 1)
+        throw std::runtime_error("cannot write the result of the child process");
 }
 
 void read(std::FILE* file, void* data, std::size_t bytes) {
-    if (bytes && std::fread(data, bytes, 1, file) != 1) throw std::runtime_error("the result is cut off");
+    if (bytes && std::fread(data, bytes, 1, file) != 1)
+        throw std::runtime_error("the result of the child process is truncated");
 }
 
 double cpu_seconds() {
@@ -63,7 +66,7 @@ void limit(const Limits& limits) {
     setrlimit(RLIMIT_CORE, &no_core);
     const rlimit seconds = {limits.seconds, limits.seconds + 1};
     setrlimit(RLIMIT_CPU, &seconds);
-    alarm(waits_at_most * limits.seconds);
+    alarm(elapsed_time_factor * limits.seconds);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
@@ -78,7 +81,7 @@ void work(std::FILE* file, const Simplify& simplify, const TriangleMesh& mesh, s
     const double peak_before = peak_mebibytes();
     try {
         double spent = 0;
-        for (unsigned run = 0; run < limits.most_runs && spent < limits.enough_time; ++run) {
+        for (unsigned run = 0; run < limits.max_runs && spent < limits.enough_time; ++run) {
             const double cpu_before = cpu_seconds();
             const detail::Stopwatch wall;
             Outcome outcome = simplify(mesh, target_faces);
@@ -131,10 +134,10 @@ ChildResult collect(std::FILE* file) {
 ChildResult run_in_child(const Simplify& simplify, const TriangleMesh& mesh, std::size_t target_faces,
                          const Limits& limits) {
     const File file(std::tmpfile());
-    if (!file) throw std::runtime_error("cannot make a temporary file");
+    if (!file) throw std::runtime_error("cannot create a temporary file");
     std::fflush(nullptr);
     const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("cannot start a process");
+    if (child < 0) throw std::runtime_error("cannot start a child process");
     if (child == 0) {
         int code = 1;
         try {
@@ -143,7 +146,7 @@ ChildResult run_in_child(const Simplify& simplify, const TriangleMesh& mesh, std
             code = 0;
         } catch (...) {
         }
-        _exit(code);  // no destructors: the parent's buffers are not the child's
+        _exit(code);  // skips destructors, which would flush copies of the parent's buffers
     }
     int status = 0;
     waitpid(child, &status, 0);

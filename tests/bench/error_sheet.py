@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Pictures of models side by side: the original, lighter ones, and where they differ.
+"""Composes renderings of original and simplified models and their differences into one image.
 
     error_sheet.py OUT.png VIEW FOLDER[:VIEW]...
 
-Every FOLDER holds pictures of one model as a renderer with the same cameras made them: ref/, p.1/ and p.01/ with
-lit_00.png, lit_01.png ... A row shows one model: all faces, 10%, 1%, and four times the difference of each of
-the two from the first.
+Each FOLDER contains renderings of one model with the same cameras: ref/, p.1/ and p.01/ with lit_00.png, lit_01.png ...
+A row of the image shows one model: all faces, 10%, 1%, and the difference of each of the two from the first, multiplied
+by four.
 """
 import sys
 from pathlib import Path
@@ -16,7 +16,7 @@ SIDE, GAP, GAIN = 240, 6, 4
 
 
 def cropped(pictures):
-    """All cut to the square around what any of them shows."""
+    """Crops all pictures to the smallest square that contains the visible pixels of all, and resizes them."""
     boxes = [box for picture in pictures if (box := picture.getbbox())]
     left, top = min(b[0] for b in boxes), min(b[1] for b in boxes)
     right, bottom = max(b[2] for b in boxes), max(b[3] for b in boxes)
@@ -27,9 +27,9 @@ def cropped(pictures):
 
 def row(folder, view):
     pictures = [Image.open(Path(folder) / name / f"lit_{view:02d}.png").convert("RGB") for name in ("ref", "p.1", "p.01")]
-    whole, *light = cropped(pictures)
-    errors = [ImageChops.difference(whole, p).point(lambda v: min(255, GAIN * v)) for p in light]
-    return [whole, *light, *errors]
+    original, *simplified = cropped(pictures)
+    errors = [ImageChops.difference(original, p).point(lambda v: min(255, GAIN * v)) for p in simplified]
+    return [original, *simplified, *errors]
 
 
 def main():

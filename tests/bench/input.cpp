@@ -12,7 +12,7 @@ namespace faqem::bench {
 
 namespace {
 
-/// For each position the smallest index of an equal one. Readers refuse NaN; -0 equals 0.
+/// Returns, for each position, the smallest index of an equal position. The readers reject NaN; -0 equals 0.
 std::vector<std::size_t> first_of_equal(const std::vector<Vec3>& positions) {
     std::vector<std::size_t> order(positions.size()), first(positions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -78,7 +78,7 @@ void save_obj(const TriangleMesh& mesh, const std::filesystem::path& file) {
         out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
     }
     out.close();
-    if (!out) throw WriteError("cannot write " + file.string());
+    if (!out) throw WriteError(file.string() + ": cannot write the file");
 }
 
 }  // namespace faqem::bench

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs what the benchmarks compare and measure with, and what draws their plots, from Debian 12's own packages. Uses
-# sudo only when not root. Any of them may be left out: the benchmark has rows for the peers it finds.
+# Installs the Debian 12 packages of the simplifiers that the benchmarks compare, and of google-benchmark and
+# matplotlib. Uses sudo unless run as root. All packages are optional: the benchmarks have rows only for the
+# peers that are found.
 set -eu
 
 as_root=""

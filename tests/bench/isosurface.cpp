@@ -13,20 +13,20 @@ namespace faqem::bench {
 
 namespace {
 
-using Cell = std::array<std::uint32_t, 3>;  ///< of a cell or of its lowest corner
+using Cell = std::array<std::uint32_t, 3>;  ///< grid indices of a cell or of a grid point (its lowest corner)
 
 constexpr int octaves = 7;
 constexpr double first_frequency = 3, first_amplitude = 0.11, gain = 0.45;
 constexpr double radius = 0.3;
-constexpr double scanner_noise = 0.3;  ///< of the field, in cells
+constexpr double scanner_noise = 0.3;  ///< amplitude of the white noise, in cells
 
-std::uint64_t mixed(std::uint64_t x) {  // the finaliser of SplitMix64 (Steele et al. 2014)
+std::uint64_t mixed(std::uint64_t x) {  // finaliser of SplitMix64 (Steele et al. 2014)
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
     return x ^ (x >> 31);
 }
 
-/// In [-1, 1), by place.
+/// White noise: a hash of integer coordinates, in [-1, 1).
 double white(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed) {
     std::uint64_t h = mixed(static_cast<std::uint64_t>(x) + seed * 0x9e3779b97f4a7c15ull);
     h = mixed(static_cast<std::uint64_t>(y) + h);
@@ -36,7 +36,7 @@ double white(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed)
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
-/// Value noise: white noise at whole places, smooth between.
+/// Value noise: white noise at integer coordinates, interpolated with a quintic polynomial.
 double smooth(const Vec3& p, std::uint64_t seed) {
     std::array<std::int64_t, 3> whole;
     Vec3 t;
@@ -54,14 +54,14 @@ double smooth(const Vec3& p, std::uint64_t seed) {
     return mix(mix(row[0], row[1], t[1]), mix(row[2], row[3], t[1]), t[2]);
 }
 
-/// The field on a grid over [-0.5, 0.5]^3: negative inside.
+/// The scalar field on a grid over [-0.5, 0.5]^3. Negative values are inside.
 class Field {
 public:
     Field(std::uint32_t cells, std::uint64_t seed) : cells_(cells), seed_(seed) {}
 
     std::uint32_t cells() const { return cells_; }
 
-    Vec3 place(const Cell& g) const {
+    Vec3 position(const Cell& g) const {
         Vec3 p;
         for (std::size_t k = 0; k < 3; ++k) p[k] = static_cast<double>(g[k]) / cells_ - 0.5;
         return p;
@@ -69,9 +69,10 @@ public:
 
     double at(const Cell& g) const {
         for (const std::uint32_t c : g) {
-            if (c == 0 || c == cells_) return 1;  // closed, whatever the noise says
+            if (c == 0 || c == cells_)
+                return 1;  // outside at the boundary of the grid, so that the surface is closed
         }
-        const Vec3 p = place(g);
+        const Vec3 p = position(g);
         double value = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - radius;
         double frequency = first_frequency, amplitude = first_amplitude;
         for (int i = 0; i < octaves; ++i) {
@@ -98,18 +99,18 @@ Cell cell_of(std::uint64_t key) {
             static_cast<std::uint32_t>(key >> 42)};
 }
 
-/// Corner i of a cell: bit k says whether it is one farther along axis k.
+/// Grid point of corner i of a cell. Bit k of i is its offset along axis k.
 Cell corner(const Cell& c, unsigned i) { return {c[0] + (i & 1), c[1] + (i >> 1 & 1), c[2] + (i >> 2)}; }
 
-/// The cells that a surface crosses, found from neighbour to neighbour, in the order of a sweep.
+/// Returns the cells that contain the surface, in scan-line order. They are found by flood fill from a seed.
 std::vector<std::uint64_t> crossed_cells(const Field& field) {
-    // From the middle outwards along an axis: the first crossing is the seed.
+    // The seed is the first crossing along an axis from the centre.
     const std::uint32_t middle = field.cells() / 2;
     Cell seed = {middle, middle, middle};
     const auto inside = [&](const Cell& g) { return field.at(g) < 0; };
     const bool start = inside(seed);
     while (seed[0] < field.cells() && inside({seed[0] + 1, middle, middle}) == start) ++seed[0];
-    if (seed[0] >= field.cells()) throw std::runtime_error("the field has no surface");
+    if (seed[0] >= field.cells()) throw std::runtime_error("the field has no isosurface");
 
     std::unordered_set<std::uint64_t> found = {key_of(seed)};
     std::vector<std::uint64_t> open = {key_of(seed)};
@@ -134,6 +135,7 @@ std::vector<std::uint64_t> crossed_cells(const Field& field) {
     return cells;
 }
 
+/// Marching tetrahedra. Cells must be visited layer by layer.
 class March {
 public:
     explicit March(const Field& field) : field_(field) {}
@@ -141,13 +143,14 @@ public:
     void cell(const Cell& c) {
         std::array<double, 8> values;
         for (unsigned i = 0; i < 8; ++i) values[i] = field_.at(corner(c, i));
-        // Kuhn: a tetrahedron for each order of the axes, from corner 0 to corner 7.
+        // Kuhn subdivision: one tetrahedron for each permutation of the axes, with a path from corner 0 to
+        // corner 7.
         static constexpr std::array<std::array<unsigned, 2>, 6> middles = {
             {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
         for (const auto& [a, b] : middles) tetrahedron(c, values, {0, a, b, 7});
     }
 
-    /// Begins a layer: edges of the one before the last need not be found any more.
+    /// Begins a new layer. Forgets the edges of the layer before the last one, which are not needed any more.
     void forget_layer() {
         last_.swap(now_);
         now_.clear();
@@ -174,10 +177,10 @@ private:
         }
     }
 
-    /// Turned so that the corner, which is inside, is behind it.
+    /// Adds a triangle, oriented so that the inside corner of the cell is on its back side.
     void triangle(Index a, Index b, Index d, const Cell& c, unsigned inside) {
         const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[d];
-        const Vec3 s = field_.place(corner(c, inside));
+        const Vec3 s = field_.position(corner(c, inside));
         Vec3 u, w, n;
         for (std::size_t k = 0; k < 3; ++k) {
             u[k] = q[k] - p[k];
@@ -189,24 +192,25 @@ private:
         mesh.triangles.push_back(volume > 0 ? Triangle{a, b, d} : Triangle{a, d, b});
     }
 
-    /// The vertex on the edge between two corners of a cell: the same for all cells around the edge.
+    /// Returns the vertex on the edge between two corners of a cell. All cells at the edge share it.
     Index vertex(const Cell& c, unsigned i, unsigned j, const std::array<double, 8>& values) {
-        if (i > j) std::swap(i, j);  // i's bits are among j's
+        if (i > j) std::swap(i, j);  // then the bits of i are a subset of the bits of j
         const Cell a = corner(c, i), b = corner(c, j);
         const std::uint64_t key = key_of(a) << 3 | (j ^ i);
         if (const auto old = last_.find(key); old != last_.end()) return old->second;
         const auto [entry, is_new] = now_.emplace(key, static_cast<Index>(mesh.positions.size()));
         if (is_new) {
-            // Away from the ends, where vertices of several edges would meet.
+            // Clamped, because vertices of several edges would coincide at the ends.
             const double t = std::clamp(values[i] / (values[i] - values[j]), 0.02, 0.98);
-            const Vec3 p = field_.place(a), q = field_.place(b);
+            const Vec3 p = field_.position(a), q = field_.position(b);
             mesh.positions.push_back({mix(p[0], q[0], t), mix(p[1], q[1], t), mix(p[2], q[2], t)});
         }
         return entry->second;
     }
 
     const Field& field_;
-    std::unordered_map<std::uint64_t, Index> last_, now_;  ///< by edge: of the layer below and of this one
+    std::unordered_map<std::uint64_t, Index> last_,
+        now_;  ///< vertices by edge, of the previous and current layer
 };
 
 }  // namespace
@@ -226,7 +230,8 @@ TriangleMesh isosurface(std::uint32_t cells, std::uint64_t seed) {
 
 TriangleMesh isosurface_of(std::size_t faces, std::uint64_t seed) {
     double cells = 64;
-    // The noise of the field makes faces grow a little faster than the square: look once more from nearer.
+    // Because of the noise, the number of faces grows slightly faster than the square of the resolution: the
+    // estimate from a low resolution is refined at a quarter of the estimated resolution.
     for (const double part : {1.0, 0.25}) {
         const auto n = static_cast<std::uint32_t>(std::max(8.0, part * cells));
         const double found = static_cast<double>(isosurface(n, seed).triangles.size());

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Large meshes to measure with: a surface as scanners and marching cubes make them, in any size.
+/// Generator of large meshes of any size that resemble scanned surfaces.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace faqem::bench {
 
-/// A lump of about unit size under fractal noise (Musgrave: sums of noise at doubled frequencies), whose
-/// field is also off by white noise of a fraction of a cell, as a scan is. Marching tetrahedra over the
-/// six-fold Kuhn subdivision of a grid make a closed manifold of it, without vertices at equal places; specks
-/// that noise sets beside it may be there.
-/// Vertices and faces are in the order in which a sweep over the grid meets them. The same for the same
-/// arguments: additions, multiplications and square roots alone, without fused ones.
-/// \param cells  along a side of the grid, at least 8; the number of faces grows with its square
-/// O(faces) time and memory
+/// Generates an isosurface of about unit size: a sphere with fractal noise (Musgrave: sum of noise at doubled
+/// frequencies) and white noise of a fraction of a cell, which simulates a scanner. The surface is extracted
+/// by marching tetrahedra in the Kuhn subdivision of a grid into six tetrahedra per cell. It is a closed
+/// manifold without coincident vertices; the noise may create additional small components. Vertices and faces
+/// are in scan-line order. The result depends only on the arguments, because only additions, multiplications
+/// and square roots without fused operations are used. Complexity: O(faces) time and memory.
+/// \param cells  cells along an edge of the grid, at least 8; the number of faces grows with its square
+/// \param seed   seed of the noise
 TriangleMesh isosurface(std::uint32_t cells, std::uint64_t seed);
 
-/// An isosurface of about this many faces (within a few percent from ten thousand on).
+/// Generates an isosurface with approximately `faces` faces (within a few percent for ten thousand and more).
 TriangleMesh isosurface_of(std::size_t faces, std::uint64_t seed);
 
-/// Numbers the vertices at random; the faces keep their order.
+/// Permutes the vertices randomly. The order of the faces is preserved.
 template <class Position>
 void shuffle(std::vector<Position>& positions, std::vector<Triangle>& triangles, std::uint64_t seed) {
     std::vector<Index> number(positions.size());

@@ -1,5 +1,6 @@
 /// \file
-/// faqem-bench: simplifies the meshes of a folder with everything there is and measures the results.
+/// faqem-bench: simplifies the meshes of a directory with faqem's presets and the peers, and measures the
+/// results.
 
 #include <algorithm>
 #include <charconv>
@@ -20,26 +21,26 @@ using namespace faqem;
 using namespace faqem::bench;
 
 constexpr const char* usage = R"(Usage: faqem-bench [OPTION]...
-  --models DIR        folder of .obj .ply .stl .off files; default: environment variable FAQEM_BENCH_MODELS
-  --only NAME,...     meshes whose file name contains one of these
-  --max-faces N       pass over larger meshes
-  --min-faces N       pass over smaller meshes
-  --ratios R,...      default: 0.1,0.01
-  --simplifiers S,... peers, presets (faqem-NAME) and presets with weights (faqem-NAME:key=value:...);
-                      also the words peers and presets; default: peers,presets
-  --out FILE          JSON lines; rows that are there are not made again; default: results.jsonl
-  --again             make them again: the last row of a kind counts
-  --samples N         per side of each comparison; default: 100000
-  --timeout S         seconds of CPU time per simplifier, mesh and ratio; default: 300
-  --memory G          gibibytes of address space per run; default: 12
-  --save DIR          keeps every result as DIR/MESH-RATIO-SIMPLIFIER.obj
-  --list              names the simplifiers of this build
+  --models DIR        directory of .obj .ply .stl .off files; default: environment variable FAQEM_BENCH_MODELS
+  --only NAME,...     only meshes whose file name contains one of these strings
+  --max-faces N       skip larger meshes
+  --min-faces N       skip smaller meshes
+  --ratios R,...      ratios of faces to keep; default: 0.1,0.01
+  --simplifiers S,... names of peers, presets (faqem-NAME) and presets with options (faqem-NAME:key=value:...),
+                      or peers or presets for all of them; default: peers,presets
+  --out FILE          output, JSON lines; existing rows are not measured again; default: results.jsonl
+  --again             measure existing rows again; the last row of a mesh, ratio and simplifier is valid
+  --samples N         samples per direction of each comparison; default: 100000
+  --timeout S         limit of CPU time per simplifier, mesh and ratio, seconds; default: 300
+  --memory G          limit of address space per run, GiB; default: 12
+  --save DIR          save every result as DIR/MESH-RATIO-SIMPLIFIER.obj
+  --list              print the names of the simplifiers of this build
 )";
 
 struct Arguments {
     std::filesystem::path models, out = "results.jsonl", save;
     std::vector<std::string> only;
-    std::size_t least_faces = 0, most_faces = no_index;
+    std::size_t min_faces = 0, max_faces = no_index;
     std::vector<double> ratios = {0.1, 0.01};
     std::vector<NamedSimplifier> simplifiers;
     std::uint64_t samples = 100'000;
@@ -62,7 +63,7 @@ Number number(std::string_view text) {
     Number value = {};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-        throw OptionError("not a number: " + std::string(text));
+        throw OptionError("'" + std::string(text) + "' is not a number");
     }
     return value;
 }
@@ -89,7 +90,7 @@ std::vector<double> ratios(std::string_view list) {
     std::vector<double> all;
     for (const std::string& word : split(list)) {
         const double ratio = number<double>(word);
-        if (!(ratio > 0 && ratio <= 1)) throw OptionError("a ratio must be in (0, 1]: " + word);
+        if (!(ratio > 0 && ratio <= 1)) throw OptionError("--ratios: must be in (0, 1]: " + word);
         all.push_back(ratio);
     }
     return all;
@@ -105,16 +106,16 @@ Arguments parse(std::span<char*> words) {
             a.again = true;
             continue;
         }
-        if (i + 1 == words.size()) throw OptionError(std::string(key) + ": unknown, or its value is missing");
+        if (i + 1 == words.size()) throw OptionError(std::string(key) + ": unknown option or missing value");
         const std::string_view value = words[++i];
         if (key == "--models") {
             a.models = value;
         } else if (key == "--only") {
             a.only = split(value);
         } else if (key == "--max-faces") {
-            a.most_faces = number<std::size_t>(value);
+            a.max_faces = number<std::size_t>(value);
         } else if (key == "--min-faces") {
-            a.least_faces = number<std::size_t>(value);
+            a.min_faces = number<std::size_t>(value);
         } else if (key == "--ratios") {
             a.ratios = ratios(value);
         } else if (key == "--simplifiers") {
@@ -133,11 +134,13 @@ Arguments parse(std::span<char*> words) {
             throw OptionError(std::string(key) + ": unknown option");
         }
     }
-    if (a.models.empty()) throw OptionError("give a folder of meshes: --models DIR or FAQEM_BENCH_MODELS");
+    if (a.models.empty())
+        throw OptionError("no directory of meshes: use --models DIR or set FAQEM_BENCH_MODELS");
     return a;
 }
 
-/// The wanted meshes, smallest first, so that a run that is cut off has the most rows.
+/// Loads the selected meshes, sorted by increasing size, so that an interrupted run has as many rows as
+/// possible.
 std::vector<Subject> subjects(const Arguments& a) {
     std::vector<Subject> all;
     for (const std::filesystem::path& file : mesh_files(a.models)) {
@@ -146,7 +149,7 @@ std::vector<Subject> subjects(const Arguments& a) {
         if (!a.only.empty() && std::none_of(a.only.begin(), a.only.end(), wanted)) continue;
         s.mesh = load_welded(file);
         const std::size_t faces = s.mesh.triangles.size();
-        if (faces >= std::max<std::size_t>(a.least_faces, 1) && faces <= a.most_faces) {
+        if (faces >= std::max<std::size_t>(a.min_faces, 1) && faces <= a.max_faces) {
             all.push_back(std::move(s));
         }
     }
@@ -156,7 +159,7 @@ std::vector<Subject> subjects(const Arguments& a) {
     return all;
 }
 
-/// As faqem::ratio(): floor() may not lose a face to rounding.
+/// Computes the target as faqem::ratio() does. The factor compensates rounding before floor().
 std::size_t target_faces(double ratio, std::size_t faces) {
     return static_cast<std::size_t>(
         std::max(4.0, std::floor(ratio * static_cast<double>(faces) * (1 + 1e-15))));
@@ -181,7 +184,7 @@ void run(const Arguments& a) {
                 const std::size_t target = target_faces(ratio, subject.mesh.triangles.size());
                 const ChildResult result = run_in_child(s.simplify, subject.mesh, target, a.limits);
                 out << make_row(key, subject, target, result, a.samples) << std::endl;
-                if (!out) throw WriteError("cannot write " + a.out.string());
+                if (!out) throw WriteError(a.out.string() + ": cannot write the file");
                 if (!a.save.empty() && result.outcome)
                     save_obj(result.outcome->mesh, a.save / file_name(key));
                 std::printf("%-40s %-6g %-32s %s %.3f s\n", key.mesh.c_str(), ratio, key.simplifier.c_str(),

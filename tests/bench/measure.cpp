@@ -13,39 +13,41 @@ namespace {
 
 using engine::Vector3;
 
-/// One side of an edge: a face and whether it runs from the smaller to the larger vertex.
-struct Side {
+/// A half-edge: its edge, its face and whether it runs from the smaller to the larger vertex.
+struct HalfEdge {
     Index low, high, face;
     bool forward;
 };
 
-/// Sides of all edges, those of one edge next to each other.
-std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
+/// Returns the half-edges of all faces, sorted by edge.
+std::vector<HalfEdge> sorted_halfedges(const TriangleMesh& mesh) {
+    std::vector<HalfEdge> halfedges;
+    halfedges.reserve(3 * mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle& t = mesh.triangles[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const Index u = t[k], v = t[(k + 1) % 3];
-            if (u != v) sides.push_back({std::min(u, v), std::max(u, v), static_cast<Index>(f), u < v});
+            if (u != v) halfedges.push_back({std::min(u, v), std::max(u, v), static_cast<Index>(f), u < v});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    std::sort(halfedges.begin(), halfedges.end(), [](const HalfEdge& a, const HalfEdge& b) {
         return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
     });
-    return sides;
+    return halfedges;
 }
 
-/// Calls visit(first, count) for the sides of each edge.
+/// Calls visit(first, count) with the half-edges of each edge.
 template <class Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
-    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-        while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-        visit(&sides[i], j - i);
+void for_each_edge(const std::vector<HalfEdge>& halfedges, Visit&& visit) {
+    for (std::size_t i = 0, j = 0; i < halfedges.size(); i = j) {
+        while (j < halfedges.size() && halfedges[j].low == halfedges[i].low &&
+               halfedges[j].high == halfedges[i].high)
+            ++j;
+        visit(&halfedges[i], j - i);
     }
 }
 
-/// Unit normal, or zero for a face without area.
+/// Returns the unit normal of a face, or zero if its height is below 1e-12 of its longest edge.
 Vector3 normal(const TriangleMesh& mesh, const Triangle& t) {
     const Vector3 a = engine::to_eigen(mesh.positions[t[0]]), b = engine::to_eigen(mesh.positions[t[1]]),
                   c = engine::to_eigen(mesh.positions[t[2]]);
@@ -56,17 +58,18 @@ Vector3 normal(const TriangleMesh& mesh, const Triangle& t) {
     return n / length;
 }
 
-/// The edges with one face, as triangles that are segments.
-std::vector<Triangle> border(const TriangleMesh& mesh) {
+/// Returns the boundary edges as degenerate triangles, for the BVH.
+std::vector<Triangle> boundary_segments(const TriangleMesh& mesh) {
     std::vector<Triangle> segments;
-    for_each_edge(sorted_sides(mesh), [&](const Side* side, std::size_t count) {
-        if (count == 1) segments.push_back({side->low, side->high, side->high});
+    for_each_edge(sorted_halfedges(mesh), [&](const HalfEdge* halfedge, std::size_t count) {
+        if (count == 1) segments.push_back({halfedge->low, halfedge->high, halfedge->high});
     });
     return segments;
 }
 
-double one_way(const TriangleMesh& from, const std::vector<Triangle>& segments, const detail::Bvh& to,
-               std::size_t samples) {
+/// Returns the maximum distance of samples on the segments to another boundary.
+double one_sided_distance(const TriangleMesh& from, const std::vector<Triangle>& segments,
+                          const detail::Bvh& to, std::size_t samples) {
     double length = 0;
     const auto end = [&](const Triangle& s, std::size_t k) { return engine::to_eigen(from.positions[s[k]]); };
     for (const Triangle& s : segments) length += (end(s, 1) - end(s, 0)).norm();
@@ -90,10 +93,10 @@ std::uint64_t foldovers(const TriangleMesh& mesh) {
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) normals.push_back(normal(mesh, t));
     std::uint64_t count = 0;
-    for_each_edge(sorted_sides(mesh), [&](const Side* side, std::size_t sides) {
-        if (sides != 2) return;
-        const double dot = normals[side[0].face].dot(normals[side[1].face]);
-        count += (side[0].forward != side[1].forward ? dot : -dot) < -0.9;
+    for_each_edge(sorted_halfedges(mesh), [&](const HalfEdge* halfedges, std::size_t faces) {
+        if (faces != 2) return;
+        const double dot = normals[halfedges[0].face].dot(normals[halfedges[1].face]);
+        count += (halfedges[0].forward != halfedges[1].forward ? dot : -dot) < -0.9;
     });
     return count;
 }
@@ -105,10 +108,11 @@ std::uint64_t flat_faces(const TriangleMesh& mesh) {
 }
 
 std::optional<double> border_hausdorff(const TriangleMesh& a, const TriangleMesh& b, std::size_t samples) {
-    const std::vector<Triangle> of_a = border(a), of_b = border(b);
+    const std::vector<Triangle> of_a = boundary_segments(a), of_b = boundary_segments(b);
     if (of_a.empty() || of_b.empty()) return std::nullopt;
     const detail::Bvh tree_a(a.positions, of_a), tree_b(b.positions, of_b);
-    return std::max(one_way(a, of_a, tree_b, samples), one_way(b, of_b, tree_a, samples));
+    return std::max(one_sided_distance(a, of_a, tree_b, samples),
+                    one_sided_distance(b, of_b, tree_a, samples));
 }
 
 }  // namespace faqem::bench

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What faqem::compare and faqem::info do not tell about a simplified mesh.
+/// Measures of a simplified mesh in addition to faqem::compare() and faqem::info().
 
 #include <cstdint>
 #include <optional>
@@ -9,15 +9,17 @@
 
 namespace faqem::bench {
 
-/// Edges with exactly two faces whose normals have a dot product below -0.9, both seen from the same side.
-/// Equal positions are different vertices here. Faces without area are passed over. O(n log n)
+/// Returns the number of edges with exactly two faces whose consistently oriented normals have a dot product
+/// below
+/// -0.9. Equal positions are not welded. Faces of zero area are ignored. Complexity: O(n log n).
 std::uint64_t foldovers(const TriangleMesh& mesh);
 
-/// Faces with two equal corners, or lower than 1e-12 of their longest edge.
+/// Returns the number of faces with two equal corners or a height below 1e-12 of their longest edge.
 std::uint64_t flat_faces(const TriangleMesh& mesh);
 
-/// Largest distance between the open borders of two meshes (edges with one face), both ways, in model units;
-/// at the borders' vertices and at `samples` places a side, evenly along them. Nothing if either has none.
+/// Returns the two-sided maximum distance between the boundaries of two meshes (edges with one face), model
+/// units. It is measured at the boundary vertices and at about `samples` points per direction, evenly
+/// distributed along the boundary. Nothing if one of the meshes has no boundary.
 std::optional<double> border_hausdorff(const TriangleMesh& a, const TriangleMesh& b, std::size_t samples);
 
 }  // namespace faqem::bench

@@ -20,7 +20,8 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace sms = CGAL::Surface_mesh_simplification;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-/// CGAL 5.5 stops at numbers of edges only; later versions have this predicate of their own.
+/// Stop predicate for a number of faces. CGAL 5.5 has predicates only for numbers of edges; later versions
+/// have one.
 class FaceCountStop {
 public:
     FaceCountStop(const Mesh& mesh, std::size_t target_faces) : mesh_(&mesh), target_(target_faces) {}
@@ -35,8 +36,8 @@ private:
     std::size_t target_;
 };
 
-/// A halfedge mesh holds manifolds only: orienting the soup splits what is not, so that a non-manifold edge
-/// becomes several open borders.
+/// Converts a mesh. A half-edge mesh must be manifold: orienting the polygon soup splits non-manifold edges
+/// into several boundary edges.
 Mesh to_cgal(const TriangleMesh& in) {
     std::vector<Kernel::Point_3> points;
     points.reserve(in.positions.size());
@@ -84,7 +85,7 @@ Outcome cgal_lindstrom_turk(const TriangleMesh& in, std::size_t target_faces) {
                [](Mesh& mesh, const FaceCountStop& stop) { sms::edge_collapse(mesh, stop); });
 }
 
-// As in CGAL's example: plane quadrics, and placements that turn a face over are refused.
+// As in CGAL's example: plane quadrics; placements that flip a face are rejected.
 Outcome cgal_garland_heckbert(const TriangleMesh& in, std::size_t target_faces) {
     return run(in, target_faces, [](Mesh& mesh, const FaceCountStop& stop) {
         using Policies = sms::GarlandHeckbert_plane_policies<Mesh, Kernel>;

@@ -16,7 +16,8 @@ Outcome meshoptimizer(const TriangleMesh& in, std::size_t target_faces) {
     indices.reserve(3 * in.triangles.size());
     for (const Triangle& t : in.triangles) indices.insert(indices.end(), t.begin(), t.end());
 
-    // Doubles that are equal as floats would be seams, which it does not move.
+    // Positions that are equal after rounding to float are welded: meshoptimizer would treat them as seams
+    // and not move them.
     std::vector<unsigned int> remap(positions.size());
     const std::size_t unique = meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(),
                                                            positions.data(), positions.size(), sizeof(Vec3f));
@@ -35,7 +36,8 @@ Outcome meshoptimizer(const TriangleMesh& in, std::size_t target_faces) {
                                 nullptr));
     const double seconds = core.seconds();
 
-    // It keeps vertices where they are, so that they can be given back as doubles.
+    // meshoptimizer returns a subset of the vertices, so that their original double positions can be
+    // returned.
     TriangleMesh mesh;
     std::vector<Index> compact(unique, no_index);
     mesh.triangles.resize(out.size() / 3);

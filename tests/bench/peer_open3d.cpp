@@ -16,7 +16,7 @@ Outcome open3d(const TriangleMesh& in, std::size_t target_faces) {
         mesh.triangles_.emplace_back(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
     }
 
-    // Unbounded error and weight 1 are the defaults of its Python interface.
+    // Unlimited error and boundary weight 1 are the defaults of Open3D's Python interface.
     const detail::Stopwatch core;
     const auto result = mesh.SimplifyQuadricDecimation(static_cast<int>(target_faces),
                                                        std::numeric_limits<double>::infinity(), 1.0);

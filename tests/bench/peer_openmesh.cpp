@@ -12,8 +12,8 @@ namespace {
 
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 
-/// Its file readers do the same with faces that would make the mesh non-manifold: they get vertices of
-/// their own.
+/// Converts a mesh. Faces that would make the mesh non-manifold get their own vertices, as in OpenMesh's file
+/// readers.
 Mesh to_openmesh(const TriangleMesh& in) {
     Mesh mesh;
     mesh.request_vertex_status();

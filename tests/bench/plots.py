@@ -1,4 +1,4 @@
-"""Plots as SVG, the same bytes for the same rows."""
+"""Reproducible SVG plots: equal rows give equal bytes."""
 
 import matplotlib
 
@@ -15,11 +15,11 @@ def save(figure, file):
     plt.close(figure)
 
 
-EDGE = 30  # ratios beyond it, or below its inverse, are drawn there
+EDGE = 30  # ratios are clamped to [1 / EDGE, EDGE]
 
 
 def per_mesh_ratios(file, series, title, measures):
-    """One panel per measure: a dot per mesh, a bar at the geometric mean. series: name -> against()."""
+    """Draws one panel per measure with a dot per mesh and a bar at the geometric mean. series: name -> against()."""
     names = list(series)
     figure, panels = plt.subplots(1, len(measures), figsize=(3.4 * len(measures), 0.9 + 0.3 * len(names)),
                                   sharey=True)
@@ -47,7 +47,8 @@ TICKS = [factor * 10**power for power in range(-4, 4) for factor in (1, 2, 5)]
 
 
 def lines(file, panels, title, ylabel):
-    """One panel per entry of panels: name -> (labels, {line name -> values}). A legend where the names change."""
+    """Draws one panel per entry of panels: name -> (labels, {line name -> values}). A legend is drawn if the names
+    differ from those of the previous panel."""
     figure, axes = plt.subplots(1, len(panels), figsize=(2.9 * len(panels), 2.9), sharey=True, squeeze=False)
     named = None
     for axis, (name, (labels, curves)) in zip(axes[0], panels.items()):

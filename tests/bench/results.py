@@ -1,16 +1,16 @@
-"""Rows of faqem-bench and the statistics that the pages share."""
+"""Rows of faqem-bench and statistics shared by the scripts that write tables."""
 
 import json
 import math
 
-# Smaller values are rounding: shares of the diagonal, of its square, and degrees.
+# Smaller values are due to rounding. Units: the diagonal, its square, degrees, the diagonal.
 FLOORS = {"hausdorff": 1e-7, "chamfer": 1e-14, "normal_degrees": 1e-2, "border_hausdorff": 1e-7}
 TOLERANCE = 0.01
-ONE_COLLAPSE = 4  # faces; more than two where an edge is not manifold
+ONE_COLLAPSE = 4  # faces removed by one collapse: two, or more at a non-manifold edge
 
 
 def load(files):
-    """Rows by (ratio, mesh, simplifier); the last row of a kind counts. A line that is cut off is no row."""
+    """Returns the rows by (ratio, mesh, simplifier). Later rows replace earlier ones. Truncated lines are ignored."""
     rows = {}
     for file in files:
         with open(file, encoding="utf-8") as lines:
@@ -37,22 +37,22 @@ class Rows:
         return self.by.get((mesh, name))
 
     def usable(self, mesh, name):
-        """The row, if there is one with a surface that could be measured, on target or not."""
+        """Returns the row if the result could be measured, whether or not it is on target."""
         row = self.get(mesh, name)
         return row if row and row["status"] == "ok" and finite(row.get("hausdorff")) else None
 
     def not_above(self, mesh, name):
-        """The row, if it has at most 1% more faces than wanted."""
+        """Returns the row if it has at most 1% more faces than the target."""
         row = self.usable(mesh, name)
         return row if row and excess(row) <= TOLERANCE * row["target"] else None
 
     def hit(self, mesh, name):
-        """The row, if its face count is within 1% of the target, or less by what one collapse may take."""
+        """Returns the row if its face count is within 1% of the target or at most one collapse below it."""
         row = self.not_above(mesh, name)
         return row if row and -excess(row) <= max(TOLERANCE * row["target"], ONE_COLLAPSE) else None
 
     def why_not(self, mesh, name):
-        """Why hit() gives nothing, in a few words."""
+        """Returns the reason why hit() returns nothing."""
         row = self.get(mesh, name)
         if not row:
             return "not run"
@@ -87,7 +87,7 @@ def median(values):
 
 
 def against(rows, name, baseline):
-    """Geometric means over the meshes where both reached the target, and the meshes left out."""
+    """Returns geometric means of per-mesh ratios over the meshes where both are on target, and the excluded meshes."""
     pairs, left_out = [], {}
     for mesh in rows.meshes:
         if not rows.get(mesh, name):
@@ -116,7 +116,7 @@ def number(value, digits=2):
 
 
 def table(head, lines):
-    """Markdown; the first column is text, the others are numbers."""
+    """Returns a Markdown table. The first column is text, the others are numbers."""
     text = ["| " + " | ".join(head) + " |", "|---" + "|---:" * (len(head) - 1) + "|"]
     text += ["| " + " | ".join(str(cell) for cell in line) + " |" for line in lines]
     return "\n".join(text) + "\n"

@@ -1,7 +1,7 @@
-"""Two tables of the command: what small files that want to take all cost it, and how soon after a signal it ends.
+"""Measures the cost of small malicious files for the command, and the time between a signal and the end of the command.
 
-Usage: robustness.py TOOL MODEL [SIGNALS] [SIMPLIFY-OPTION...]; the model is simplified, and sent SIGINT or SIGTERM at
-so many times spread evenly over its run (default: 20). On a machine with other work both are longer.
+Usage: robustness.py TOOL MODEL [SIGNALS] [SIMPLIFY-OPTION...]. MODEL is simplified SIGNALS times (default: 20), and
+SIGINT or SIGTERM is sent at times evenly distributed over the run. Times are longer on a busy machine.
 """
 
 import json
@@ -24,13 +24,13 @@ def chunk(kind, data):
 
 
 def png(side):
-    """A PNG that says it has side x side pixels, and has none."""
+    """Returns a PNG whose header has side x side pixels, but which contains no pixel data."""
     header = struct.pack(">IIBBBBB", side, side, 8, 6, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"")) + chunk(b"IEND", b""))
 
 
 def triangle(folder, image):
-    """A triangle, painted with an image."""
+    """Returns the glTF of a triangle with a texture, and writes its buffer and image."""
     corners = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1)
     (folder / "corners.bin").write_bytes(corners)
     (folder / "image.png").write_bytes(image)
@@ -77,7 +77,7 @@ HOSTILE = {
 
 
 def hostile(tool, folder):
-    print("| file | exit code | seconds | CPU s | resident at most, MB |\n|---|---:|---:|---:|---:|")
+    print("| file | exit code | seconds | CPU s | peak resident memory, MB |\n|---|---:|---:|---:|---:|")
     failed = False
     for name, make in HOSTILE.items():
         model = folder / "hostile.gltf"
@@ -93,7 +93,7 @@ def hostile(tool, folder):
 
 
 def seconds_to_end(command, number, delay):
-    """From a signal to the end of the process, and its exit code."""
+    """Returns the time between a signal and the end of the process, and its exit code."""
     child = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     time.sleep(delay)
     begin = time.monotonic()
@@ -116,12 +116,13 @@ def signals(tool, model, folder, count, options):
             late += 1
             (folder / "out.glb").unlink()
             continue
-        # Before the command has begun, a signal ends it as it ends any process.
+        # Before the command has installed its handlers, a signal terminates it.
         if code == CANCELLED:
             ends.append(1000 * seconds)
         failed |= code not in (CANCELLED, -number) or [f.name for f in folder.glob("out.glb*")] != []
-    print(f"\nOf a run of {whole:.1f} s, {len(ends)} signals were answered after {statistics.median(ends):.0f} ms in the "
-          f"median, {max(ends):.0f} ms at most; {count - len(ends) - late} came before it listened, {late} when it had ended.")
+    print(f"\nDuration of a run: {whole:.1f} s. Time from signal to exit: median {statistics.median(ends):.0f} ms, "
+          f"maximum {max(ends):.0f} ms over {len(ends)} signals. {count - len(ends) - late} signals were sent before "
+          f"the handlers were installed, {late} after the end.")
     return failed
 
 

@@ -25,7 +25,8 @@ json connectivity(const TriangleMesh& mesh) {
             {"foldovers", foldovers(mesh)}};
 }
 
-/// Distances as shares of the original's diagonal; the mean squares of its square.
+/// Adds distances relative to the diagonal of the original, and mean squared distances relative to its
+/// square.
 void add_distances(json& row, const TriangleMesh& original, const TriangleMesh& result,
                    std::uint64_t samples) {
     CompareOptions options;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rows of the benchmark: JSON lines, one per mesh, ratio and simplifier, written as they are ready.
+/// The rows of the benchmark: one line of JSON per mesh, ratio and simplifier, written when it is measured.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace faqem::bench {
 
-/// A mesh and what is known of it before anything is simplified.
+/// An input mesh.
 struct Subject {
     std::string name;
     TriangleMesh mesh;
@@ -25,10 +25,12 @@ struct RowKey {
     auto operator<=>(const RowKey&) const = default;
 };
 
-/// The keys of the rows in a file; empty where there is no file. A last line that is cut off is not a row.
+/// Returns the keys of the rows in a file; empty if there is no file. Truncated lines are ignored.
 std::set<RowKey> keys_in(const std::filesystem::path& file);
 
-/// Measures one result with `samples` samples a side, always the same ones, and gives the row as a line.
+/// Measures one result and returns its row as a line of JSON.
+/// \param target   target face count
+/// \param samples  number of samples per direction; the same samples are used in every run
 std::string make_row(const RowKey& key, const Subject& subject, std::size_t target, const ChildResult& result,
                      std::uint64_t samples);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The simplifiers of the benchmark behind one function type: arrays in, arrays out.
+/// The simplifiers of the benchmark as functions of one type.
 
 #include <cstddef>
 #include <functional>
@@ -12,18 +12,18 @@
 
 namespace faqem::bench {
 
-/// What a simplifier made of a mesh.
+/// Result of a simplifier.
 struct Outcome {
     TriangleMesh mesh;
-    double core_seconds = 0;  ///< the simplifying call alone, without conversion from and to arrays
-    std::string report;       ///< JSON that goes into the row as it is, or empty
+    double core_seconds = 0;  ///< time of the simplification alone, without conversion from and to arrays
+    std::string report;       ///< JSON that is copied into the row, or empty
 };
 
-/// Simplifies a welded mesh without attributes to at most `target_faces` faces, or as far as it can.
-/// \throws any exception if the mesh is refused
+/// Simplifies a welded mesh without attributes to at most `target_faces` faces, or as far as possible.
+/// \throws any exception if the mesh is rejected
 using Simplify = std::function<Outcome(const TriangleMesh& mesh, std::size_t target_faces)>;
 
-// Peers with their library's own defaults. Each is there only if its package was found.
+// Peers with the defaults of their libraries. Each is defined only if its package was found.
 Outcome cgal_lindstrom_turk(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome cgal_garland_heckbert(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome meshoptimizer(const TriangleMesh& mesh, std::size_t target_faces);
@@ -31,22 +31,22 @@ Outcome openmesh(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome open3d(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome vtk(const TriangleMesh& mesh, std::size_t target_faces);
 
-/// A simplifier and the name it has in the rows.
+/// A simplifier and its name in the rows.
 struct NamedSimplifier {
     std::string name;
     Simplify simplify;
 };
 
-/// The peers that are compiled in, Lindstrom-Turk first.
+/// Returns the peers of this build, Lindstrom-Turk first.
 std::vector<NamedSimplifier> peers();
 
-/// The library's presets: `faqem-NAME`.
+/// Returns faqem's presets with the names `faqem-NAME`.
 std::vector<NamedSimplifier> presets();
 
-/// A peer by its name, or `faqem-PRESET[:key=value]...` with the keys area, boundary, normal, uv, plane_area,
-/// virtual (largest gap / diagonal), weld (distance), link (off, on, strict), border (free, locked) and
-/// threads.
-/// \throws OptionError  there is none
+/// Returns a simplifier by name: a peer, or `faqem-PRESET[:key=value]...` with the keys area, boundary,
+/// normal, uv, plane_area, virtual (maximum length of virtual edges / diagonal), weld (distance), link (off,
+/// by-size, on, strict), border (free, locked) and threads.
+/// \throws OptionError  there is no such simplifier, key or value
 NamedSimplifier simplifier_named(std::string_view text);
 
 }  // namespace faqem::bench

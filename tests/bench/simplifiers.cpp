@@ -26,14 +26,14 @@ LinkCondition link_named(std::string_view value, std::string_view spec) {
     if (value == "by-size") return LinkCondition::by_size;
     if (value == "on") return LinkCondition::on;
     if (value == "strict") return LinkCondition::strict;
-    refuse(spec, "link is off, by-size, on or strict");
+    refuse(spec, "link must be off, by-size, on or strict");
 }
 
 void set(Options& options, std::string_view key, std::string_view value, std::string_view spec) {
     if (key == "link") {
         options.topology.link = link_named(value, spec);
     } else if (key == "border") {
-        if (value != "free" && value != "locked") refuse(spec, "border is free or locked");
+        if (value != "free" && value != "locked") refuse(spec, "border must be free or locked");
         options.topology.boundary = value == "locked" ? Boundary::locked : Boundary::free;
     } else if (key == "area") {
         options.weights.area = number(value, spec);
@@ -53,7 +53,7 @@ void set(Options& options, std::string_view key, std::string_view value, std::st
     } else if (key == "threads") {
         options.threads = static_cast<std::uint32_t>(number(value, spec));
     } else {
-        refuse(spec, "no such key");
+        refuse(spec, "unknown key");
     }
 }
 
@@ -120,7 +120,7 @@ NamedSimplifier simplifier_named(std::string_view text) {
     for (NamedSimplifier& peer : peers()) {
         if (peer.name == text) return std::move(peer);
     }
-    refuse(text, "not in this build");
+    refuse(text, "unknown, or not in this build");
 }
 
 }  // namespace faqem::bench

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes tables and a plot of what faqem-bench-speed measured.
+"""Writes tables and a plot of the results of faqem-bench-speed.
 
 Usage: speed.py [--out DIR] [--no-plots] SPEED.jsonl...
-Prints the tables; writes them to DIR/performance.md, the rows to DIR/performance.json and the plot of time over size to
-DIR/speed.svg. Later rows of the same mesh, size and simplifier replace earlier ones.
+Prints the tables and writes them to DIR/performance.md, the rows to DIR/performance.json and a plot of CPU time over
+mesh size to DIR/speed.svg. Later rows of the same mesh, size and simplifier replace earlier ones.
 """
 
 import argparse
@@ -31,7 +31,7 @@ def section(rows, name):
 
 
 def subjects(rows):
-    """Meshes with their sizes, in the order in which they were measured."""
+    """Returns meshes and their sizes in the order in which they were measured."""
     return list(dict.fromkeys((row["mesh"], row["faces"]) for row in rows))
 
 

@@ -1,5 +1,5 @@
 /// \file
-/// faqem-bench-speed: time and memory of faqem's presets beside meshoptimizer, in one run.
+/// faqem-bench-speed: compares time and memory of faqem's presets and meshoptimizer.
 
 #include <benchmark/benchmark.h>
 
@@ -20,18 +20,18 @@ using namespace faqem::bench;
 namespace fs = std::filesystem;
 
 constexpr const char* usage = R"(Usage: faqem-bench-speed [OPTION]...
-  --models DIR        folder of .obj .ply .stl .off files; default: environment variable FAQEM_BENCH_MODELS, or none
-  --min-faces N       pass over smaller models; default: 1000000
-  --sizes N,...       faces of generated surfaces; default: 1000000
-  --sections S,...    default: simplify,files,pipeline; the last two take the first generated surface
-  --simplifiers S,... meshoptimizer, cgal-lt, PRESET-THREADS; of npm's meshoptimizer wasm-0.18, wasm-1.3 and
-                      wasm-1.3-update; default: meshoptimizer,fast-1,fast-2,balanced-2
-  --ratio R           default: 0.1
-  --repetitions N     of each; medians count; default: 5
+  --models DIR        directory of .obj .ply .stl .off files; default: environment variable FAQEM_BENCH_MODELS, or none
+  --min-faces N       skip smaller models; default: 1000000
+  --sizes N,...       face counts of generated surfaces; default: 1000000
+  --sections S,...    default: simplify,files,pipeline; the last two use the first generated surface
+  --simplifiers S,... meshoptimizer, cgal-lt, PRESET-THREADS, and versions of meshoptimizer from npm: wasm-0.18,
+                      wasm-1.3 and wasm-1.3-update; default: meshoptimizer,fast-1,fast-2,balanced-2
+  --ratio R           ratio of faces to keep; default: 0.1
+  --repetitions N     timed runs of each simplifier, of which the median is reported; default: 5
   --no-quality        do not measure distances
-  --seed N            of the surfaces; default: 1
-  --folder DIR        for the files that are written and read; default: the system's temporary folder
-  --out FILE          rows are added to this file, one JSON object each; default: standard output
+  --seed N            seed of the generated surfaces; default: 1
+  --folder DIR        directory for temporary files; default: the system's temporary directory
+  --out FILE          append rows to this file, one JSON object per line; default: standard output
 )";
 
 std::vector<std::string> words(const std::string& text) {
@@ -48,7 +48,7 @@ double number(const std::string& option, const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value > 0))
-        throw OptionError(option + ": '" + text + "' is no positive number");
+        throw OptionError(option + ": '" + text + "' is not a positive number");
     return value;
 }
 
@@ -75,7 +75,7 @@ Arguments parse(int argc, char** argv) {
             a.speed.quality = false;
             continue;
         }
-        if (i + 1 == argc) throw OptionError(option + ": unknown, or without a value");
+        if (i + 1 == argc) throw OptionError(option + ": unknown option or missing value");
         const std::string value = argv[++i];
         if (option == "--models") {
             a.models = value;
@@ -123,7 +123,7 @@ void run(const Arguments& a) {
     }
     if (a.models.empty() || !a.has("simplify")) return;
     for (const fs::path& model : mesh_files(a.models)) {
-        // What has fewer bytes has fewer faces, in any of the formats.
+        // In all formats a face takes at least 10 bytes: skips small files without loading them.
         if (fs::file_size(model) < 10 * a.min_faces) continue;
         const FloatMesh mesh = float_mesh(model.stem().string(), load_welded(model));
         if (mesh.triangles.size() < a.min_faces) continue;
@@ -139,7 +139,7 @@ int main(int argc, char** argv) try {
         std::cout << usage;
         return 0;
     }
-    // Repetitions of all simplifiers in turn, so that ratios are of the same minutes.
+    // Interleaves the repetitions of the simplifiers, so that they are measured under the same load.
     char name[] = "faqem-bench-speed", interleaving[] = "--benchmark_enable_random_interleaving=true";
     char* flags[] = {name, interleaving, nullptr};
     int count = 2;

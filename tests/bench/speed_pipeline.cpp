@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t image_side = 2048;
-constexpr std::uint64_t small_faces = 10'000;
+constexpr std::uint64_t target_faces = 10'000;
 
-/// A pattern that does not compress to nothing.
+/// Returns an image with a pattern that does not compress extremely well.
 Image pattern() {
     Pixels pixels;
     pixels.width = pixels.height = image_side;
@@ -40,7 +40,7 @@ Asset bare_asset(const FloatMesh& mesh) {
     return asset;
 }
 
-/// With the pattern projected along z.
+/// Returns an asset with the pattern projected along z.
 Asset textured_asset(const FloatMesh& mesh) {
     Asset asset = bare_asset(mesh);
     Vec3f low = mesh.positions.front(), high = low;
@@ -63,7 +63,7 @@ Asset textured_asset(const FloatMesh& mesh) {
     return asset;
 }
 
-/// Wall-clock and CPU seconds of a piece of work, the medians of several times.
+/// Elapsed time and CPU time of repeated runs, seconds.
 struct Cost {
     std::vector<double> wall, cpu;
 
@@ -109,17 +109,17 @@ void measure_pipeline(const FloatMesh& mesh, const fs::path& folder, const Write
         for (const std::uint32_t samples : {1u, 2u}) {
             Options options;
             options.preset = preset;
-            options.target = faces(small_faces);
+            options.target = faces(target_faces);
             options.bake.texture_size = image_side;
             options.bake.samples = samples;
             const double cpu = cpu_now();
             const detail::Stopwatch total;
             const Asset source = load(in);
             const double loaded = total.seconds();
-            SimplifiedAsset light = simplify(source, options);
+            SimplifiedAsset simplified = simplify(source, options);
             const detail::Stopwatch saving;
-            save(light.asset, out, Overwrite::yes);
-            PhaseSeconds& s = light.report.seconds;
+            save(simplified.asset, out, Overwrite::yes);
+            PhaseSeconds& s = simplified.report.seconds;
             s.load = loaded;
             s.save = saving.seconds();
             s.total = total.seconds();
@@ -127,10 +127,10 @@ void measure_pipeline(const FloatMesh& mesh, const fs::path& folder, const Write
             write({{"section", "pipeline"},
                    {"mesh", mesh.name},
                    {"faces", mesh.triangles.size()},
-                   {"faces_out", light.report.faces_out},
+                   {"faces_out", simplified.report.faces_out},
                    {"preset", name(preset)},
                    {"samples", samples},
-                   {"phases", Json::parse(to_json(light.report))["seconds"]},
+                   {"phases", Json::parse(to_json(simplified.report))["seconds"]},
                    {"cpu", cpu_total}});
         }
     }

@@ -23,10 +23,12 @@ namespace faqem::bench {
 
 namespace {
 
+/// Measurements and result of one run of a simplifier.
 struct Run {
-    double seconds = 0;       ///< the call alone, arrays to arrays
-    double cpu_seconds = 0;   ///< of all its threads
-    std::uint64_t bytes = 0;  ///< at the peak, above the arrays that go in and, where it needs one, out
+    double seconds = 0;      ///< elapsed time of the call, from input arrays to output arrays
+    double cpu_seconds = 0;  ///< CPU time of all threads
+    std::uint64_t bytes =
+        0;  ///< peak memory in addition to the input and preallocated output arrays; 0: unknown
     TriangleMesh mesh;
     Json report;
 };
@@ -121,7 +123,7 @@ Simplifier simplifier_of(const std::string& name) {
     return [options](const FloatMesh& mesh, std::size_t target) { return run_faqem(mesh, target, options); };
 }
 
-/// Keeps the times of every repetition by the benchmark's name.
+/// Collects the times of all repetitions by the name of the benchmark.
 class Times : public benchmark::BenchmarkReporter {
 public:
     bool ReportContext(const Context&) override { return true; }

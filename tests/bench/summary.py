@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes tables, plots and a JSON summary of what faqem-bench measured.
+"""Writes tables, plots and a JSON summary of the results of faqem-bench.
 
 Usage: summary.py [--baseline NAME] [--out DIR] [--no-plots] RESULTS.jsonl...
-Writes DIR/quality.md, DIR/quality.json and DIR/quality-*.svg, and prints the two tables that tell most. Rows in later
-files replace those of the same mesh, ratio and simplifier in earlier ones.
+Writes DIR/quality.md, DIR/quality.json and DIR/quality-*.svg, and prints the two main tables. Rows in later files
+replace those of the same mesh, ratio and simplifier in earlier ones.
 """
 
 import argparse
@@ -13,7 +13,7 @@ from collections import Counter
 
 from results import FLOORS, Rows, against, floored, geomean, load, median, number, percent, table
 
-TIE = 1.001  # samples and rounding: closer than this is the same
+TIE = 1.001  # smaller differences are due to sampling and rounding
 MEASURES = [("hausdorff", "Hausdorff"), ("chamfer", "Chamfer"), ("normal_degrees", "normals"), ("seconds", "time")]
 
 
@@ -45,7 +45,7 @@ def absolute(rows):
 
 
 def wins(rows, name):
-    """How often a preset is at or below the best of all peers. Whoever has fewer faces than wanted takes part."""
+    """Counts the meshes where a preset is at or below the best peer, including results below the target face count."""
     result = {"meshes": 0, "lost": {}}
     counts = Counter()
     for mesh in rows.meshes:
@@ -122,12 +122,12 @@ def robustness_table(rows):
                       f"{r.get('kept_closed', 0)} of {r.get('closed', 0)}",
                       len(r["ladder_meshes"]) if is_ours(name) else "-"])
     head = ["", "meshes", "on target", "above it", "no result", "new foldovers", "new non-manifold edges",
-            "new faces without area", "closed manifold, same Euler number", "meshes on the ladder"]
+            "new faces of zero area", "closed manifold, same Euler number", "meshes that needed the ladder"]
     return results, table(head, lines)
 
 
 def border(rows, name, baseline):
-    """Open borders: how far they moved, against the surface and against the baseline's."""
+    """Compares the distance between boundaries with that between surfaces and with that of the baseline."""
     measured, within, lost, worse, ratios = 0, 0, [], {}, []
     for mesh in rows.meshes:
         row = rows.hit(mesh, name)
@@ -150,7 +150,7 @@ def border(rows, name, baseline):
 
 def border_table(rows, baseline):
     results = {name: border(rows, name, baseline) for name in rows.simplifiers}
-    return results, table(["open borders", "meshes", "not above the surface's Hausdorff", "no border left",
+    return results, table(["boundaries", "meshes", "at or below the surface's Hausdorff", "no boundary left",
                            "Hausdorff to " + baseline],
                           [[name, r["meshes"], r["within_surface"], len(r["closed_up"]), number(r["to_baseline"], 3)]
                            for name, r in results.items()])
@@ -161,7 +161,7 @@ def named(items):
 
 
 def section(rows, baseline, folder, plots):
-    """Markdown and data of one ratio."""
+    """Returns Markdown and data of one ratio."""
     compared, ratio_text = ratios_to_baseline(rows, baseline)
     won, wins_text = wins_tables(rows)
     robust, robust_text = robustness_table(rows)
@@ -169,22 +169,22 @@ def section(rows, baseline, folder, plots):
     text = [f"## {percent(rows.ratio)} of the faces\n", "Geometric means of per-mesh ratios; below 1 is better.\n",
             ratio_text]
     if plots:
-        import plots as drawing  # only here: the tables need no plotting library
+        import plots as drawing  # imported here, because the tables do not need matplotlib
         name = f"quality-{rows.ratio:g}.svg"
         drawing.per_mesh_ratios(folder / name, {k: v for k, v in compared.items() if k != baseline},
                                 f"{percent(rows.ratio)} of the faces: ratio to {baseline}, a dot per mesh", MEASURES[:3])
         text.append(f"![ratios per mesh]({name})\n")
-    text += ["Against the best of all peers on each mesh:\n", wins_text]
+    text += ["Comparison with the best peer on each mesh:\n", wins_text]
     for name, result in won.items():
         text += [f"<details><summary>{name}: meshes where a peer is better</summary>\n", named(result["lost"].items()),
                  "</details>\n"]
     text += ["Medians over the meshes where each reached its target:\n", absolute(rows),
-             "What came out:\n", robust_text, border_text]
+             "Robustness:\n", robust_text, border_text]
     for name, result in borders.items():
         if is_ours(name) and result["worse"]:
-            text.append(f"{name}, border above the surface: " +
+            text.append(f"{name}, boundary distance above surface distance: " +
                         ", ".join(f"`{mesh}` {number(f, 3)}x" for mesh, f in result["worse"].items()) + "\n")
-    text += ["Left out of the ratios:\n"]
+    text += ["Excluded from the ratios:\n"]
     for name, result in compared.items():
         if name != baseline and result["left_out"]:
             text += [f"<details><summary>{name}: {len(result['left_out'])}</summary>\n",
@@ -205,10 +205,11 @@ def main():
     ratios = sorted({ratio for ratio, _, _ in rows}, reverse=True)
     arguments.out.mkdir(parents=True, exist_ok=True)
     meshes = {mesh for _, mesh, _ in rows}
-    text = [f"{len(meshes)} meshes. Values below {FLOORS['hausdorff']:g} of the diagonal (Chamfer: its square, normals: "
-            f"{FLOORS['normal_degrees']:g} degrees) count as that. A result is on target within 1% of the face count, or "
-            "with up to four faces less, as one collapse may take; ratios are over meshes where both are on target. "
-            "Closer than 0.1% to the best peer is at it.\n"]
+    text = [f"{len(meshes)} meshes. Values are clamped to at least {FLOORS['hausdorff']:g} of the diagonal (Chamfer: "
+            f"{FLOORS['chamfer']:g} of its square, normals: {FLOORS['normal_degrees']:g} degrees). A result is on "
+            "target if its face count is within 1% of the target or at most four faces below it, because one collapse "
+            "may remove four; ratios are over meshes where both are on target. A value within 0.1% of the best peer "
+            "counts as equal.\n"]
     data = []
     for ratio in ratios:
         one, numbers = section(Rows(rows, ratio), arguments.baseline, arguments.out, not arguments.no_plots)

@@ -1,4 +1,4 @@
-// The benchmark's generator of large meshes.
+// Tests of the mesh generator of the benchmarks.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -8,7 +8,7 @@
 using namespace faqem;
 using namespace faqem::bench;
 
-TEST_CASE("a generated surface is a closed manifold that looks outwards") {
+TEST_CASE("isosurface generates a closed manifold with outward normals") {
     for (const std::uint64_t seed : {1, 2, 3}) {
         CAPTURE(seed);
         const TriangleMesh mesh = isosurface(40, seed);
@@ -18,9 +18,9 @@ TEST_CASE("a generated surface is a closed manifold that looks outwards") {
         CHECK(i.degenerate_faces == 0);
         CHECK(i.boundary_edges == 0);
         CHECK(i.nonmanifold_edges == 0);
-        CHECK(i.components < 5);  // the lump, and specks beside it
+        CHECK(i.components < 5);  // the main component and small ones caused by noise
         CHECK(i.diagonal < std::sqrt(3.0));
-        // Each edge once in each direction.
+        // Each edge must occur once in each direction.
         std::set<std::pair<Index, Index>> edges;
         double volume = 0;
         for (const Triangle& t : mesh.triangles) {
@@ -34,14 +34,14 @@ TEST_CASE("a generated surface is a closed manifold that looks outwards") {
     }
 }
 
-TEST_CASE("a generated surface is the same for the same seed only") {
+TEST_CASE("isosurface is deterministic and depends on the seed") {
     const TriangleMesh a = isosurface(24, 7), b = isosurface(24, 7), c = isosurface(24, 8);
     CHECK(a.positions == b.positions);
     CHECK(a.triangles == b.triangles);
     CHECK(a.positions != c.positions);
 }
 
-TEST_CASE("a generated surface has about as many faces as were asked for") {
+TEST_CASE("isosurface_of generates approximately the requested number of faces") {
     for (const double faces : {20e3, 100e3}) {
         const auto found =
             static_cast<double>(isosurface_of(static_cast<std::size_t>(faces), 1).triangles.size());
@@ -49,7 +49,7 @@ TEST_CASE("a generated surface has about as many faces as were asked for") {
     }
 }
 
-TEST_CASE("shuffling numbers the vertices anew and moves nothing") {
+TEST_CASE("shuffle permutes the vertices and preserves the faces") {
     const TriangleMesh mesh = isosurface(24, 1);
     TriangleMesh other = mesh;
     shuffle(other.positions, other.triangles, 5);

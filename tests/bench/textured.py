@@ -1,4 +1,4 @@
-"""Colours after simplifying and baking, measured with the tool: rows of their own, made once."""
+"""Measures colour differences after simplifying and baking textured models with the command. Keeps existing rows."""
 
 import json
 import pathlib
@@ -10,8 +10,8 @@ from results import geomean
 RATIO = 0.1
 SAMPLES = 50000
 TEXTURE_SIZE = 1024
-LEAST_FACES = 2000  # a tenth of less is a handful of triangles
-FLOOR = 1e-4  # smaller differences are rounding: 8 bits have steps of 4e-3
+LEAST_FACES = 2000  # a tenth of a smaller model would be too few triangles
+FLOOR = 1e-4  # smaller differences are due to rounding: 8 bits have steps of 4e-3
 
 
 def tool(arguments, command, *words):
@@ -19,13 +19,13 @@ def tool(arguments, command, *words):
 
 
 def faces(arguments, file):
-    """Faces of the scene; None where the tool does not read the file."""
+    """Returns the number of faces of the scene; None if the command cannot read the file."""
     result = tool(arguments, "info", file, "--json")
     return json.loads(result.stdout)["total"]["faces"] if result.returncode == 0 else None
 
 
 def models(arguments):
-    """(name, file) of the folder's models, the smallest first, those that the tool does not read before them."""
+    """Returns (name, file) of the models by increasing face count; models that the command cannot read come first."""
     folder = pathlib.Path(arguments.textured)
     found = []
     for file in sorted(folder.rglob("*")):
@@ -38,7 +38,7 @@ def models(arguments):
 
 
 def measure(arguments, file, weights):
-    """RMSE of the colours, or why there is none."""
+    """Returns the colour comparison, or the reason why there is none."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out.glb"
         options = [word for term, weight in weights.items()
@@ -49,7 +49,7 @@ def measure(arguments, file, weights):
             return {"why_not": made.stderr.strip().splitlines()[-1].replace(f"faqem: {file}: ", "")}
         compared = tool(arguments, "compare", file, out, "--samples", SAMPLES, "--tolerance", 1, "--threads", 1)
         colors = json.loads(compared.stdout).get("colors") if compared.returncode == 0 else None
-        return {"colors": colors} if colors else {"why_not": compared.stderr.strip() or "it has none"}
+        return {"colors": colors} if colors else {"why_not": compared.stderr.strip() or "the model has no colours"}
 
 
 def load(file):
@@ -65,7 +65,7 @@ def load(file):
 
 
 def run(arguments, steps, file):
-    """Rows by (model, label). \\param steps  (label, weights)"""
+    """Measures missing rows and returns all rows by (model, label). steps: list of (label, weights)"""
     rows = load(file)
     with file.open("a", encoding="utf-8") as out:
         for name, path in models(arguments):
@@ -85,11 +85,11 @@ def rmse(row):
 
 
 def against_first(rows, labels):
-    """Geometric means of the per-model ratios to the first label, models they are over, and {model: why not}."""
+    """Returns geometric means of per-model ratios to the first label, included models, and {excluded model: reason}."""
     names = list(dict.fromkeys(name for name, _ in rows))
     whole = [name for name in names if all("colors" in rows.get((name, label), {}) for label in labels)]
     means = {label: geomean(rmse(rows[name, label]) / rmse(rows[name, labels[0]]) for name in whole)
              for label in labels}
     left_out = {name: next((row["why_not"] for (n, _), row in rows.items() if n == name and "why_not" in row),
-                           "not all terms run") for name in names if name not in whole}
+                           "not all terms were measured") for name in names if name not in whole}
     return means, whole, left_out

@@ -37,19 +37,19 @@ TriangleMesh read_mesh(const fs::path& path) {
     TriangleMesh mesh;
     for (const Vec3f& p : get<Vec3f>(file, sizes[0])) mesh.positions.push_back({p[0], p[1], p[2]});
     mesh.triangles = get<Triangle>(file, sizes[1]);
-    if (!file) throw OptionError(path.string() + ": is cut off");
+    if (!file) throw OptionError(path.string() + ": the file is truncated");
     return mesh;
 }
 
-/// What the command prints.
+/// Runs a command and returns its standard output.
 std::string output_of(const std::string& command) {
     std::FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) throw OptionError(command + ": cannot be started");
-    std::string said;
+    if (pipe == nullptr) throw OptionError(command + ": cannot start the process");
+    std::string output;
     char part[256];
-    while (std::fgets(part, sizeof part, pipe) != nullptr) said += part;
-    if (pclose(pipe) != 0) throw OptionError(command + ": failed");
-    return said;
+    while (std::fgets(part, sizeof part, pipe) != nullptr) output += part;
+    if (pclose(pipe) != 0) throw OptionError(command + ": the process failed");
+    return output;
 }
 
 }  // namespace
@@ -61,7 +61,8 @@ WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::st
     const bool moves = name.ends_with(update);
     const std::string package = moves ? name.substr(0, name.size() - update.size()) : name;
     const fs::path index = fs::path(FAQEM_BENCH_WASM) / "node_modules" / package / "index.js";
-    if (!fs::exists(index)) throw OptionError("simplifier " + name + ": " + index.string() + " is not there");
+    if (!fs::exists(index))
+        throw OptionError("simplifier " + name + ": " + index.string() + " does not exist");
 
     const cli::TemporaryFolder folder("faqem-bench");
     const std::string before = folder.path() / "in", after = folder.path() / "out";
@@ -71,12 +72,12 @@ WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::st
         put(file, in.positions);
         put(file, in.triangles);
     }
-    const std::string said =
+    const std::string output =
         output_of("node '" FAQEM_BENCH_WASM "/simplify.mjs' '" + index.string() + "' '" + before + "' '" +
                   after + "' " + std::to_string(target_faces) + (moves ? " update" : ""));
     WasmResult result;
-    if (std::sscanf(said.c_str(), "%lf %lf", &result.seconds, &result.cpu_seconds) != 2)
-        throw OptionError("simplifier " + name + ": said '" + said + "'");
+    if (std::sscanf(output.c_str(), "%lf %lf", &result.seconds, &result.cpu_seconds) != 2)
+        throw OptionError("simplifier " + name + ": unexpected output '" + output + "'");
     result.mesh = read_mesh(after);
     return result;
 }

@@ -1,10 +1,10 @@
 #pragma once
-/* What the tests of the C door share. */
+/* Helpers shared by the tests of the C interface. */
 
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Also where NDEBUG is set. */
+/* Like assert(), but also active if NDEBUG is defined. */
 #define CHECK(condition)                                                    \
     do {                                                                    \
         if (!(condition)) {                                                 \
@@ -15,7 +15,7 @@
 
 #include "faqem/faqem.h"
 
-/* A flat grid of n x n squares over [0, n]^2, in static memory; n at most 20. */
+/* Returns a flat grid of n x n squares over [0, n]^2, n <= 20. All calls share the same static arrays. */
 faqem_mesh flat_grid(uint32_t n);
 faqem_mesh flat_grid_of_doubles(uint32_t n);
 

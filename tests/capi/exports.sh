@@ -1,5 +1,5 @@
 #!/bin/sh
-# The dynamic symbols of a library are exactly the functions that its headers declare.
+# Checks that the dynamic symbols of a library are exactly the functions that its headers declare.
 # Usage: exports.sh NM LIBRARY FOLDER HEADER...
 set -eu
 nm=$1 library=$2 folder=$3

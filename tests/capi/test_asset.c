@@ -9,15 +9,15 @@ static const char file[] = "test_c.glb";
 static void a_model_is_saved_loaded_and_simplified(void) {
     const faqem_mesh mesh = flat_grid(12);
     faqem_error error;
-    faqem_asset* made = NULL;
-    CHECK(faqem_asset_create(&mesh, &made, &error) == FAQEM_OK);
-    CHECK(faqem_asset_save(made, file, FAQEM_OVERWRITE_YES, &error) == FAQEM_OK);
-    CHECK(faqem_asset_save(made, file, FAQEM_OVERWRITE_NO, &error) == FAQEM_ERROR_WRITE);
+    faqem_asset* created = NULL;
+    CHECK(faqem_asset_create(&mesh, &created, &error) == FAQEM_OK);
+    CHECK(faqem_asset_save(created, file, FAQEM_OVERWRITE_YES, &error) == FAQEM_OK);
+    CHECK(faqem_asset_save(created, file, FAQEM_OVERWRITE_NO, &error) == FAQEM_ERROR_WRITE);
     CHECK(strstr(error.message, file) != NULL);
-    CHECK(faqem_asset_report_json(made) == NULL);
+    CHECK(faqem_asset_report_json(created) == NULL);
     faqem_report report;
-    CHECK(faqem_asset_report(made, &report) == FAQEM_ERROR_OPTION);
-    faqem_asset_destroy(made);
+    CHECK(faqem_asset_report(created, &report) == FAQEM_ERROR_OPTION);
+    faqem_asset_destroy(created);
 
     faqem_asset* loaded = NULL;
     CHECK(faqem_asset_load(file, &loaded, &error) == FAQEM_OK);
@@ -37,12 +37,12 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(faqem_options_set_normal_map(options, FAQEM_NORMAL_MAP_OFF) == FAQEM_OK);
     CHECK(faqem_options_set_normals(options, FAQEM_NORMALS_FLAT) == FAQEM_OK);
     CHECK(faqem_options_set_image_format(options, FAQEM_IMAGE_JPEG) == FAQEM_OK);
-    faqem_asset* light = NULL;
-    CHECK(faqem_asset_simplify(loaded, options, &light, &error) == FAQEM_OK);
-    CHECK(faqem_asset_face_count(light, 0) <= 50 && faqem_asset_face_count(light, 0) > 0);
-    CHECK(faqem_asset_report(light, &report) == FAQEM_OK);
-    CHECK(report.faces_in == 288 && report.faces_out == faqem_asset_face_count(light, 0));
-    CHECK(strstr(faqem_asset_report_json(light), "\"faces_in\": 288") != NULL);
+    faqem_asset* simplified = NULL;
+    CHECK(faqem_asset_simplify(loaded, options, &simplified, &error) == FAQEM_OK);
+    CHECK(faqem_asset_face_count(simplified, 0) <= 50 && faqem_asset_face_count(simplified, 0) > 0);
+    CHECK(faqem_asset_report(simplified, &report) == FAQEM_OK);
+    CHECK(report.faces_in == 288 && report.faces_out == faqem_asset_face_count(simplified, 0));
+    CHECK(strstr(faqem_asset_report_json(simplified), "\"faces_in\": 288") != NULL);
 
     CHECK(faqem_options_set_texture_size(options, 100) == FAQEM_OK);
     faqem_asset* none = NULL;
@@ -54,11 +54,11 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(none == NULL && strstr(error.message, "texel_density") != NULL);
     faqem_options_destroy(options);
     faqem_asset_destroy(loaded);
-    faqem_asset_destroy(light);
+    faqem_asset_destroy(simplified);
     CHECK(remove(file) == 0);
 }
 
-static void errors_tell_file_and_kind(void) {
+static void errors_have_file_name_and_status(void) {
     faqem_asset* asset = NULL;
     faqem_error error;
     CHECK(faqem_asset_load("not-there.glb", &asset, &error) == FAQEM_ERROR_INPUT);
@@ -70,7 +70,7 @@ static void errors_tell_file_and_kind(void) {
     CHECK(faqem_asset_load(NULL, &asset, &error) == FAQEM_ERROR_OPTION);
     CHECK(asset == NULL);
 
-    /* A name that is longer than the message: its end says so. */
+    /* A name that is longer than the message buffer: the message is truncated and ends with " ...". */
     char name[4000];
     memset(name, 'x', sizeof name);
     name[sizeof name - 1] = '\0';
@@ -86,7 +86,7 @@ static void errors_tell_file_and_kind(void) {
     CHECK(strstr(error.message, "9") != NULL);
 }
 
-static void what_the_format_cannot_hold_is_a_warning(void) {
+static void data_that_the_format_cannot_store_is_a_warning(void) {
     const faqem_mesh mesh = flat_grid_of_doubles(2);
     faqem_asset* asset = NULL;
     CHECK(faqem_asset_create(&mesh, &asset, NULL) == FAQEM_OK);
@@ -95,9 +95,9 @@ static void what_the_format_cannot_hold_is_a_warning(void) {
     CHECK(faqem_asset_save(asset, file, (faqem_overwrite)5, NULL) == FAQEM_ERROR_OPTION);
     faqem_asset_destroy(asset);
 
-    FILE* painted = fopen("test_c.obj", "w");
-    CHECK(painted && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", painted) >= 0);
-    CHECK(fclose(painted) == 0);
+    FILE* coloured = fopen("test_c.obj", "w");
+    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", coloured) >= 0);
+    CHECK(fclose(coloured) == 0);
     CHECK(faqem_asset_load("test_c.obj", &asset, NULL) == FAQEM_OK);
     CHECK(faqem_asset_save(asset, "test_c.stl", FAQEM_OVERWRITE_YES, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) > 0);
@@ -106,7 +106,7 @@ static void what_the_format_cannot_hold_is_a_warning(void) {
     CHECK(remove("test_c.obj") == 0 && remove("test_c.stl") == 0);
 }
 
-static void null_is_nothing(void) {
+static void null_arguments_are_accepted(void) {
     faqem_asset_destroy(NULL);
     CHECK(faqem_asset_part_count(NULL) == 0 && faqem_asset_part_name(NULL, 0) == NULL);
     CHECK(faqem_asset_vertex_count(NULL, 0) == 0 && faqem_asset_face_count(NULL, 0) == 0);
@@ -118,7 +118,7 @@ static void null_is_nothing(void) {
 
 void test_asset(void) {
     a_model_is_saved_loaded_and_simplified();
-    errors_tell_file_and_kind();
-    what_the_format_cannot_hold_is_a_warning();
-    null_is_nothing();
+    errors_have_file_name_and_status();
+    data_that_the_format_cannot_store_is_a_warning();
+    null_arguments_are_accepted();
 }

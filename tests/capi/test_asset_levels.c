@@ -8,8 +8,8 @@ static float height(const float* at, int part) {
     return (float)((part + 0.2) * sin(at[0] / 2) * cos(at[1] / 3));
 }
 
-/* A painted square with a wave in it. */
-static faqem_asset* painted_wave(void) {
+/* Returns a wavy square with vertex colours. */
+static faqem_asset* coloured_wave(void) {
     FILE* file = fopen("test_c.obj", "w");
     CHECK(file != NULL);
     const faqem_mesh mesh = flat_grid(12);
@@ -28,7 +28,7 @@ static faqem_asset* painted_wave(void) {
     return source;
 }
 
-/* Two meshes of one scene, the second rougher and behind the first. */
+/* Returns a scene with two meshes. The second has larger waves and is translated. */
 static faqem_asset* two_waves(void) {
     static const char json[] =
         "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
@@ -70,8 +70,8 @@ static faqem_options* small_textures(void) {
     return options;
 }
 
-static void levels_of_a_model_have_textures_of_their_own_or_one(void) {
-    faqem_asset* source = painted_wave();
+static void levels_have_separate_or_shared_textures(void) {
+    faqem_asset* source = coloured_wave();
     CHECK(faqem_asset_level_error(source) != faqem_asset_level_error(source));
     faqem_options* options = small_textures();
     const faqem_level wanted[2] = {{FAQEM_LEVEL_RATIO, 0.5}, {FAQEM_LEVEL_FACES, 40}};
@@ -88,7 +88,7 @@ static void levels_of_a_model_have_textures_of_their_own_or_one(void) {
         }
         CHECK(faqem_asset_level_error(levels[0]) >= 0);
         CHECK(faqem_asset_level_error(levels[1]) >= faqem_asset_level_error(levels[0]));
-        /* Only the finest level has a page where the texture is shared. */
+        /* With a shared texture only the finest level has a page. */
         const int has_pages = strstr(faqem_asset_report_json(levels[1]), "\"charts\"") != NULL;
         CHECK(has_pages == (textures == FAQEM_LEVEL_TEXTURES_EACH));
         faqem_asset_destroy(levels[0]);
@@ -117,8 +117,8 @@ static int same_parts(const faqem_asset* a, const faqem_asset* b) {
     return same;
 }
 
-static void a_history_of_several_meshes_gives_every_level_again(void) {
-    faqem_asset *source = two_waves(), *other = painted_wave();
+static void a_history_of_several_meshes_reproduces_every_level(void) {
+    faqem_asset *source = two_waves(), *other = coloured_wave();
     faqem_options* options = small_textures();
     CHECK(faqem_options_set_history(options, FAQEM_RECORDING_ON) == FAQEM_OK);
     const faqem_level wanted[2] = {{FAQEM_LEVEL_FACES, 300}, {FAQEM_LEVEL_FACES, 60}};
@@ -193,7 +193,7 @@ static void levels_are_saved_in_one_file(void) {
     CHECK(strstr(text, "MSFT_lod") != NULL && strstr(text, "MSFT_screencoverage") != NULL);
     faqem_asset* read = NULL;
     CHECK(faqem_asset_load(path, &read, &error) == FAQEM_OK);
-    CHECK(faqem_asset_part_count(read) == 6); /* those of the first level come first */
+    CHECK(faqem_asset_part_count(read) == 6); /* the parts of the first level come first */
     for (size_t p = 0; p < 2; ++p) CHECK(faqem_asset_face_count(read, p) == 288);
     size_t faces = 0;
     for (size_t p = 0; p < 6; ++p) faces += faqem_asset_face_count(read, p);
@@ -205,7 +205,7 @@ static void levels_are_saved_in_one_file(void) {
 }
 
 void test_asset_levels(void) {
-    levels_of_a_model_have_textures_of_their_own_or_one();
-    a_history_of_several_meshes_gives_every_level_again();
+    levels_have_separate_or_shared_textures();
+    a_history_of_several_meshes_reproduces_every_level();
     levels_are_saved_in_one_file();
 }

@@ -11,7 +11,7 @@ static faqem_options* with_history(void) {
     return options;
 }
 
-/* A grid with a hill, so that there is an error to measure. */
+/* Returns a curved grid, whose simplification has a non-zero error. */
 static faqem_mesh hill(void) {
     static double at[3 * 21 * 21];
     faqem_mesh mesh = flat_grid_of_doubles(20);
@@ -29,7 +29,7 @@ static int same_mesh(const faqem_result* a, const faqem_result* b) {
            memcmp(faqem_result_triangles(a), faqem_result_triangles(b), 3 * f * sizeof(uint32_t)) == 0;
 }
 
-static void levels_get_coarser_and_their_errors_larger(void) {
+static void levels_have_fewer_faces_and_larger_errors(void) {
     const faqem_mesh mesh = hill();
     const faqem_level levels[3] = {
         {FAQEM_LEVEL_RATIO, 0.5}, {FAQEM_LEVEL_FACES, 100}, {FAQEM_LEVEL_DISTANCE_OF_DIAGONAL, 0.1}};
@@ -50,7 +50,7 @@ static void levels_get_coarser_and_their_errors_larger(void) {
     faqem_result_destroy(one);
 }
 
-static void wrong_levels_are_refused_and_nothing_is_made(void) {
+static void invalid_levels_are_rejected_and_no_results_created(void) {
     const faqem_mesh mesh = hill();
     faqem_result* results[2] = {NULL, NULL};
     faqem_error error;
@@ -68,7 +68,7 @@ static void wrong_levels_are_refused_and_nothing_is_made(void) {
     CHECK(faqem_simplify_levels(&mesh, NULL, wrong[0], 1, NULL, &error) == FAQEM_ERROR_OPTION);
 }
 
-static void a_history_gives_every_level_again(void) {
+static void a_history_reproduces_every_level(void) {
     const faqem_mesh mesh = hill();
     const faqem_level levels[2] = {{FAQEM_LEVEL_FACES, 300}, {FAQEM_LEVEL_FACES, 50}};
     faqem_options* options = with_history();
@@ -154,7 +154,7 @@ static void points_of_a_flat_grid_are_mapped_to_themselves(void) {
     faqem_options_destroy(options);
 }
 
-static void corner_values_come_along(void) {
+static void corner_values_are_interpolated(void) {
     faqem_mesh mesh = flat_grid_of_doubles(20);
     static float uv[2 * 3 * 800];
     for (size_t c = 0; c < 3 * mesh.face_count; ++c)
@@ -183,9 +183,9 @@ static void corner_values_come_along(void) {
 }
 
 void test_levels(void) {
-    levels_get_coarser_and_their_errors_larger();
-    wrong_levels_are_refused_and_nothing_is_made();
-    a_history_gives_every_level_again();
+    levels_have_fewer_faces_and_larger_errors();
+    invalid_levels_are_rejected_and_no_results_created();
+    a_history_reproduces_every_level();
     points_of_a_flat_grid_are_mapped_to_themselves();
-    corner_values_come_along();
+    corner_values_are_interpolated();
 }

@@ -12,7 +12,7 @@ static uint64_t faces_with(const faqem_options* options) {
     return faces;
 }
 
-static void the_last_target_counts(void) {
+static void the_last_target_is_used(void) {
     faqem_options* options = faqem_options_create();
     faqem_options_set_ratio(options, 0.5);
     faqem_options_set_faces(options, 100);
@@ -36,11 +36,11 @@ static void every_option_can_be_set(void) {
     CHECK(faqem_options_set_virtual_edges(options, 0.01) == FAQEM_OK);
     CHECK(faqem_options_set_prune(options, 0.1, FAQEM_UNIT_MODEL) == FAQEM_OK);
     CHECK(faqem_options_set_threads(options, 2) == FAQEM_OK);
-    CHECK(faces_with(options) >= 78);  // a polygon with the 80 corners of the border
+    CHECK(faces_with(options) >= 78);  // a triangulation of the polygon with the 80 boundary vertices
     faqem_options_destroy(options);
 }
 
-static void what_is_out_of_range_is_refused(void) {
+static void values_out_of_range_are_rejected(void) {
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_preset(options, (faqem_preset)6) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_preset(options, (faqem_preset)-1) == FAQEM_ERROR_OPTION);
@@ -48,9 +48,9 @@ static void what_is_out_of_range_is_refused(void) {
     CHECK(faqem_options_set_boundary(options, (faqem_boundary)2) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_max_error(options, 1, (faqem_unit)2) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_prune(options, 1, (faqem_unit)-1) == FAQEM_ERROR_OPTION);
-    CHECK(faces_with(options) <= 80);  // nothing was changed
+    CHECK(faces_with(options) <= 80);  // the options are unchanged
 
-    CHECK(faqem_options_set_ratio(options, NAN) == FAQEM_OK);  // whoever uses it says no
+    CHECK(faqem_options_set_ratio(options, NAN) == FAQEM_OK);  // validated when the options are used
     const faqem_mesh mesh = flat_grid(4);
     faqem_result* result = NULL;
     faqem_error error;
@@ -76,7 +76,7 @@ static int count_call(void* user, faqem_phase phase, double fraction) {
     return ++calls->count == calls->cancel_at;
 }
 
-static void progress_is_told_and_may_cancel(void) {
+static void the_progress_callback_is_called_and_may_cancel(void) {
     faqem_options* options = faqem_options_create();
     struct calls calls = {0, -1};
     CHECK(faqem_options_set_progress(options, count_call, &calls) == FAQEM_OK);
@@ -104,9 +104,9 @@ static void the_version_has_three_numbers(void) {
 }
 
 void test_options(void) {
-    the_last_target_counts();
+    the_last_target_is_used();
     every_option_can_be_set();
-    what_is_out_of_range_is_refused();
-    progress_is_told_and_may_cancel();
+    values_out_of_range_are_rejected();
+    the_progress_callback_is_called_and_may_cancel();
     the_version_has_three_numbers();
 }

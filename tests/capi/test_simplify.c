@@ -14,8 +14,8 @@ static double area(const faqem_result* result) {
     return sum;
 }
 
-/* A flat square stays one: same outline, same area, same plane, whatever the type of the numbers. */
-static void a_flat_square_stays_one(faqem_mesh mesh) {
+/* A flat square is simplified without changing area and plane. */
+static void a_flat_square_is_preserved(faqem_mesh mesh) {
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_ratio(options, 0.1) == FAQEM_OK);
     faqem_result* result = NULL;
@@ -44,8 +44,8 @@ static void a_flat_square_stays_one(faqem_mesh mesh) {
     faqem_options_destroy(options);
 }
 
-/* Positions in vertices that hold more, triangles in faces that do, and both column by column. */
-static void arrays_may_lie_anyhow(void) {
+/* Positions and triangles as members of larger structures, and as separate columns. */
+static void arrays_may_have_any_stride_and_step(void) {
     enum { vertices = 441, faces = 800 };
     static struct { float normal[3], at[3], weight; } vertex[vertices];
     static struct { uint32_t corners[3], material; } face[faces];
@@ -68,7 +68,7 @@ static void arrays_may_lie_anyhow(void) {
     mesh.position_stride = sizeof vertex[0];
     mesh.triangles = face[0].corners;
     mesh.triangle_stride = sizeof face[0];
-    a_flat_square_stays_one(mesh);
+    a_flat_square_is_preserved(mesh);
     mesh.positions = NULL;
     mesh.double_positions = columns;
     mesh.position_stride = sizeof columns[0];
@@ -76,11 +76,11 @@ static void arrays_may_lie_anyhow(void) {
     mesh.triangles = corner_columns;
     mesh.triangle_stride = sizeof corner_columns[0];
     mesh.triangle_step = faces * sizeof corner_columns[0];
-    a_flat_square_stays_one(mesh);
+    a_flat_square_is_preserved(mesh);
 }
 
-/* Side by side, in faces that hold more, and column by column: what is read is the same as of 32 bits. */
-static void indices_of_16_bits_are_read_where_they_are(void) {
+/* Packed, as members of larger structures and as separate columns. Results are the same as with 32 bits. */
+static void indices_may_have_16_bits(void) {
     enum { faces = 800 };
     static uint16_t corners[3 * faces], columns[3 * faces];
     static struct {
@@ -97,7 +97,7 @@ static void indices_of_16_bits_are_read_where_they_are(void) {
     faqem_mesh mesh = wide;
     mesh.triangles = NULL;
     mesh.short_triangles = corners;
-    a_flat_square_stays_one(mesh);
+    a_flat_square_is_preserved(mesh);
     faqem_result *short_result = NULL, *wide_result = NULL;
     CHECK(faqem_simplify(&mesh, NULL, &short_result, NULL) == FAQEM_OK);
     CHECK(faqem_simplify(&wide, NULL, &wide_result, NULL) == FAQEM_OK);
@@ -109,11 +109,11 @@ static void indices_of_16_bits_are_read_where_they_are(void) {
 
     mesh.short_triangles = face[0].corners;
     mesh.triangle_stride = sizeof face[0];
-    a_flat_square_stays_one(mesh);
+    a_flat_square_is_preserved(mesh);
     mesh.short_triangles = columns;
     mesh.triangle_stride = sizeof columns[0];
     mesh.triangle_step = faces * sizeof columns[0];
-    a_flat_square_stays_one(mesh);
+    a_flat_square_is_preserved(mesh);
 
     faqem_result* none = NULL;
     faqem_error error;
@@ -137,7 +137,7 @@ static void groups_locks_and_weights_are_used(void) {
     faqem_options_set_boundary(options, FAQEM_BOUNDARY_KEPT);
     faqem_result* result = NULL;
     CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
-    CHECK(faqem_result_face_count(result) == 128);  // all are locked
+    CHECK(faqem_result_face_count(result) == 128);  // all vertices are locked
     for (size_t f = 0; f < 128; ++f)
         CHECK(faqem_result_face_groups(result)[f] == groups[faqem_result_face_origin(result)[f]]);
     faqem_report report;
@@ -168,7 +168,7 @@ static void the_distance_is_reported(void) {
     faqem_options_destroy(options);
 }
 
-static void bad_arrays_are_named(void) {
+static void invalid_arrays_are_rejected_by_name(void) {
     faqem_result* result = NULL;
     faqem_error error;
     faqem_mesh mesh = flat_grid(2);
@@ -188,7 +188,7 @@ static void bad_arrays_are_named(void) {
     CHECK(strstr(error.message, "triangles") != NULL);
 
     bad = mesh;
-    bad.vertex_count = 8;  // the last one is used
+    bad.vertex_count = 8;  // the last vertex is referenced by face 6
     CHECK(faqem_simplify(&bad, NULL, &result, &error) == FAQEM_ERROR_INPUT);
     CHECK(strstr(error.message, "face 6") != NULL);
 
@@ -212,7 +212,7 @@ static void bad_arrays_are_named(void) {
     CHECK(result == NULL);
 }
 
-static void nothing_gives_nothing(void) {
+static void empty_meshes_and_null_arguments_are_accepted(void) {
     faqem_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
     faqem_result* result = NULL;
@@ -231,12 +231,12 @@ static void nothing_gives_nothing(void) {
 }
 
 void test_simplify(void) {
-    a_flat_square_stays_one(flat_grid(20));
-    a_flat_square_stays_one(flat_grid_of_doubles(20));
-    arrays_may_lie_anyhow();
-    indices_of_16_bits_are_read_where_they_are();
+    a_flat_square_is_preserved(flat_grid(20));
+    a_flat_square_is_preserved(flat_grid_of_doubles(20));
+    arrays_may_have_any_stride_and_step();
+    indices_may_have_16_bits();
     groups_locks_and_weights_are_used();
     the_distance_is_reported();
-    bad_arrays_are_named();
-    nothing_gives_nothing();
+    invalid_arrays_are_rejected_by_name();
+    empty_meshes_and_null_arguments_are_accepted();
 }

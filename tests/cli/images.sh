@@ -1,6 +1,7 @@
 #!/bin/sh
-# The command, and the C door, start without OpenImageIO and its 250 libraries; the command loads them for images, and
-# says so where it cannot. Usage: images.sh READELF TOOL WORK [LIBRARY]
+# Checks that the command and the C library are not linked to OpenImageIO and its 250 libraries, that the
+# command loads them when it reads or writes images, and that it reports an error if it cannot.
+# Usage: images.sh READELF TOOL WORK [LIBRARY]
 set -eu
 readelf=$1 tool=$2 work=$3
 for program in "$tool" ${4:+"$4"}; do
@@ -16,9 +17,9 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >"$work/square.o
 "$work/alone" simplify "$work/square.obj" "$work/geometry.glb" --ratio 1 --bake none --quiet
 images="--ratio 1 --normal-map on --texture-size 64 --quiet"
 "$tool" simplify "$work/square.obj" "$work/textured.glb" $images
-if "$work/alone" simplify "$work/square.obj" "$work/none.glb" $images 2>"$work/said"; then
-    echo "a command without its module has written an image"
+if "$work/alone" simplify "$work/square.obj" "$work/none.glb" $images 2>"$work/errors"; then
+    echo "the command has written an image without its image plugin"
     exit 1
 fi
-grep -q 'cannot read or write images: .*/faqem/faqem-images.so: cannot open' "$work/said"
+grep -q 'cannot load the image plugin: .*/faqem/faqem-images.so: cannot open' "$work/errors"
 [ ! -e "$work/none.glb" ]

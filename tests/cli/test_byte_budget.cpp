@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A sheet whose image does not compress.
+// A sheet whose image is noise, which does not compress.
 faqem::Asset noisy_sheet(faqem::Index n) {
     faqem::Asset asset = sheet(n, 0.2);
     faqem::Pixels pixels{256, 256, {}, false};
@@ -35,7 +35,7 @@ std::string warnings(const Folder& folder) { return Json::parse(read(folder / "r
 
 }  // namespace
 
-TEST_CASE("what fits a byte budget is left as it was asked for") {
+TEST_CASE("simplify --max-bytes does not change a result that fits") {
     const Folder folder;
     faqem::save(sheet(20), folder / "in.glb");
     REQUIRE(run(folder, "simplify in.glb a.glb --ratio 0.5").code == 0);
@@ -44,7 +44,7 @@ TEST_CASE("what fits a byte budget is left as it was asked for") {
     CHECK(warnings(folder).find("--max-bytes") == std::string::npos);
 }
 
-TEST_CASE("a byte budget is shared between faces and images, and the report says what was given up") {
+TEST_CASE("simplify --max-bytes reduces faces and images and adds a warning to the report") {
     const Folder folder;
     faqem::save(noisy_sheet(60), folder / "in.glb");
     REQUIRE(run(folder, "simplify in.glb full.glb --ratio 0.9").code == 0);
@@ -54,7 +54,7 @@ TEST_CASE("a byte budget is shared between faces and images, and the report says
     REQUIRE(outcome.code == 0);
     CHECK(fs::file_size(folder / "out.glb") <= 60000);
     CHECK(fs::file_size(folder / "out.glb") > 15000);
-    CHECK(warnings(folder).find("made smaller for --max-bytes") != std::string::npos);
+    CHECK(warnings(folder).find("reduced to fit --max-bytes") != std::string::npos);
     const faqem::Asset out = faqem::load(folder / "out.glb");
     REQUIRE(out.images.size() == 1);
     CHECK(out.images[0].mime_type == "image/jpeg");
@@ -66,7 +66,7 @@ TEST_CASE("a byte budget is shared between faces and images, and the report says
     CHECK(size.images == out.images[0].encoded.size());
 }
 
-TEST_CASE("an encoding that was asked for stays under a byte budget") {
+TEST_CASE("simplify --max-bytes keeps an image format that was specified") {
     const Folder folder;
     faqem::save(noisy_sheet(20), folder / "in.glb");
     const std::string command = "simplify in.glb out.glb --ratio 0.5 --max-bytes 80000 --image-format png";
@@ -75,7 +75,7 @@ TEST_CASE("an encoding that was asked for stays under a byte budget") {
     CHECK(faqem::load(folder / "out.glb").images[0].mime_type == "image/png");
 }
 
-TEST_CASE("without images a byte budget takes faces alone") {
+TEST_CASE("simplify --max-bytes reduces only faces if there are no images") {
     const Folder folder;
     faqem::save(sheet(60, 0.2), folder / "in.ply");
     REQUIRE(run(folder, "simplify in.ply out.ply --bake none --ratio 1 --max-bytes 20KB").code == 0);
@@ -84,7 +84,7 @@ TEST_CASE("without images a byte budget takes faces alone") {
     CHECK(bytes > 15000);
 }
 
-TEST_CASE("a byte budget counts all files of a model") {
+TEST_CASE("simplify --max-bytes counts all files of a model") {
     const Folder folder;
     faqem::save(noisy_sheet(30), folder / "in.glb");
     for (const std::string name : {"out.gltf", "out.obj"}) {
@@ -95,12 +95,12 @@ TEST_CASE("a byte budget counts all files of a model") {
     }
 }
 
-TEST_CASE("a byte budget that nothing fits is an error of its own, and no model is written") {
+TEST_CASE("simplify --max-bytes exits with 10 and writes no model if no result fits") {
     const Folder folder;
     faqem::save(sheet(20), folder / "in.glb");
     const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 200");
     CHECK(outcome.code == 10);
-    CHECK(outcome.err.find("200 allowed") != std::string::npos);
+    CHECK(outcome.err.find("--max-bytes allows 200") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out.glb"));
     CHECK(run(folder, "simplify in.glb out.glb --max-bytes 0").code == 2);
     CHECK(run(folder, "simplify in.glb out.glb --max-bytes 1MB --max-error 1%").code == 2);

@@ -8,9 +8,9 @@
 using namespace faqem::cli;
 using namespace tool_test;
 
-TEST_CASE("the machine has memory") { CHECK(machine_memory() > 100'000'000); }
+TEST_CASE("machine_memory returns a plausible size") { CHECK(machine_memory() > 100'000'000); }
 
-TEST_CASE("the least limit of all groups above counts, in both versions of control groups") {
+TEST_CASE("cgroup_memory_limit returns the minimum limit of a control group and its ancestors") {
     const Folder folder;
     const auto group = [&](const std::string& text) {
         write(folder / "membership", text);

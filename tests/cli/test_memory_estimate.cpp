@@ -11,7 +11,7 @@ using namespace faqem::cli;
 using namespace tool_test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("the peak of a model grows with its faces, what is kept of it, its images and the page") {
+TEST_CASE("the memory estimate of a model grows with faces, preserved attributes, images and texture size") {
     faqem::Options options;
     options.bake.kind = faqem::Bake::none;
     const faqem::Asset small = sheet(20);
@@ -29,38 +29,38 @@ TEST_CASE("the peak of a model grows with its faces, what is kept of it, its ima
     other = options;
     other.bake.kind = faqem::Bake::keep;
     CHECK(more(small, other) >= 3 * 800 * 2 * sizeof(float));
-    // The image that is decoded has 64 x 32 pixels.
+    // The decoded image has 64 x 32 pixels.
     other.bake.kind = faqem::Bake::vertex;
     CHECK(more(small, other) >= 64 * 32 * 4);
     other.bake.kind = faqem::Bake::atlas;
     CHECK(more(small, other) >= 2048.0 * 2048 * 16);
-    // What will be refused takes nothing.
+    // Images that will be rejected are not counted.
     faqem::Asset claims = small;
     for (std::size_t i = 16; i < 24; ++i) claims.images[0].encoded[i] = 0xFF;
     other.bake.kind = faqem::Bake::vertex;
     CHECK(estimated_peak_memory(claims, other) < std::uint64_t{1} << 40);
 }
 
-TEST_CASE("too much memory is an error with the file and both numbers") {
+TEST_CASE("require_memory reports the file, the estimate and the limit") {
     CHECK_NOTHROW(require_memory("a.glb", 100, 100));
     CHECK_THROWS_WITH(require_memory("a.glb", 3'000'001, 2'000'000),
-                      "a.glb: may take 4 MB of memory, 2 MB are allowed (--max-memory)");
+                      "a.glb: may need 4 MB of memory, but only 2 MB are allowed (--max-memory)");
     CHECK_THROWS_AS(require_memory("a.glb", 101, 100), MemoryError);
     CHECK(exit_code_of(MemoryError("")) == exit_no_memory);
     CHECK(exit_code_of(std::bad_alloc()) == exit_no_memory);
 }
 
-TEST_CASE("files that are large are refused before they are read, and what is no file is not opened") {
+TEST_CASE("files that exceed the memory limit are rejected before they are read and pipes are not opened") {
     const Folder folder;
     std::uint64_t before = estimated_loading_memory(folder / "none.glb");
     write(folder / "a.glb", "not a model");
-    fs::resize_file(folder / "a.glb", std::uint64_t{1} << 40);  // a hole
+    fs::resize_file(folder / "a.glb", std::uint64_t{1} << 40);  // a sparse file
     CHECK(estimated_loading_memory(folder / "a.glb") >= before + (std::uint64_t{1} << 40));
     const Outcome outcome = run(folder, "simplify a.glb out.glb --max-memory 1TB");
     CHECK(outcome.code == exit_no_memory);
-    CHECK_THAT(outcome.err, Contains("faqem: a.glb: may take ") && Contains("(--max-memory)"));
+    CHECK_THAT(outcome.err, Contains("faqem: a.glb: may need ") && Contains("(--max-memory)"));
     CHECK_FALSE(fs::exists(folder / "out.glb"));
-    // Of a glTF the buffers count.
+    // The buffers of a .gltf file are counted, too.
     write(folder / "a.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":1}]})");
     write(folder / "a.bin", "");
     fs::resize_file(folder / "a.bin", std::uint64_t{1} << 40);
@@ -72,7 +72,7 @@ TEST_CASE("files that are large are refused before they are read, and what is no
 
 #ifndef FAQEM_SANITIZED
 
-TEST_CASE("a run stays below the peak that was predicted, and the prediction is no more than thrice that") {
+TEST_CASE("the estimated peak memory is between one and three times the measured peak") {
     const Folder folder;
     faqem::save(sheet(150), folder / "in.glb");  // 45,000 faces
     for (const std::string options :
@@ -87,7 +87,7 @@ TEST_CASE("a run stays below the peak that was predicted, and the prediction is 
         const auto peak = report["peak_rss_bytes"].get<std::uint64_t>();
         const Outcome refused = simplify(" --max-memory " + std::to_string(peak));
         CHECK(refused.code == exit_no_memory);
-        CHECK_THAT(refused.err, Contains("faqem: in.glb: may take "));
+        CHECK_THAT(refused.err, Contains("faqem: in.glb: may need "));
         CHECK(simplify(" --max-memory " + std::to_string(3 * peak)).code == 0);
     }
 }

@@ -39,7 +39,7 @@ for model in "$work"/*.glb; do
             if [ -x "$other" ] && [ "$other" != "$tool" ]; then compare "$other" 3 "preset $preset"; fi
         done
     done
-    echo "$(basename "$model"): $same of $runs so far"
+    echo "$(basename "$model"): $same of $runs outputs so far are identical"
 done
-echo "$same of $runs outputs are the same"
+echo "$same of $runs outputs are identical"
 [ "$same" -eq "$runs" ]

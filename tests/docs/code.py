@@ -1,7 +1,7 @@
-"""Makes a source file of the code blocks of a page. Usage: code.py PAGE LANGUAGE OUT PREAMBLE
+"""Generates a source file from the code blocks of a page. Usage: code.py PAGE LANGUAGE OUT PREAMBLE
 
-Each block that defines no function becomes one. `= ...;` stands for what is the reader's own, and so do the names that
-the preamble declares. Lines keep their numbers, so that the compiler speaks of the page.
+A block that defines no function becomes the body of a function. `= ...;` is replaced by a declaration without
+initializer; other data of the reader is declared in the preamble. #line directives make the compiler refer to the page.
 """
 import pathlib
 import re

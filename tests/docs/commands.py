@@ -1,6 +1,6 @@
-"""Runs every `faqem` command of the pages as it is printed. Usage: commands.py TOOL MODEL.glb WORK
+"""Runs all `faqem` commands in the pages as they are printed. Usage: commands.py TOOL MODEL.glb WORK
 
-Each block runs in a folder of its own, which has a small model under every name that the pages begin with.
+Each block is run in a new directory, which contains a small model under each input file name that the pages use.
 """
 import os
 import pathlib
@@ -23,7 +23,7 @@ def run(command, folder, environment):
 
 
 def make_seeds(tool, model, folder):
-    """A model of a few hundred faces, in all formats and under all names, the histories of some, and a profile."""
+    """Writes a model of a few hundred faces under all names, histories of some of them, and a profile."""
     small = ["--ratio", "0.1", "--texture-size", "64", "--quiet"]
     for name in MODELS:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -38,7 +38,7 @@ def make_seeds(tool, model, folder):
 
 
 def commands(lines):
-    """The commands that call faqem, those that go on over several lines joined."""
+    """Yields the commands that call faqem. Continuation lines are joined."""
     text = "\n".join(lines).replace("\\\n", " ")
     for line in text.splitlines():
         if re.match(r"(source <\()?(\S*/)?faqem\s", line):
@@ -60,18 +60,18 @@ def main():
             folder = work / f"{page.stem}-{first}"
             shutil.copytree(seeds, folder)
             (folder / ".zfunc").mkdir()
-            for place in ["bin", "build/release/bin", "faqem/bin"]:
-                (folder / place).mkdir(parents=True)
-                (folder / place / "faqem").symlink_to(tool)
+            for directory in ["bin", "build/release/bin", "faqem/bin"]:
+                (folder / directory).mkdir(parents=True)
+                (folder / directory / "faqem").symlink_to(tool)
             environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "HOME": str(folder)}
             for command in printed:
                 count += 1
-                for made in re.findall(r"--history (\S+)", command):  # not begun with, but made
-                    (folder / made).unlink(missing_ok=True)
+                for output in re.findall(r"--history (\S+)", command):  # an output of this command must not exist
+                    (folder / output).unlink(missing_ok=True)
                 code, output = run(command, folder, environment)
                 if code != 0:
                     failures += 1
-                    print(f"{page}:{first}: {command}\nends with {code}: {output}")
+                    print(f"{page}:{first}: {command}\nexit code {code}: {output}")
     print(f"{count} commands, {failures} failed")
     sys.exit(failures > 0 or count == 0)
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The diagrams are what the script beside them draws. Usage: diagrams.sh PYTHON DIAGRAMS OUT
+# Checks that the diagrams are identical to the output of draw.py. Usage: diagrams.sh PYTHON DIAGRAMS OUT
 set -eu
 python=$1 diagrams=$2 out=$3
 rm -rf "$out"

@@ -1,4 +1,4 @@
-"""The project of docs/getting-started.md is built as printed against an installed faqem, and runs.
+"""Builds the project of docs/getting-started.md as printed, with an installed faqem, runs it and checks its output.
 Usage: first_project.py CMAKE COMPILER PREFIX WORK [FLAGS]"""
 import pathlib
 import re
@@ -10,10 +10,10 @@ import pages
 
 
 def block(page, language, mark):
-    """The one block of a language that has the mark."""
+    """Returns the only block of a language that contains the text `mark`."""
     found = ["\n".join(lines) for _, lines in pages.blocks(page, language) if mark in "\n".join(lines)]
     if len(found) != 1:
-        raise SystemExit(f"{page}: {len(found)} blocks of {language} have '{mark}'")
+        raise SystemExit(f"{page}: expected one block of {language} with '{mark}', found {len(found)}")
     return found[0] + "\n"
 
 

@@ -1,4 +1,4 @@
-"""No link between the pages is broken: the file is there, and in a page the heading. Usage: links.py"""
+"""Checks that the files and headings to which the pages link exist. Usage: links.py"""
 import re
 import sys
 
@@ -6,7 +6,7 @@ import pages
 
 
 def headings(page):
-    """The names that headings have in links."""
+    """Returns the anchors of the headings of a page, as GitHub generates them."""
     names = set()
     inside = False
     for line in page.read_text(encoding="utf-8").splitlines():
@@ -21,17 +21,17 @@ def headings(page):
 
 
 def problem(page, target):
-    """Why a link leads nowhere, or None."""
+    """Returns the reason why a link is invalid, or None."""
     if re.match(r"[a-z]+:", target):
         return None
     path, _, heading = target.partition("#")
     file = (page.parent / path).resolve() if path else page
     if not file.exists():
-        return "there is no such file"
+        return "the file does not exist"
     if not file.is_relative_to(pages.SOURCE):
-        return "it leads out of the sources"
+        return "the file is outside the repository"
     if heading and file.suffix == ".md" and heading not in headings(file):
-        return "there is no such heading"
+        return "the heading does not exist"
     return None
 
 
@@ -44,5 +44,5 @@ for page in pages.PAGES:
             if why:
                 problems += 1
                 print(f"{page}:{number}: {target[0] or target[1]}: {why}")
-print(f"{links} links on {len(pages.PAGES)} pages, {problems} lead nowhere")
+print(f"{links} links on {len(pages.PAGES)} pages, {problems} are invalid")
 sys.exit(problems > 0 or links == 0)

@@ -1,16 +1,16 @@
-"""docs/cli.md has every option of the tool, and no other. Usage: options.py TOOL"""
+"""Checks that docs/cli.md lists exactly the options of the command. Usage: options.py TOOL"""
 import re
 import subprocess
 import sys
 
 import pages
 
-# What a section leaves to another one in words.
+# Sections that refer to the options of simplify instead of listing them.
 SAME_AS_SIMPLIFY = {"lod", "batch", "truncate"}
 
 
 def options_of_tool(tool):
-    """Command -> its options, as the manual page has them."""
+    """Returns command -> options, from the manual page."""
     manual = subprocess.run([tool, "man"], check=True, capture_output=True, text=True).stdout.replace("\\-", "-")
     commands = {}
     for section in re.split(r"^\.SS ", manual.split(".SH EXIT STATUS")[0], flags=re.M)[1:]:
@@ -20,7 +20,7 @@ def options_of_tool(tool):
 
 
 def options_of_page(page):
-    """Command -> options in the first column of the tables below its heading."""
+    """Returns command -> options in the first column of the tables below its heading."""
     commands, name = {}, None
     for line in page.read_text(encoding="utf-8").splitlines():
         heading = re.match(r"## (?:faqem (\w+))?", line)
@@ -35,10 +35,10 @@ def options_of_page(page):
 
 tool, page = options_of_tool(sys.argv[1]), options_of_page(pages.SOURCE / "docs" / "cli.md")
 problems = []
-for command, there in tool.items():
-    told = page.get(command, set())
-    known = told | page["simplify"] if command in SAME_AS_SIMPLIFY else told
-    problems += [f"faqem {command} has {option}, which docs/cli.md does not tell" for option in there - known]
-    problems += [f"docs/cli.md tells of faqem {command} {option}, which there is not" for option in told - there]
+for command, existing in tool.items():
+    listed = page.get(command, set())
+    documented = listed | page["simplify"] if command in SAME_AS_SIMPLIFY else listed
+    problems += [f"faqem {command}: {option} is missing in docs/cli.md" for option in existing - documented]
+    problems += [f"faqem {command}: {option} in docs/cli.md does not exist" for option in listed - existing]
 print("\n".join(sorted(problems)) or f"{sum(map(len, tool.values()))} options of {len(tool)} commands")
 sys.exit(bool(problems))

@@ -1,4 +1,4 @@
-"""The pages of the documentation, and what is in them."""
+"""Finds the pages of the documentation and parses their code blocks."""
 import pathlib
 import re
 
@@ -7,7 +7,7 @@ PAGES = sorted(SOURCE.glob("*.md")) + sorted(SOURCE.glob("docs/*.md")) + sorted(
 
 
 def blocks(page, language):
-    """Yields (number of the first line inside, list of lines) of each fenced block of a language."""
+    """Yields (number of the first line inside, list of lines) for each fenced code block of a language."""
     inside = None
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         if inside is None:
@@ -21,11 +21,11 @@ def blocks(page, language):
         else:
             inside[2].append(line)
     if inside is not None:
-        raise SystemExit(f"{page}:{inside[1] - 1}: this block does not end")
+        raise SystemExit(f"{page}:{inside[1] - 1}: the code block is not closed")
 
 
 def without_blocks(page):
-    """The lines of a page; those inside fenced blocks are empty, and so is what is in `backticks`."""
+    """Yields the lines of a page. Fenced code blocks and the content of `backticks` are replaced by empty text."""
     inside = False
     for line in page.read_text(encoding="utf-8").splitlines():
         fence = re.match(r"\s*```", line)

@@ -1,4 +1,4 @@
-/* What code blocks take for granted: the reader's own data. */
+/* Declarations of the reader's data that code blocks use. */
 #include <faqem/faqem_asset.h>
 #include <faqem/faqem_levels.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What code blocks take for granted: the reader's own data.
+/// Declarations of the reader's data and functions that code blocks use.
 
 #include <faqem/faqem.hpp>
 #include <iostream>
@@ -12,6 +12,6 @@ inline std::vector<float> weights;
 inline faqem::Asset source;
 inline faqem::Options options;
 
-/// Whatever the reader does with it.
+/// Stands for code of the reader that uses results.
 template <class... Results>
 void use(const Results&...) {}

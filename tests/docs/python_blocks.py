@@ -1,4 +1,4 @@
-"""Every Python block of the pages can be compiled. Usage: python_blocks.py"""
+"""Compiles all Python blocks of the pages. Usage: python_blocks.py"""
 import sys
 
 import pages
@@ -8,5 +8,5 @@ for page in pages.PAGES:
     for first, lines in pages.blocks(page, "python"):
         compile("\n" * (first - 1) + "\n".join(lines), str(page), "exec")
         count += 1
-print(f"{count} blocks")
+print(f"{count} blocks compiled")
 sys.exit(count == 0)

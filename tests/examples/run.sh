@@ -1,5 +1,6 @@
 #!/bin/sh
-# Runs a program that must end with 0 and print a line that matches. Usage: run.sh PATTERN PROGRAM ARGUMENT...
+# Runs a program and checks that it exits with 0 and prints a line that matches PATTERN.
+# Usage: run.sh PATTERN PROGRAM ARGUMENT...
 set -eu
 pattern=$1
 shift

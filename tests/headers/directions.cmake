@@ -1,5 +1,5 @@
-# Arrows point one way: doors -> engine -> terms -> quadric. Fails on an include against the arrow.
-# An engine header may include those of a lower rank; a door may not include the engine at all.
+# Checks the order of dependencies: public headers -> engine -> terms -> quadric. An engine header may include
+# only engine headers of at most its own rank; other public headers must not include the engine.
 cmake_minimum_required(VERSION 3.22)
 
 set(ranks "vector=0;poll=0;lists=0;quadric=1;distance=1;scrambled=1;disjoint_sets=1;complex=1;weld=1;queue=1;bucket_queue=2;round_queue=3;pairs=2;folds=2;duplicate_faces=2;boundary_edges=3;original=4;bindings=4;border_loops=4;border_bindings=4;terms=3;placement=3;degenerate=3;components=3;legality=4"
@@ -9,7 +9,7 @@ foreach(entry IN LISTS ranks)
     list(GET entry 0 name)
     list(GET entry 1 rank_${name})
 endforeach()
-# What the engine may know of the doors: plain data.
+# Public headers that the engine may include, because they contain only plain data.
 set(plain mesh options report history progress error)
 
 set(problems "")
@@ -24,11 +24,11 @@ foreach(header IN LISTS engine_headers)
     foreach(line IN LISTS includes)
         if(line MATCHES "faqem/engine/([a-z_]+)\\.hpp")
             if(NOT rank_${CMAKE_MATCH_1} LESS rank_${name} AND NOT rank_${CMAKE_MATCH_1} EQUAL rank_${name})
-                string(APPEND problems "engine/${name}.hpp includes ${CMAKE_MATCH_1}.hpp, which is above it\n")
+                string(APPEND problems "engine/${name}.hpp includes ${CMAKE_MATCH_1}.hpp, which has a higher rank\n")
             endif()
         elseif(line MATCHES "faqem/([a-z_]+)\\.hpp")
             if(NOT CMAKE_MATCH_1 IN_LIST plain)
-                string(APPEND problems "engine/${name}.hpp includes the door ${CMAKE_MATCH_1}.hpp\n")
+                string(APPEND problems "engine/${name}.hpp includes the public header ${CMAKE_MATCH_1}.hpp\n")
             endif()
         elseif(line MATCHES "OpenMesh|tiny_gltf|OpenImageIO|nlohmann|nanoflann|CLI")
             string(APPEND problems "engine/${name}.hpp: ${line}\n")

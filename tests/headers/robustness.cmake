@@ -1,4 +1,5 @@
-# Every test that docs/robustness.md names must be there. A name that ends in ` ...` is the beginning of one.
+# Checks that all tests quoted in docs/robustness.md exist. A quoted name that ends in ` ...` is a prefix of a
+# name.
 cmake_minimum_required(VERSION 3.22)
 
 set(tests "")
@@ -19,10 +20,10 @@ foreach(row IN LISTS rows)
         string(REGEX REPLACE " \\.\\.\\.\"$" "" beginning "${name}")
         string(FIND "${tests}" "TEST_CASE(${beginning}" place)
         if(place EQUAL -1)
-            string(APPEND problems "no test is named ${name}\n")
+            string(APPEND problems "no test has the name ${name}\n")
         endif()
     endforeach()
 endforeach()
 if(problems OR count LESS 50)
-    message(FATAL_ERROR "${count} names in docs/robustness.md\n${problems}")
+    message(FATAL_ERROR "${count} test names in docs/robustness.md (expected at least 50)\n${problems}")
 endif()

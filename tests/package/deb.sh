@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the Debian packages, unpacks them as one system, and uses the command and the libraries from there.
+# Builds the Debian packages, extracts all of them into one directory, and uses the command and the libraries
+# from there.
 # Usage: deb.sh CPACK BUILD WORK CONSUMERS CXX CC
 set -eu
 cpack=$1 build=$2 work=$3 consumers=$4 cxx=$5 cc=$6
@@ -16,7 +17,7 @@ done
 for deb in "$work"/packages/*.deb; do
     dpkg-deb --contents "$deb" >"$work/contents"
     if grep -vE ' \./(usr/.*)?$| \./usr/' "$work/contents" >"$work/outside"; then
-        echo "$deb: outside of /usr:"
+        echo "$deb: files outside /usr:"
         cat "$work/outside"
         exit 1
     fi
@@ -25,7 +26,7 @@ done
 dpkg-deb --field "$work"/packages/libfaqem0*.deb Depends | grep -q libopenimageio
 dpkg-deb --field "$work"/packages/libfaqem-dev_*.deb Depends | grep -q libfaqem0
 
-# pkg-config first, the command on the way: nothing of the build is left but the compiler.
+# Builds programs with pkg-config, then runs the command. Nothing from the build directory is used.
 PKG_CONFIG_PATH=$(dirname "$(find "$work/root" -name faqem.pc)")
 LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH")
 export PKG_CONFIG_PATH LD_LIBRARY_PATH

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Configures a project that has faqem's sources inside, and compiles a file of it.
+# Configures a project that contains faqem's sources, compiles one of its files, and checks that nothing is
+# installed.
 # Usage: embed.sh CMAKE SOURCE WORK HOW CXX
 set -eu
 cmake=$1 source=$2 work=$3 how=$4 cxx=$5
@@ -9,6 +10,6 @@ rm -rf "$work"
 "$cmake" --build "$work" --target CMakeFiles/embedding.dir/embedding.cpp.o
 "$cmake" --install "$work" --prefix "$work/installed"
 if [ -e "$work/installed" ]; then
-    echo "faqem is installed with a project that did not ask for it"
+    echo "faqem was installed with the project that contains it, although FAQEM_INSTALL is off"
     exit 1
 fi

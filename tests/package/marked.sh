@@ -1,8 +1,9 @@
 #!/bin/sh
-# What one library or program takes from another is marked for it: a shared build shows nothing else. Here that is
-# seen without one.
-# The tool's own texts are a library of its own, which is never shared.
-# Usage: marked.sh NM SOURCE FILE..., an archive or objects with commas between them each
+# Checks that all symbols that one library or program uses from another are marked with FAQEM_EXPORT, because
+# shared libraries export only these. This script checks a static build. Symbols of faqem::cli and
+# faqem::render are ignored:
+# their libraries are always static.
+# Usage: marked.sh NM SOURCE FILE... Each FILE is an archive or a comma-separated list of object files.
 set -eu
 nm=$1 source=$2
 shift 2
@@ -16,12 +17,12 @@ for files in "$@"; do
         grep -v '^faqem::\(cli\|render\)::')
     names=$(printf '%s\n' "$needed" | sed -nE 's/^((typeinfo|vtable)( name)? for )?faqem::([a-z_]+::)?([A-Za-z_0-9]+).*/\5/p' |
         sort -u)
-    [ -n "$names" ] || { echo "$files: takes nothing from the others?"; exit 1; }
+    [ -n "$names" ] || { echo "$files: no symbols of other libraries found"; exit 1; }
     for name in $names; do
         if ! printf '%s\n' "$marked" | grep -qE "FAQEM_EXPORT.*\\b$name\\b"; then
-            echo "$name is not marked with FAQEM_EXPORT, and is called from another library: $files" | cut -c 1-300
+            echo "$name is used by another library, but not marked with FAQEM_EXPORT: $files" | cut -c 1-300
             exit 1
         fi
     done
-    echo "$(printf '%s\n' "$names" | wc -l) names are marked"
+    echo "$(printf '%s\n' "$names" | wc -l) symbols are marked"
 done

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Builds and runs the consumers of arrays with pkg-config alone, and looks at which headers they reach.
+# Builds and runs the array examples with pkg-config alone, and checks that they include no headers of other
+# libraries.
 # Usage: pkg_config.sh PREFIX CONSUMERS CXX CC [FLAG...]
 set -eu
 prefix=$1 consumers=$2 cxx=$3 cc=$4
@@ -19,6 +20,6 @@ pkg-config --exact-version="$("$prefix/bin/faqem" --version | sed 's/^faqem //')
 "$cxx" -std=c++20 -M "$consumers/arrays.cpp" $(pkg-config --cflags faqem) | tr ' ' '\n' >"$work/headers"
 grep -q faqem/simplify.hpp "$work/headers"
 if grep -E 'OpenMesh|Eigen|OpenImageIO|tiny_gltf|nlohmann|nanoflann|CLI|faqem/engine' "$work/headers"; then
-    echo "these headers are reached from faqem/simplify.hpp"
+    echo "faqem/simplify.hpp includes these headers of other libraries or of the engine"
     exit 1
 fi

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Builds the wheel, installs it into a fresh environment that sees numpy and nothing of this folder, and tests it there.
+# Builds the wheel, installs it into a new virtual environment with access to the system's numpy, and runs the
+# tests there, outside the source tree.
 # Usage: run.sh LIBRARY VERSION
 set -eu
 library=$1 version=$2

@@ -1,4 +1,4 @@
-"""faqem.simplify: numpy arrays in and out."""
+"""Tests of faqem.simplify with numpy arrays."""
 
 import ctypes
 import os
@@ -11,7 +11,7 @@ from numpy.testing import assert_array_equal
 
 
 def flat_grid(n, dtype=numpy.float64):
-    """(n + 1)^2 vertices and 2 n^2 triangles over [0, n]^2."""
+    """Returns a grid of (n + 1)^2 vertices and 2 n^2 triangles over [0, n]^2."""
     x, y = numpy.meshgrid(numpy.arange(n + 1), numpy.arange(n + 1), indexing="ij")
     vertices = numpy.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1).astype(dtype)
     a = (numpy.arange(n)[:, None] * (n + 1) + numpy.arange(n)).ravel()
@@ -26,11 +26,11 @@ def area(vertices, triangles):
 
 
 class Arrays(unittest.TestCase):
-    def test_the_installed_module_is_tested(self):
+    def test_the_installed_module_is_imported(self):
         self.assertTrue(faqem.__file__.startswith(os.environ["FAQEM_ENVIRONMENT"]))
         self.assertEqual(faqem.__version__, os.environ["FAQEM_EXPECTED_VERSION"])
 
-    def test_a_flat_square_stays_one_whatever_the_types(self):
+    def test_a_flat_square_is_preserved_for_all_array_types(self):
         expected = None
         for kind in (numpy.float32, numpy.float64, numpy.int32):
             for index in (numpy.uint32, numpy.int64, numpy.uint16):
@@ -45,7 +45,7 @@ class Arrays(unittest.TestCase):
                 assert_array_equal(out.vertices, expected.vertices)
                 assert_array_equal(out.triangles, expected.triangles)
 
-    def test_views_and_lists_are_taken_too(self):
+    def test_views_and_lists_are_accepted(self):
         vertices, triangles = flat_grid(10)
         out = faqem.simplify(vertices, triangles, faces=40)
         for v, t in [
@@ -60,7 +60,7 @@ class Arrays(unittest.TestCase):
             assert_array_equal(again.vertices, out.vertices)
             assert_array_equal(again.triangles, out.triangles)
 
-    def test_what_has_the_right_type_is_not_copied(self):
+    def test_arrays_of_supported_types_are_not_copied(self):
         vertices, triangles = flat_grid(10)
         wide = numpy.concatenate([vertices, vertices], axis=1)
         corners = numpy.asfortranarray(triangles, numpy.uint32)
@@ -76,11 +76,11 @@ class Arrays(unittest.TestCase):
         self.assertEqual((mesh.triangle_stride, mesh.triangle_step), (6, 2))
         self.assertFalse(mesh.triangles)
 
-    def test_origins_lead_back(self):
+    def test_origins_refer_to_the_input(self):
         vertices, triangles = flat_grid(8)
         groups = numpy.arange(len(triangles)) % 2
         locks = numpy.zeros(len(vertices), dtype=bool)
-        locks[40] = True  # the middle
+        locks[40] = True  # the centre
         weights = numpy.ones(len(vertices))
         out = faqem.simplify(vertices, triangles, groups=groups, locks=locks, weights=weights, faces=60)
         assert_array_equal(out.groups, groups[out.face_origin])
@@ -88,7 +88,7 @@ class Arrays(unittest.TestCase):
         kept = out.vertices[list(out.vertex_origin).index(40)]
         assert_array_equal(kept, vertices[40])
 
-    def test_a_distance_can_be_asked_for(self):
+    def test_max_error_is_a_percentage_or_a_distance(self):
         vertices, triangles = flat_grid(12)
         out = faqem.simplify(vertices, triangles, max_error="0.1%")
         self.assertTrue(out.report["max_error"]["within"])
@@ -96,22 +96,22 @@ class Arrays(unittest.TestCase):
         out = faqem.simplify(vertices, triangles, max_error=0.25)
         self.assertEqual(out.report["max_error"]["allowed"], 0.25)
 
-    def test_every_option_is_taken(self):
+    def test_every_option_is_accepted(self):
         vertices, triangles = flat_grid(10)
         for preset in ("qem", "paper", "stmw", "fast", "balanced", "best"):
             out = faqem.simplify(vertices, triangles, preset=preset, threads=1)
             self.assertEqual(out.report["preset"], preset)
         out = faqem.simplify(vertices, triangles, link="strict", boundary="kept", group_boundaries="kept",
                              weld_distance=1e-9, virtual_edges=0.01, prune="1%")
-        self.assertEqual(len(out.triangles), 38)  # the boundary's 40 corners and nothing else
+        self.assertEqual(len(out.triangles), 38)  # a triangulation of the polygon with the 40 boundary vertices
 
-    def test_nothing_gives_nothing(self):
+    def test_empty_arrays_give_empty_results(self):
         for empty in (numpy.zeros((0, 3)), []):
             out = faqem.simplify(empty, empty)
             self.assertEqual(out.vertices.shape, (0, 3))
             self.assertEqual(out.triangles.shape, (0, 3))
 
-    def test_bad_options_are_named(self):
+    def test_invalid_options_are_rejected_by_name(self):
         vertices, triangles = flat_grid(4)
         for option, value in [("ratio", 0), ("ratio", float("nan")), ("faces", 0), ("faces", -1), ("faces", 2.5),
                               ("max_error", "1 percent"), ("max_error", -1), ("preset", "bestest"),
@@ -124,7 +124,7 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(TypeError):
             faqem.simplify(vertices, triangles, frobnicate=1)
 
-    def test_bad_arrays_are_named(self):
+    def test_invalid_arrays_are_rejected_by_name(self):
         vertices, triangles = flat_grid(4)
         nan = vertices.copy()
         nan[3, 1] = numpy.nan
@@ -140,12 +140,12 @@ class Arrays(unittest.TestCase):
             with self.subTest(option=option), self.assertRaisesRegex(faqem.InputError, option):
                 faqem.simplify(vertices, triangles, **{option: [1, 1]})
 
-    def test_progress_is_told_and_what_it_raises_comes_out(self):
+    def test_progress_is_called_and_its_exceptions_propagate(self):
         vertices, triangles = flat_grid(20)
-        told = []
-        faqem.simplify(vertices, triangles, progress=lambda phase, fraction: told.append((phase, fraction)))
-        self.assertTrue(told)
-        for phase, fraction in told:
+        calls = []
+        faqem.simplify(vertices, triangles, progress=lambda phase, fraction: calls.append((phase, fraction)))
+        self.assertTrue(calls)
+        for phase, fraction in calls:
             self.assertIn(phase, ("weld", "simplify"))
             self.assertTrue(0 <= fraction <= 1)
 

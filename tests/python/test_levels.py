@@ -1,4 +1,4 @@
-"""faqem.simplify_levels, histories, and the way back to the original."""
+"""Tests of faqem.simplify_levels, histories, and the map to the original."""
 
 import pathlib
 import tempfile
@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 
 def hill(n):
-    """(n + 1)^2 vertices and 2 n^2 triangles."""
+    """Returns a curved grid of (n + 1)^2 vertices and 2 n^2 triangles."""
     x, y = numpy.meshgrid(numpy.arange(n + 1.0), numpy.arange(n + 1.0), indexing="ij")
     vertices = numpy.stack([x, y, 3 * numpy.sin(x / 4) * numpy.cos(y / 5)], axis=-1).reshape(-1, 3)
     a = ((n + 1) * numpy.arange(n)[:, None] + numpy.arange(n)).reshape(-1, 1)
@@ -22,7 +22,7 @@ def points(vertices, triangles, faces, weights):
 
 
 class Levels(unittest.TestCase):
-    def test_levels_get_coarser_and_their_errors_larger(self):
+    def test_levels_have_fewer_faces_and_larger_errors(self):
         levels = faqem.simplify_levels(*hill(20), [0.5, 100, "error:5%"])
         self.assertEqual(len(levels), 3)
         self.assertLessEqual(len(levels[0].triangles), 400)
@@ -30,21 +30,21 @@ class Levels(unittest.TestCase):
         self.assertTrue(0 < levels[0].error <= levels[1].error <= levels[2].error)
         self.assertIsNone(faqem.simplify(*hill(20)).error)
 
-    def test_wrong_levels_are_refused(self):
+    def test_invalid_levels_are_rejected(self):
         for wrong in [[0.1, 0.5], ["fine"], ["error:much"], [2.5], [0], [-1], [float("nan")]]:
             with self.subTest(wrong), self.assertRaises(faqem.OptionError):
                 faqem.simplify_levels(*hill(6), wrong)
         with self.assertRaises(faqem.OptionError):
             faqem.simplify_levels(*hill(6), [0.5], ratio=0.5)
 
-    def test_progress_that_raises_leaves_nothing_behind(self):
+    def test_exceptions_of_progress_propagate(self):
         def stop(phase, fraction):
             raise KeyError(phase)
 
         with self.assertRaises(KeyError):
             faqem.simplify_levels(*hill(20), [0.5, 0.1], progress=stop)
 
-    def test_a_history_gives_every_level_again_also_from_a_file(self):
+    def test_a_saved_history_reproduces_every_level(self):
         levels = faqem.simplify_levels(*hill(20), [300, 50], history=True)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "hill.history"
@@ -70,7 +70,7 @@ class Levels(unittest.TestCase):
         with self.assertRaises(faqem.OptionError):
             faqem.History.of([])
 
-    def test_points_find_their_place_on_the_original(self):
+    def test_points_are_mapped_to_nearby_points_of_the_original(self):
         vertices, triangles = hill(20)
         out = faqem.simplify(vertices, triangles, ratio=0.2, history=True)
         faces = numpy.arange(len(out.triangles))
@@ -78,17 +78,17 @@ class Levels(unittest.TestCase):
         for mapping in ("projection", "closest"):
             source, there = out.map(faces, weights, mapping)
             assert_allclose(there.sum(axis=1), 1)
-            gap = points(vertices, triangles, source, there) - points(out.vertices, out.triangles, faces, weights)
-            self.assertLess(numpy.linalg.norm(gap, axis=1).max(), 1)
+            offset = points(vertices, triangles, source, there) - points(out.vertices, out.triangles, faces, weights)
+            self.assertLess(numpy.linalg.norm(offset, axis=1).max(), 1)
         for wrong in [([len(faces)], [[1, 0, 0]]), ([0], [[2, 0, 0]]), ([0, 1], [[1, 0, 0]])]:
             with self.subTest(wrong), self.assertRaises(faqem.InputError):
                 out.map(*wrong)
         with self.assertRaises(faqem.OptionError):
             faqem.simplify(vertices, triangles).map([0], [[1, 0, 0]])
         with self.assertRaises(faqem.OptionError):
-            out.map([0], [[1, 0, 0]], "by magic")
+            out.map([0], [[1, 0, 0]], "unknown")
 
-    def test_uvs_come_along(self):
+    def test_uvs_are_interpolated(self):
         vertices, triangles = hill(20)
         uvs = vertices[triangles][:, :, :2] / 20
         out = faqem.simplify(vertices, triangles, uvs=uvs, ratio=0.2)

@@ -1,4 +1,4 @@
-"""faqem.load, bake and save: models in files."""
+"""Tests of faqem.load, bake and save with model files."""
 
 import pathlib
 import tempfile
@@ -15,43 +15,43 @@ class Models(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def painted(self):
-        """A square in four colours, as OBJ with vertex colours."""
+    def coloured(self):
+        """Writes a square in four colours as OBJ with vertex colours."""
         vertices, triangles = flat_grid(12)
         lines = [f"v {x} {y} {z} {x < 6:d} {y < 6:d} 0.5" for x, y, z in vertices]
         lines += [f"f {a} {b} {c}" for a, b, c in triangles + 1]
-        file = self.folder / "painted.obj"
+        file = self.folder / "coloured.obj"
         file.write_text("\n".join(lines) + "\n")
         return file
 
-    def test_arrays_come_back_from_a_file(self):
+    def test_saved_arrays_are_equal_after_loading(self):
         vertices, triangles = flat_grid(6)
         for name in ("a.glb", "a.ply", "ä b.obj"):
             faqem.save((vertices, triangles), self.folder / name)
             (part,) = faqem.load(str(self.folder / name)).parts
-            assert_array_equal(part.vertices[part.triangles], vertices[triangles])  # OBJ: in the order of use
+            assert_array_equal(part.vertices[part.triangles], vertices[triangles])  # OBJ changes the vertex order
 
-    def test_a_model_is_baked(self):
-        source = faqem.load(self.painted())
+    def test_bake_simplifies_a_model(self):
+        source = faqem.load(self.coloured())
         self.assertIsNone(source.report)
-        light = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle", normals="flat", normal_map="off",
-                           visibility="weighted", image_format="png")
+        simplified = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle",
+                                normals="flat", normal_map="off", visibility="weighted", image_format="png")
         self.assertEqual(len(source.parts[0].triangles), 288)
-        self.assertLessEqual(len(light.parts[0].triangles), 50)
-        self.assertEqual(light.report["faces_out"], len(light.parts[0].triangles))
-        self.assertEqual(light.report["pages"][0]["width"], 64)
-        self.assertEqual(light.report["vertices_hidden"], 0)
-        faqem.save(light, self.folder / "light.glb")
-        self.assertEqual(len(faqem.load(self.folder / "light.glb").parts), 1)
+        self.assertLessEqual(len(simplified.parts[0].triangles), 50)
+        self.assertEqual(simplified.report["faces_out"], len(simplified.parts[0].triangles))
+        self.assertEqual(simplified.report["pages"][0]["width"], 64)
+        self.assertEqual(simplified.report["vertices_hidden"], 0)
+        faqem.save(simplified, self.folder / "simplified.glb")
+        self.assertEqual(len(faqem.load(self.folder / "simplified.glb").parts), 1)
 
-    def test_a_model_has_levels_with_textures_of_their_own_or_one(self):
-        source = faqem.load(self.painted())
+    def test_levels_have_separate_or_shared_textures(self):
+        source = faqem.load(self.coloured())
         self.assertIsNone(source.error)
         for textures in ("each", "shared"):
             levels = faqem.bake_levels(source, [0.5, 40], textures=textures, texture_size=64)
             self.assertEqual(len(levels), 2)
-            for level, most in zip(levels, (144, 40)):
-                self.assertLessEqual(len(level.parts[0].triangles), most)
+            for level, target in zip(levels, (144, 40)):
+                self.assertLessEqual(len(level.parts[0].triangles), target)
                 self.assertEqual(level.report["faces_in"], 288)
             self.assertGreaterEqual(levels[1].error, levels[0].error)
             self.assertEqual(bool(levels[1].report["pages"]), textures == "each")
@@ -59,26 +59,26 @@ class Models(unittest.TestCase):
             with self.assertRaises(faqem.OptionError):
                 faqem.bake_levels(source, [0.5, 40], **wrong)
 
-    def test_levels_go_into_one_file_and_histories_are_of_several_meshes(self):
-        painted = faqem.load(self.painted())
+    def test_levels_are_saved_in_one_file_and_histories_have_several_meshes(self):
+        coloured = faqem.load(self.coloured())
         chain = self.folder / "chain.glb"
-        faqem.save_levels([painted, *faqem.bake_levels(painted, [0.5], texture_size=64)], chain)
+        faqem.save_levels([coloured, *faqem.bake_levels(coloured, [0.5], texture_size=64)], chain)
         self.assertIn(b"MSFT_lod", chain.read_bytes())
         with self.assertRaises(faqem.WriteError):
-            faqem.save_levels([painted], chain)
+            faqem.save_levels([coloured], chain)
         for wrong in ({"pixel_error": 0}, {"screen_height": -1}, {"pixel_error": float("nan")}):
             with self.assertRaises(faqem.OptionError):
-                faqem.save_levels([painted], chain, overwrite=True, **wrong)
+                faqem.save_levels([coloured], chain, overwrite=True, **wrong)
 
         both = faqem.load(chain)
-        look = {"texture_size": 64}
-        levels = faqem.bake_levels(both, [200, 40], history=True, **look)
+        texture = {"texture_size": 64}
+        levels = faqem.bake_levels(both, [200, 40], history=True, **texture)
         file = self.folder / "both.history"
         faqem.History.of(levels).save(file)
         history = faqem.History.load(file)
         self.assertEqual((history.part_count, len(history)), (2, 2))
         for level, faces in zip(levels, (200, 40)):
-            cut = faqem.bake_truncated(both, history, faces, **look)
+            cut = faqem.bake_truncated(both, history, faces, **texture)
             for a, b in zip(cut.parts, level.parts):
                 assert_array_equal(a.vertices, b.vertices)
                 assert_array_equal(a.triangles, b.triangles)
@@ -88,11 +88,11 @@ class Models(unittest.TestCase):
         with self.assertRaisesRegex(faqem.OptionError, "truncate_parts"):
             history.truncate(100)
         with self.assertRaises(faqem.InputError):
-            faqem.bake_truncated(painted, history, 100)
+            faqem.bake_truncated(coloured, history, 100)
         with self.assertRaises(faqem.OptionError):
-            faqem.History.of(faqem.bake_levels(both, [200], **look))
+            faqem.History.of(faqem.bake_levels(both, [200], **texture))
 
-    def test_files_are_kept_unless_told_otherwise(self):
+    def test_files_are_overwritten_only_on_request(self):
         model = faqem.Model.from_arrays(*flat_grid(2))
         file = self.folder / "kept.glb"
         file.write_text("precious")
@@ -102,13 +102,13 @@ class Models(unittest.TestCase):
         faqem.save(model, file, overwrite=True)
         self.assertEqual(file.read_bytes()[:4], b"glTF")
 
-    def test_what_a_format_cannot_hold_is_a_warning(self):
-        model = faqem.load(self.painted())
+    def test_data_that_a_format_cannot_store_is_a_warning(self):
+        model = faqem.load(self.coloured())
         self.assertEqual(model.warnings, [])
         faqem.save(model, self.folder / "grey.stl")
         self.assertTrue(any("STL" in warning for warning in model.warnings))
 
-    def test_errors_have_their_types(self):
+    def test_errors_have_specific_types(self):
         with self.assertRaisesRegex(faqem.InputError, "missing.glb"):
             faqem.load(self.folder / "missing.glb")
         (self.folder / "a.xyz").write_text("1 2 3")

@@ -1,5 +1,6 @@
 #!/bin/sh
-# run.sh FAQEM MAKE_MODEL MODULES WORK: what the command writes is clean for Khronos' glTF validator.
+# Checks files written by the command with the Khronos glTF validator. Usage: run.sh FAQEM MAKE_MODEL MODULES
+# WORK
 set -eu
 faqem=$1 make_model=$2 modules=$3 work=$4
 here=$(cd "$(dirname "$0")" && pwd)
@@ -14,7 +15,7 @@ done
 "$faqem" simplify "$work/normal-map.glb" "$work/kept-normal-map.glb" --ratio 0.5 --bake keep --quiet
 "$faqem" simplify "$work/normal-map.glb" "$work/twice.glb" --ratio 0.5 --texture-size 256 --normals flat --quiet
 "$faqem" simplify "$work/model.glb" "$work/files.gltf" --ratio 0.2 --texture-size 256 --quiet
-# Through OBJ and back: no scene graph, materials made anew.
+# Via OBJ, so that the scene graph is lost and the materials are created by the OBJ reader.
 "$faqem" simplify "$work/model.glb" "$work/plain.obj" --ratio 0.5 --texture-size 256 --quiet
 "$faqem" simplify "$work/plain.obj" "$work/from-obj.glb" --ratio 0.5 --texture-size 256 --quiet
 node "$here/validate.js" "$modules" "$work"/*.glb "$work"/*.gltf

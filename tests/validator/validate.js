@@ -1,4 +1,4 @@
-// validate.js MODULES FILE...: fails when Khronos' validator finds an error or a warning in a file.
+// validate.js MODULES FILE...: fails if the Khronos glTF validator reports an error or a warning for a file.
 const fs = require("fs");
 const path = require("path");
 
@@ -6,11 +6,11 @@ const [modules, ...files] = process.argv.slice(2);
 const validator = require(path.join(modules, "gltf-validator"));
 
 async function problems(file) {
-    const beside = (uri) => fs.promises.readFile(path.join(path.dirname(file), decodeURIComponent(uri)));
+    const readReferenced = (uri) => fs.promises.readFile(path.join(path.dirname(file), decodeURIComponent(uri)));
     const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
         uri: path.basename(file),
         maxIssues: 20,
-        externalResourceFunction: async (uri) => new Uint8Array(await beside(uri)),
+        externalResourceFunction: async (uri) => new Uint8Array(await readReferenced(uri)),
     });
     return report.issues.messages.filter((message) => message.severity <= 1);
 }
@@ -19,7 +19,7 @@ async function problems(file) {
     let failed = files.length === 0;
     for (const file of files) {
         const found = await problems(file);
-        console.log(file, found.length ? JSON.stringify(found, null, 1) : "clean");
+        console.log(file, found.length ? JSON.stringify(found, null, 1) : "no problems");
         failed = failed || found.length > 0;
     }
     process.exit(failed ? 1 : 0);

@@ -1,14 +1,16 @@
-// Headless Chromium, spoken to through a pipe in the DevTools protocol: nothing from npm, no port.
+// Controls headless Chromium with the DevTools protocol through a pipe. Needs no npm package and no network
+// port.
 import { spawn } from 'node:child_process';
 
 const flags = [
   '--headless=new', '--remote-debugging-pipe', '--no-sandbox', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync', '--disable-quic', '--host-resolver-rules=MAP * ~NOTFOUND',
-  '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', // the same everywhere, without a GPU
+  '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', // software rendering, reproducible and without a GPU
 ];
 
-/// \param profile  folder that the browser may fill
-/// \return send(method, parameters) of a page that shows nothing yet, on(method, listener) and close()
+/// Starts the browser with an empty page.
+/// \param profile  directory for the profile of the browser
+/// \return send(method, parameters), on(method, listener) and close()
 export async function openPage(executable, profile, { width, height }) {
   const browser = spawn(executable, [...flags, `--user-data-dir=${profile}`, `--window-size=${width},${height}`], {
     stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'],
@@ -33,7 +35,7 @@ export async function openPage(executable, profile, { width, height }) {
     messages.forEach((message) => take(JSON.parse(message)));
   });
   browser.on('exit', (code) => {
-    for (const { reject } of answers.values()) reject(new Error(`the browser ended with ${code}`));
+    for (const { reject } of answers.values()) reject(new Error(`the browser exited with code ${code}`));
   });
 
   const { targetId } = await send('Target.createTarget', { url: 'about:blank' });

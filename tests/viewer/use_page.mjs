@@ -1,4 +1,4 @@
-// use_page.mjs CHROMIUM PAGE PROFILE: fails where the page does not do what its controls say.
+// use_page.mjs CHROMIUM PAGE PROFILE: tests the controls of a page of `faqem report`.
 import assert from 'node:assert/strict';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -7,7 +7,7 @@ import { openPage } from './browser.mjs';
 const [chromium, file, profile] = process.argv.slice(2);
 const size = { width: 1000, height: 1000 };
 const page = await openPage(chromium, profile, size);
-const complaints = [], fetched = [], frames = ['frame-a', 'frame-b'];
+const errors = [], fetched = [], frames = ['frame-a', 'frame-b'];
 
 async function evaluate(expression) {
   const { result, exceptionDetails } = await page.send('Runtime.evaluate',
@@ -22,11 +22,11 @@ async function until(expression, seconds) {
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
   const status = await evaluate("document.getElementById('view-status').textContent");
-  assert.fail(`never came true: ${expression}; status: ${status}`);
+  assert.fail(`timeout waiting for: ${expression}; status: ${status}`);
 }
 
-// Pictures of both frames, decoded by the browser: 8-bit RGBA without the captions at the top.
-async function look() {
+// Returns screenshots of both frames without their captions, decoded by the browser: 8-bit RGBA.
+async function takeScreenshots() {
   await evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))');
   const shots = {};
   for (const id of frames) {
@@ -47,7 +47,7 @@ async function look() {
   return shots;
 }
 
-// Share of pixels that differ by more than an antialiased trifle.
+// Share of pixels that differ by more than the noise of antialiasing.
 function difference(a, b) {
   let different = 0;
   for (let i = 0; i < a.length; i += 4) {
@@ -58,11 +58,11 @@ function difference(a, b) {
 }
 const covered = (shot) => difference(shot, shot.map((_, i) => shot[i % 4]));
 
-// Looks until it is so in both frames: a slow browser shows a picture late.
-async function becomes(what, isSo) {
+// Takes screenshots until the condition holds for both frames, because a slow browser draws with a delay.
+async function becomes(what, condition) {
   for (const end = Date.now() + 30_000; ;) {
-    const now = await look();
-    const shares = frames.map((id) => isSo(now[id], id));
+    const now = await takeScreenshots();
+    const shares = frames.map((id) => condition(now[id], id));
     if (shares.every(({ ok }) => ok)) {
       console.log(`${what}: ${shares.map(({ share }) => `${(100 * share).toFixed(2)}%`).join(' and ')} of the frames`);
       return now;
@@ -74,7 +74,7 @@ const changes = (what, before, least) => becomes(`${what} changes`, (shot, id) =
   const share = difference(before[id], shot);
   return { share, ok: share > least };
 });
-const isAgain = (what, before) => becomes(`${what} leaves different`, (shot, id) => {
+const isRestored = (what, before) => becomes(`difference after ${what}`, (shot, id) => {
   const share = difference(before[id], shot);
   return { share, ok: share < 0.001 };
 });
@@ -90,13 +90,13 @@ async function drag(dx, dy) {
 }
 
 page.on('Runtime.exceptionThrown', ({ exceptionDetails: { exception, text } }) => {
-  complaints.push(exception?.description ?? text);
+  errors.push(exception?.description ?? text);
 });
 page.on('Runtime.consoleAPICalled', ({ type, args }) => {
-  if (type === 'error' || type === 'assert') complaints.push(args.map((a) => a.value ?? a.description).join(' '));
+  if (type === 'error' || type === 'assert') errors.push(args.map((a) => a.value ?? a.description).join(' '));
 });
 page.on('Log.entryAdded', ({ entry }) => {
-  if (entry.level === 'error') complaints.push(`${entry.text} ${entry.url ?? ''}`);
+  if (entry.level === 'error') errors.push(`${entry.text} ${entry.url ?? ''}`);
 });
 page.on('Network.requestWillBeSent', ({ request }) => {
   if (!/^(data|blob):/.test(request.url)) fetched.push(request.url);
@@ -108,7 +108,7 @@ const url = pathToFileURL(path.resolve(file)).href;
 await page.send('Page.navigate', { url });
 await until("document.readyState === 'complete' && !document.getElementById('controls').disabled", 240);
 assert.equal(await evaluate("document.getElementById('view-status').textContent"), '');
-// Pictures are taken of what is on the screen.
+// Screenshots contain only the visible part of the page.
 assert.ok(await evaluate("document.getElementById('frame-b').getBoundingClientRect().bottom < innerHeight"));
 
 const first = await becomes('a model covers', (shot) => ({ share: covered(shot), ok: covered(shot) > 0.05 }));
@@ -117,7 +117,7 @@ const click = (id) => evaluate(`document.getElementById('${id}').click()`);
 await click('wireframe');
 await changes('the wireframe', first, 0.005);
 await click('wireframe');
-await isAgain('the wireframe, taken off,', first);
+await isRestored('turning off the wireframe', first);
 
 await click('error');
 const heat = await changes('the heat map', first, 0.05);
@@ -125,16 +125,16 @@ assert.ok(await evaluate("!document.getElementById('scale').hidden"));
 await evaluate("Object.assign(document.getElementById('limit'), { value: 0.05 }).dispatchEvent(new Event('input'))");
 await changes('the scale of the heat map', heat, 0.02);
 await click('error');
-await isAgain('the heat map, taken off,', first);
+await isRestored('turning off the heat map', first);
 
 await drag(120, 30);
 await changes('a drag in the first frame', first, 0.02);
 await click('reset');
-await isAgain('the reset', first);
+await isRestored('the reset', first);
 await evaluate("document.getElementById('canvas').focus()");
 await page.send('Input.dispatchKeyEvent', { type: 'keyDown', key: 'ArrowLeft' });
 await changes('an arrow key', first, 0.01);
 
 assert.deepEqual(fetched, [url]);
-assert.deepEqual(complaints, []);
+assert.deepEqual(errors, []);
 await page.close();

@@ -9,7 +9,7 @@ namespace faqem::cli {
 
 namespace {
 
-/// The least that a face takes in a file, with its share of the vertices (there are half as many).
+/// Minimum number of bytes per face in a file, including half a vertex per face.
 double min_bytes_per_face(const std::filesystem::path& model) {
     const std::string extension = lower_case_extension(model);
     if (extension == ".stl") return 50;
@@ -17,7 +17,8 @@ double min_bytes_per_face(const std::filesystem::path& model) {
     return 15;
 }
 
-/// Measured on meshes of 0.1 and 1 million faces with the history that baking needs, and rounded up.
+/// Peak memory per face, bytes. Measured on meshes of 0.1 and 1 million faces with the history that baking
+/// needs, and rounded up.
 double peak_bytes_per_face(const Options& options) {
     const double search = options.max_error ? 1.3 : 1;
     switch (options.preset) {
@@ -38,7 +39,7 @@ double peak_bytes_per_face(const Options& options) {
 
 std::uint64_t estimated_peak_memory_of_file(const std::filesystem::path& model, std::uint64_t bytes,
                                             const Options& options) {
-    // The process and its threads, and for each texel of a page what baking several textures takes.
+    // 64 MB for the process and its threads; 36 bytes per texel of a page for baking several textures.
     double peak = 64e6;
     if (makes_atlas(options.bake.kind)) peak += 36.0 * options.bake.texture_size * options.bake.texture_size;
     const double faces = static_cast<double>(bytes) / min_bytes_per_face(model);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much memory a batch may use at once.
+/// Limits the memory that the models of a batch use at the same time.
 
 #include <condition_variable>
 #include <cstdint>
@@ -11,19 +11,22 @@
 
 namespace faqem::cli {
 
-/// An upper estimate of what simplify takes at its peak, from the size of the files alone, bytes. It goes by
-/// what a face takes at least in a file of that format, and by what the presets were measured to take.
-/// \param bytes  of the model and the files it refers to
+/// Returns an upper estimate, in bytes, of the peak memory for simplifying a model, from the file sizes
+/// alone. It assumes the minimum number of bytes per face of the file format, and the measured memory per
+/// face of the preset.
+/// \param model  only its extension is used
+/// \param bytes  total size of the model and the files it refers to
 std::uint64_t estimated_peak_memory_of_file(const std::filesystem::path& model, std::uint64_t bytes,
                                             const Options& options);
 
-/// Lets work begin while what has begun fits. What does not fit at all is done while nothing else is.
+/// A semaphore that counts bytes. A request above the limit is granted when no other memory is in use.
 class MemorySemaphore {
 public:
     explicit MemorySemaphore(std::uint64_t limit) : limit_(limit) {}
 
-    /// Waits. To be called in the order in which the work is to begin: a later caller does not overtake.
+    /// Waits until `bytes` fit into the limit. Requests are granted in the order of the calls. Thread-safe.
     void acquire(std::uint64_t bytes);
+    /// Returns memory acquired before. Thread-safe.
     void release(std::uint64_t bytes);
 
 private:

@@ -27,7 +27,7 @@ bool is_model_name(const fs::path& file) {
 
 using FileId = std::pair<dev_t, ino_t>;
 
-/// False where there is no such file.
+/// Gets device and inode of a file. Returns false if the file does not exist.
 bool file_id(const fs::path& file, FileId& id) {
     struct stat status = {};
     if (::stat(file.c_str(), &status) != 0) return false;
@@ -64,13 +64,13 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
         file.out = out_folder / file.out_name;
         const auto [other, is_new] = output_names.emplace(file.out_name, &file);
         if (!is_new) {
-            throw OptionError(file.out.string() + ": would be the result of both " +
+            throw OptionError(file.out.string() + ": two models have this output file: " +
                               other->second->in.string() + " and " + file.in.string());
         }
         if (!file_id(file.out, id)) continue;
         if (const auto input = inputs.find(id); input != inputs.end()) {
-            throw OptionError(file.out.string() + ": is the input " + input->second->in.string() +
-                              "; choose another folder for the results");
+            throw OptionError(file.out.string() + ": is the same file as the input " +
+                              input->second->in.string() + "; choose another output directory");
         }
     }
 }
@@ -80,9 +80,9 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
 std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
                                   const std::string& extension) {
     std::error_code error;
-    if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a folder");
+    if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a directory");
     if (fs::equivalent(folder, out_folder, error))
-        throw OptionError(out_folder.string() + ": is the folder of the models; choose another one");
+        throw OptionError(out_folder.string() + ": is the input directory; choose another output directory");
     std::vector<BatchFile> files;
     try {
         find_models(folder, out_folder, files);
@@ -90,8 +90,8 @@ std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_fo
         throw ReadError(problem.path1().empty() ? folder.string() : problem.path1().string(), "",
                         "cannot read: " + problem.code().message());
     }
-    if (files.empty()) throw InputError(folder.string(), "", "has no models");
-    // By name first, so that messages do not depend on the order on the disk.
+    if (files.empty()) throw InputError(folder.string(), "", "contains no models");
+    // Sorted by name first, so that error messages do not depend on the order of the directory entries.
     std::sort(files.begin(), files.end(),
               [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
     assign_output_paths(files, out_folder, extension);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which models a batch works on, and what their results are called.
+/// The models of a batch and the names of their results.
 
 #include <filesystem>
 #include <string>
@@ -11,20 +11,22 @@ namespace faqem::cli {
 /// One model of a batch.
 struct BatchFile {
     std::filesystem::path in, out;
-    std::string name;      ///< of the input, relative to the folder, with slashes
-    std::string out_name;  ///< of the result, relative to its folder, with slashes
-    std::uint64_t bytes = 0;
+    std::string name;         ///< path of the input relative to the input directory, with slashes
+    std::string out_name;     ///< path of the result relative to the output directory, with slashes
+    std::uint64_t bytes = 0;  ///< size of the input file
 };
 
-/// Finds the .glb, .gltf, .obj, .ply, .stl and .off files of a folder and all folders below, by their names
-/// in any case, and names the results: the same place in the other folder, with another extension. Links to
-/// folders are not followed. What lies in `out_folder` is no input.
-/// \param extension  of the results, with the dot
-/// \return largest first, then by name
-/// \throws ReadError    a folder cannot be read
+/// Finds the .glb, .gltf, .obj, .ply, .stl and .off files (ignoring case) of a directory and its
+/// subdirectories, and assigns the paths of the results: the same relative path in the output directory, with
+/// another extension. Links to directories are not followed. The output directory is not searched.
+/// \param folder      input directory
+/// \param out_folder  output directory; need not exist
+/// \param extension   of the results, with the dot
+/// \return the models, by decreasing file size, then by name
+/// \throws ReadError    a directory cannot be read
 /// \throws InputError   there are no models
-/// \throws OptionError  both folders are one, two models would have one result (the message names them), or a
-///                      result would replace an input
+/// \throws OptionError  both directories are the same, two models have the same result (the message names
+/// them), or a result would overwrite an input
 std::vector<BatchFile> plan_batch(const std::filesystem::path& folder,
                                   const std::filesystem::path& out_folder, const std::string& extension);
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A reservation of the memory, given back at the end.
+/// Acquires memory from the semaphore and releases it at destruction.
 class MemoryReservation {
 public:
     MemoryReservation(MemorySemaphore& semaphore, std::uint64_t bytes)
@@ -34,7 +34,8 @@ private:
     std::uint64_t bytes_;
 };
 
-/// Whether the result is what the record says, or was left behind by a run that was cut off.
+/// Returns whether the output file was written by this batch: it matches the record, or an interrupted run
+/// began it.
 bool is_own_result(const BatchFile& file, const std::optional<BatchEntry>& entry) {
     return entry && (entry->result.empty() || entry->result == modification_stamp({file.out}));
 }
@@ -47,7 +48,7 @@ struct Result {
 };
 
 Result skipped_result(const BatchEntry& entry) {
-    return {exit_ok, "skipped", "unchanged since it was done", entry.faces_in, entry.faces_out, {}};
+    return {exit_ok, "skipped", "up to date", entry.faces_in, entry.faces_out, {}};
 }
 
 Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}; }
@@ -79,7 +80,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     return result;
 }
 
-/// \param watch  begins anew when the waiting for memory is over
+/// \param watch  reset after waiting for memory, so that it measures the work alone
 Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
     std::vector<fs::path> inputs = referenced_files(file.in);

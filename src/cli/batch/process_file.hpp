@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One model of a batch.
+/// Processing of one model of a batch.
 
 #include <string>
 
@@ -14,10 +14,10 @@
 
 namespace faqem::cli {
 
-/// What all models of a batch share.
+/// Options and state shared by all models of a batch.
 struct BatchContext {
     Options options;
-    std::string options_key;  ///< what results depend on besides the models
+    std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
     bool resume = false;
@@ -26,10 +26,12 @@ struct BatchContext {
     MemorySemaphore& memory;
 };
 
-/// Does what simplify does with one model, unless that is done already and resume is set. Results that the
-/// record knows, and that nobody changed, may be replaced then. Waits for memory. Throws nothing.
-/// \param line  receives what is to be told about it
-/// \return what simplify's exit code would be; exit_ok where it was done already
+/// Simplifies one model as `faqem simplify` does. With `resume`, up-to-date results are skipped, and results
+/// that the record lists and that were not changed since may be overwritten. Waits for memory. Throws no
+/// exceptions. Thread-safe.
+/// \param line  receives the JSON object that is printed for the model, with the keys documented in
+/// docs/cli.md
+/// \return the exit code that `faqem simplify` would return; exit_ok if skipped
 ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, Json& line);
 
 }  // namespace faqem::cli

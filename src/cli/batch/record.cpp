@@ -16,8 +16,8 @@ namespace faqem::cli {
 namespace {
 
 std::string json_line(const std::string& out_name, const BatchEntry& entry) {
-    // Names need not be UTF-8; one that is not would be found again under its replacement, which differs: it
-    // is done anew.
+    // Names need not be UTF-8. Invalid bytes are replaced, so that such a name is not found on reading and
+    // the model is processed again.
     return Json{{"result", out_name},      {"inputs", entry.inputs},     {"options", entry.options},
                 {"written", entry.result}, {"faces_in", entry.faces_in}, {"faces_out", entry.faces_out}}
                .dump(-1, ' ', false, Json::error_handler_t::replace) +
@@ -47,8 +47,7 @@ BatchRecord::BatchRecord(const std::filesystem::path& out_folder) : file_(out_fo
     };
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("cannot write: ", errno);
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
-        fail("another batch is at work in this folder: ", errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("another batch is using this directory: ", errno);
     std::ifstream in(file_, std::ios::binary);
     bool is_last_line_incomplete = false;
     for (std::string line; std::getline(in, line);) {

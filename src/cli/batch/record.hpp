@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a batch has done, kept in the folder of its results.
+/// The record of a batch in its output directory, used by `--resume`.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,30 +11,30 @@
 
 namespace faqem::cli {
 
-/// One result.
+/// The record of one result.
 struct BatchEntry {
-    std::string inputs;   ///< modification_stamp() the model and the files it refers to
-    std::string options;  ///< what the result depends on besides
-    std::string result;   ///< modification_stamp() the result; empty: it was begun and not finished
+    std::string inputs;   ///< modification_stamp() of the model and the files it refers to
+    std::string options;  ///< BatchContext::options_key
+    std::string result;   ///< modification_stamp() of the result; empty if it was begun and not finished
     std::uint64_t faces_in = 0, faces_out = 0;
 };
 
-/// The file `.faqem-batch.jsonl`: a line for every result begun and for every one finished; the last one
-/// counts. Lines are written one by one, so that whatever ends the process, all before are there. Another
-/// process that works in the same folder is kept out. Several threads may use it.
+/// The file `.faqem-batch.jsonl`: one line for every result that was begun and one for every result that was
+/// finished; the last line of a result is valid. Each line is written immediately, so that a killed process
+/// loses no earlier lines. The file is locked against other processes. find() and add() are thread-safe.
 class BatchRecord {
 public:
-    /// Reads what is there. A line that is cut off or damaged is passed over.
-    /// \throws WriteError  it cannot be written, or another process is using it
+    /// Opens and locks the file and reads its entries. Truncated and damaged lines are ignored.
+    /// \throws WriteError  the file cannot be opened for writing, or another process has locked it
     explicit BatchRecord(const std::filesystem::path& out_folder);
     ~BatchRecord();
     BatchRecord(const BatchRecord&) = delete;
     BatchRecord& operator=(const BatchRecord&) = delete;
 
-    /// The last entry for a result.
+    /// Returns the last entry of a result.
     std::optional<BatchEntry> find(const std::string& out_name) const;
 
-    /// \throws WriteError
+    /// Appends an entry. \throws WriteError  the file cannot be written
     void add(const std::string& out_name, const BatchEntry& entry);
 
 private:

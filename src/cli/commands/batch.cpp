@@ -23,7 +23,7 @@ namespace {
 struct Arguments : SimplifyArguments {
     std::string in, out, format = "glb";
     std::uint32_t jobs = 0;
-    std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
+    std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
     bool resume = false, force = false;
 };
 
@@ -36,7 +36,7 @@ int run(const Arguments& arguments) {
     MemorySemaphore memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);
     install_signal_handlers();
     const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
-    // Files side by side make better use of the threads than the threads of one file do.
+    // Processing several files at a time uses the threads better than using several threads per file.
     if (options.threads == 0)
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
@@ -70,30 +70,30 @@ int run(const Arguments& arguments) {
 void add_batch_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
-        "batch", "Simplify all models of a folder, several at a time, a line of JSON each");
-    command->add_option("DIR", arguments->in, "Folder of models, with all folders below")->required();
-    command->add_option("OUTDIR", arguments->out, "Folder for the results, made where there is none")
+        "batch", "Simplify all models of a directory, several at a time; prints one line of JSON per model");
+    command->add_option("DIR", arguments->in, "Directory of the models; subdirectories are included")
         ->required();
-    command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
-    command
-        ->add_option("--jobs", arguments->jobs, "Models at a time; 0: as many as there are threads (default)")
+    command->add_option("OUTDIR", arguments->out, "Directory for the results; created if necessary")
+        ->required();
+    command->add_option("--format", arguments->format, "Output format: glb (default), gltf, obj, ply, stl");
+    command->add_option("--jobs", arguments->jobs, "Models at a time; 0: the number of threads (default)")
         ->check(CLI::Range(0, 1024));
     command
         ->add_option(
             "--max-memory", arguments->max_memory,
-            "Start no model that may bring the memory above this, as 8GB or 500MB; one too large for "
-            "it runs alone (default: three quarters of the machine's)")
+            "Start no model whose estimate would exceed this memory in total, as 8GB or 500MB; a model "
+            "that is too large runs alone (default: three quarters of the machine's memory)")
         ->transform(CLI::AsSizeValue(false))
         ->check(positive_number());
     command->add_flag("--resume", arguments->resume,
-                      "Skip what is done and unchanged, redo what is out of date");
+                      "Skip results that are up to date, redo those that are not");
     add_simplify_options(*command, *arguments);
     add_profile_option(*command);
     command
         ->add_option("--threads", arguments->options.threads,
-                     "Threads of each model at most (default: those there are, divided by the jobs)")
+                     "Maximum number of threads per model; 0: all, divided by the jobs (default)")
         ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Replace files that exist");
+    command->add_flag("--force", arguments->force, "Overwrite existing files");
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-/// What stands for the value of an option in help. Words between bars are all that it can be: completion
-/// offers them. An option with the same name is the same in all commands.
+/// Placeholders for the values of options in help. Words separated by bars are the possible values, which
+/// completion offers. An option has the same placeholder in all commands.
 constexpr std::array value_names = {
     Pair{"--bake", "auto|atlas|per-triangle|vertex|keep|none"},
     Pair{"--budget", "scene|mesh"},
@@ -116,9 +116,9 @@ void build_command_line(CLI::App& app, Action& action) {
     }
     for (CLI::App* command : app.get_subcommands({})) set_value_names(*command);
     app.footer(
-        "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
+        "Exit codes: 0 success, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
         "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
-        "9 not all files of a batch are done, 10 --max-bytes missed, 11 not enough memory.");
+        "9 not all models of a batch are done, 10 --max-bytes exceeded, 11 not enough memory.");
 }
 
 }  // namespace faqem::cli

@@ -1,12 +1,13 @@
 #pragma once
 /// \file
-/// The whole command line: all commands, what stands for their values in help, and examples.
+/// The complete command line: all commands, placeholders for option values, and examples.
 
 #include "cli/commands/commands.hpp"
 
 namespace faqem::cli {
 
-/// Adds everything to an empty app. When a command is chosen, `action` becomes what it does.
+/// Adds all commands to an empty app. Parsing a command line sets `action` to the function that runs its
+/// command.
 void build_command_line(CLI::App& app, Action& action);
 
 }  // namespace faqem::cli

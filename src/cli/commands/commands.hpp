@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The subcommands. Each adds itself to the command line; when it is chosen, `action` becomes what it does.
+/// Functions that add the subcommands to the command line. Parsing a command line with a subcommand sets
+/// `action` to the function that runs it.
 
 #include <functional>
 
@@ -10,7 +11,7 @@ class App;
 
 namespace faqem::cli {
 
-/// Returns an exit code, or throws what faqem throws.
+/// Runs a command. Returns an exit code, or throws an exception that exit_code_of() maps to one.
 using Action = std::function<int()>;
 
 void add_simplify_command(CLI::App& app, Action& action);

@@ -75,8 +75,9 @@ int run(const Arguments& arguments) {
 void add_compare_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
-        "compare", "Distances and colour differences between two models, both ways, as JSON");
-    command->add_option("A", arguments->a, "The original; its diagonal is the unit of *_rel")->required();
+        "compare", "Print two-sided distances and colour differences between two models as JSON");
+    command->add_option("A", arguments->a, "The original; *_rel values are relative to its diagonal")
+        ->required();
     command->add_option("B", arguments->b, "The other model")->required();
     add_compare_options(*command, arguments->options);
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });

@@ -14,7 +14,7 @@ namespace faqem::cli {
 
 void add_completion_command(CLI::App& app, Action& action) {
     const auto shell = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("completion", "Print a script that completes faqem in a shell");
+    CLI::App* command = app.add_subcommand("completion", "Print a completion script for a shell");
     command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
     command->final_callback([shell, &app, &action] {
         action = [shell, &app]() -> int {

@@ -27,7 +27,7 @@ struct ImageInfo {
     std::string name, mime_type;
     std::size_t bytes = 0;
     std::uint32_t width = 0, height = 0;
-    std::string error;  ///< why the size is not known
+    std::string error;  ///< reason why the image cannot be decoded; empty if it can
 };
 
 struct AssetInfo {
@@ -153,9 +153,9 @@ void add_info_command(CLI::App& app, Action& action) {
         bool json = false;
     };
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Count and measure what is in a file");
+    CLI::App* command = app.add_subcommand("info", "Count and measure the contents of a file");
     command->add_option("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
-    command->add_flag("--json", arguments->json, "As JSON");
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
     command->final_callback([arguments, &action] {
         action = [arguments] {
             const AssetInfo asset = examine(load(arguments->file));

@@ -41,8 +41,8 @@ struct Arguments : SimplifyArguments {
     }
 };
 
-/// The files that will be there: a model for each level, the original first, and the manifest. With
-/// --one-file all levels have the same.
+/// Paths of the output files: a model for each level, the original first unless --without-original is given,
+/// and the manifest. With --one-file the paths of all levels are equal.
 struct Outputs {
     explicit Outputs(const Arguments& a) {
         const std::string extension = extension_of_format(a.format);
@@ -59,16 +59,20 @@ struct Outputs {
     fs::path manifest;
 };
 
-/// What the library refuses, too, in the words of the command.
+/// Checks the options of --textures shared. The library checks them too; these messages name the command's
+/// options.
 void check_shared_textures(const Arguments& a, const Options& options) {
     if (a.level_textures() != LevelTextures::shared) return;
     if (!a.history.empty())
-        throw OptionError("--history: with --textures shared only the finest level comes from the original");
+        throw OptionError(
+            "--history: cannot be used with --textures shared, where only the finest level is simplified "
+            "from the original");
     const Bake kind = options.bake.kind;
     if (kind != Bake::automatic && kind != Bake::atlas)
-        throw OptionError("--textures shared: needs an atlas of charts, --bake atlas or auto");
+        throw OptionError("--textures shared: requires --bake auto or atlas");
     if (a.keep_groups)
-        throw OptionError("--keep-groups: with --textures shared the new atlas may join their materials");
+        throw OptionError(
+            "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
 }
 
 void check_outputs(const Arguments& a, const Outputs& outputs) {
@@ -80,11 +84,11 @@ void check_outputs(const Arguments& a, const Outputs& outputs) {
     others.push_back(outputs.manifest);
     for (const fs::path& other : others) {
         if (other.lexically_normal() == fs::path(a.history).lexically_normal())
-            throw OptionError(a.history + ": is named twice");
+            throw OptionError(a.history + ": is the path of two output files");
     }
 }
 
-/// Parts one after the other, each with all its levels.
+/// Writes the histories of all parts one after the other, each with all levels.
 void write_histories(const Arguments& a, const std::vector<SimplifiedPartsLevel>& levels) {
     std::ostringstream out;
     for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
@@ -106,7 +110,7 @@ void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) 
     std::cout << out.str();
 }
 
-/// Makes the levels and saves them, one after the other; with --one-file together.
+/// Creates the levels and saves each one when it is ready; with --one-file, saves all levels at the end.
 class LodWriter {
 public:
     LodWriter(const Arguments& arguments, const Outputs& outputs, const Asset& source,
@@ -135,7 +139,7 @@ public:
     const std::vector<WrittenLevel>& written() const { return written_; }
 
 private:
-    /// The images of one level are there at a time.
+    /// Bakes and writes one level at a time, so that only the images of one level are in memory.
     ExitCode write_with_separate_textures() {
         std::vector<SimplifiedPartsLevel> levels = with_file_in_errors(
             arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
@@ -169,7 +173,7 @@ private:
         return exit_ok;
     }
 
-    /// May the levels be written?
+    /// Returns exit_ok if the levels may be written, otherwise prints the reason and returns the exit code.
     template <class LevelResult>
     ExitCode check_reports(const std::vector<LevelResult>& levels) {
         if (is_interrupted() || levels.back().result.report.stop == StopReason::cancelled)
@@ -181,7 +185,7 @@ private:
                       << "\n";
             return rejection;
         }
-        reports_.reserve(levels.size());  // they are pointed to
+        reports_.reserve(levels.size());  // pointers to the elements must stay valid
         return exit_ok;
     }
 
@@ -198,7 +202,7 @@ private:
         all.insert(all.end(), more.begin(), more.end());
     }
 
-    /// \return what the format could not hold
+    /// Saves one level, or stores it for --one-file. \return warnings about data that the format cannot store
     std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
         const ExitOnInterrupt exit_on_interrupt;
         const fs::path& file = outputs_.models[written_.size()];
@@ -213,7 +217,7 @@ private:
         return {};
     }
 
-    /// By part, as the scene shows it at its largest.
+    /// Screen coverage below which the level is shown, for each part at its largest scale in the scene.
     std::vector<double> coverage(double error) const {
         const ViewSettings& view_settings = arguments_.view_settings;
         return detail::level_coverage(source_, size_, error,
@@ -263,15 +267,16 @@ int run(const Arguments& arguments) {
 
 void add_view_options(CLI::App& command, ViewSettings& view_settings) {
     command
-        .add_option("--pixel-error", view_settings.pixel_error, "Pixels that a level may be off (default 1)")
+        .add_option("--pixel-error", view_settings.pixel_error,
+                    "Allowed error in pixels, for switch distances (default 1)")
         ->check(positive_number());
     command
         .add_option("--fov", view_settings.fov,
-                    "Vertical angle of view in degrees for switch distances (default 60)")
+                    "Vertical field of view in degrees, for switch distances (default 60)")
         ->check(CLI::Range(1.0, 179.0));
     command
         .add_option("--screen-height", view_settings.screen_height,
-                    "Pixels of the screen for switch distances (default 1080)")
+                    "Screen height in pixels, for switch distances (default 1080)")
         ->check(CLI::Range(1, 1 << 20));
 }
 
@@ -280,35 +285,39 @@ void add_view_options(CLI::App& command, ViewSettings& view_settings) {
 void add_lod_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        app.add_subcommand("lod", "Make a chain of levels of detail, each with its texture and its error");
+        app.add_subcommand("lod", "Create a chain of levels of detail with textures and measured errors");
     command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
-    command->add_option("OUTDIR", arguments->out, "Folder for NAME_LOD0 ... and NAME_LOD.json")->required();
+    command
+        ->add_option("OUTDIR", arguments->out,
+                     "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")
+        ->required();
     command
         ->add_option(
             "--levels", arguments->levels,
-            "From fine to coarse, with commas: 0.5 (share of the faces), 5000 (faces), error:0.01 "
-            "(distance in model units), error:0.1% or pixels:1@50 (as much as 1 pixel at distance 50) "
-            "(default 0.5,0.25,0.1,0.01)")
+            "Comma-separated, from fine to coarse: 0.5 (ratio of faces), 5000 (number of faces), "
+            "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the size "
+            "of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)")
         ->delimiter(',');
     command->add_flag("--without-original", arguments->without_original,
-                      "The first level is LOD0; else the original is, as it was read");
+                      "LOD0 is the first level instead of the original");
     command->add_flag("--one-file", arguments->one_file,
                       "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod");
     command
         ->add_option("--textures", arguments->textures,
-                     "New textures: each (every level its own; default), shared (one for all, baked for the "
-                     "finest level)")
+                     "New textures: each (one for every level; default), shared (one for all levels, baked "
+                     "for the finest)")
         ->check(CLI::IsMember({"each", "shared"}));
-    command->add_option("--format", arguments->format, "Results: glb (default), gltf, obj, ply, stl");
+    command->add_option("--format", arguments->format, "Output format: glb (default), gltf, obj, ply, stl");
     command->add_option("--history", arguments->history,
-                        "Write the collapse history to this file, for faqem truncate");
+                        "Write the collapse history of all levels to this file, for faqem truncate");
     add_view_options(*command, arguments->view_settings);
     add_level_options(*command, *arguments);
     add_profile_option(*command);
-    command->add_option("--threads", arguments->options.threads, "Threads at most")
+    command
+        ->add_option("--threads", arguments->options.threads, "Maximum number of threads; 0: all (default)")
         ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Replace files that exist");
-    command->add_flag("--quiet", arguments->quiet, "No summary, no progress bar");
+    command->add_flag("--force", arguments->force, "Overwrite existing files");
+    command->add_flag("--quiet", arguments->quiet, "Print no summary and no progress bar");
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

@@ -11,7 +11,7 @@ namespace faqem::cli {
 
 namespace {
 
-/// Positive and finite, or not a number.
+/// Parses a positive finite number. Returns NaN if the text is anything else.
 double parse_positive(std::string_view text) {
     double value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

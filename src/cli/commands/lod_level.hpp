@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `faqem lod --levels` says of one level.
+/// Parsing of one entry of `faqem lod --levels`.
 
 #include <string>
 
@@ -9,9 +9,9 @@
 
 namespace faqem::cli {
 
-/// `pixels:2@50`, an error that covers at most 2 pixels where the eye is 50 model units away; else as
-/// parse_level().
-/// \throws OptionError
+/// Parses one level. `pixels:2@50` is an error that covers at most 2 pixels at a distance of 50 model units
+/// from the camera; other texts are parsed by parse_level().
+/// \throws OptionError  the text has another form
 Level parse_lod_level(const std::string& text, const ViewSettings& view_settings);
 
 }  // namespace faqem::cli

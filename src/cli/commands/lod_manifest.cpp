@@ -8,7 +8,7 @@ namespace faqem::cli {
 
 namespace {
 
-// Height of what the screen shows at distance 1.
+// Height of the view frustum at distance 1.
 double view_height_at_unit_distance(const ViewSettings& view_settings) {
     return 2 * std::tan(view_settings.fov / 2 * std::numbers::pi / 180);
 }
@@ -40,7 +40,7 @@ Json lod_manifest(const std::string& source, double diagonal, const ViewSettings
         const double from = switch_distance(level.error, view_settings);
         Json one = {{"file", level.file},         {"faces", level.faces}, {"vertices", level.vertices},
                     {"distance", level.distance}, {"error", level.error}, {"switch_distance", from}};
-        // The original is shown however large it is.
+        // null for the original: it is shown at any screen coverage.
         one["screen_coverage"] =
             from > 0 ? Json(screen_coverage(diagonal, level.error, view_settings)) : Json();
         if (level.report) one["report"] = Json::parse(to_json(*level.report));

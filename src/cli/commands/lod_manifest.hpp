@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What faqem lod says of its levels.
+/// The manifest that `faqem lod` writes, and switch distances of levels.
 
 #include <cstdint>
 #include <string>
@@ -11,33 +11,36 @@
 
 namespace faqem::cli {
 
-/// How the levels will be looked at.
+/// The view for which switch distances are computed.
 struct ViewSettings {
-    double pixel_error = 1;              ///< how many pixels a level may be off
-    double fov = 60;                     ///< vertical angle of view, degrees in (0, 180)
+    double pixel_error = 1;              ///< allowed error on the screen, pixels
+    double fov = 60;                     ///< vertical field of view, degrees in (0, 180)
     std::uint32_t screen_height = 1080;  ///< pixels
 };
 
-/// One level, as it was written.
+/// Data of one level for the manifest.
 struct WrittenLevel {
-    std::string file;
-    std::uint64_t faces = 0, vertices = 0;
-    double distance = 0, error = 0;  ///< as SimplifiedAssetLevel
-    const Report* report = nullptr;  ///< null: the original
+    std::string file;                       ///< name of the file, without its directory
+    std::uint64_t faces = 0, vertices = 0;  ///< sums over all parts
+    double distance = 0, error = 0;         ///< as in SimplifiedAssetLevel
+    const Report* report = nullptr;         ///< null for the original; not owned
 };
 
-/// Distance of the eye from the nearest point of the model from which an error covers no more pixels than
-/// allowed.
+/// Returns the distance between the camera and the nearest point of the model from which on an error covers
+/// at most the allowed number of pixels, model units.
 double switch_distance(double error, const ViewSettings& view_settings);
 
-/// The error that covers so many pixels where the eye is `distance` from the nearest point of the model.
+/// Returns the error that covers `pixels` pixels if the camera has the given distance from the nearest point
+/// of the model, model units.
 double error_from_pixels(double pixels, double distance, const ViewSettings& view_settings);
 
-/// Share of the screen's height that a length takes at the switch distance; infinity where that is 0.
+/// Returns the share of the screen height that the length `diagonal` covers at the switch distance of
+/// `error`; infinity if that distance is 0.
 double screen_coverage(double diagonal, double error, const ViewSettings& view_settings);
 
-/// The manifest, with the keys documented in docs/levels.md.
-/// \param diagonal  of the scene
+/// Returns the manifest as JSON with the keys documented in docs/levels.md.
+/// \param source    name of the input file
+/// \param diagonal  of the bounding box of the scene, model units
 Json lod_manifest(const std::string& source, double diagonal, const ViewSettings& view_settings,
                   const std::vector<WrittenLevel>& levels);
 

@@ -16,7 +16,7 @@ namespace faqem::cli {
 namespace {
 
 struct Arguments {
-    std::vector<std::string> files;  ///< models, and the picture last
+    std::vector<std::string> files;  ///< the models, then the output image
     std::uint32_t size = 480, views = 4;
     bool unlit = false, wireframe = false, force = false;
 };
@@ -50,18 +50,17 @@ int run(const Arguments& arguments) {
 
 void add_render_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command =
-        app.add_subcommand("render", "Draw models one under the other, as seen by the same cameras");
-    command->add_option("FILES", arguments->files, "Models, then the picture: A [B ...] OUT.png")
+    CLI::App* command = app.add_subcommand("render", "Render models below each other with the same cameras");
+    command->add_option("FILES", arguments->files, "Models, then the output image: A [B ...] OUT.png")
         ->required()
         ->expected(2, 17);
-    command->add_option("--size", arguments->size, "Side of one view in pixels (default 480)")
+    command->add_option("--size", arguments->size, "Side of one view, pixels (default 480)")
         ->check(CLI::Range(16, 2048));
     command->add_option("--views", arguments->views, "Views around the models (default 4)")
         ->check(CLI::Range(1, 16));
-    command->add_flag("--unlit", arguments->unlit, "Colours as they are, without light");
-    command->add_flag("--wireframe", arguments->wireframe, "Draw the faces' edges");
-    command->add_flag("--force", arguments->force, "Replace a picture that exists");
+    command->add_flag("--unlit", arguments->unlit, "Colours without lighting");
+    command->add_flag("--wireframe", arguments->wireframe, "Draw the mesh edges");
+    command->add_flag("--force", arguments->force, "Overwrite an existing image");
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

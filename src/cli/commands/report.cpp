@@ -22,12 +22,12 @@ namespace faqem::cli {
 
 namespace {
 
-/// Faces are cut so that there are about as many vertices along the diagonal to show the error at.
+/// Faces are subdivided for the heat map until no edge is longer than the diagonal divided by this number.
 constexpr double points_along_diagonal = 100;
-/// The full colour is for the distance that all but one in two hundred vertices are within: a single spike
-/// does not make all else look alike.
+/// The colour scale ends at this quantile of the vertices' distances, so that a few outliers do not leave all
+/// other vertices with nearly the same colour.
 constexpr double color_limit_quantile = 0.995;
-/// Of both models together. Above it, browsers fail to hold the page.
+/// Limit for both models together. Browsers fail to load larger pages.
 constexpr std::uint64_t max_viewer_bytes = 256'000'000;
 
 struct Arguments {
@@ -50,7 +50,7 @@ Image contact_sheet_png(std::vector<render::ContactSheetRow> rows,
     return encode_png(render::compose_contact_sheet(rows), "sheet");
 }
 
-/// The models, their edges, and their errors, as faqem render would draw them.
+/// Renders three images as `faqem render` does: the models, the models with edges, and the heat maps.
 std::vector<Picture> draw_pictures(const Arguments& arguments, const FlattenedModel& a,
                                    const FlattenedModel& b, const ErrorSurface& error_a,
                                    const ErrorSurface& error_b, double limit) {
@@ -62,26 +62,27 @@ std::vector<Picture> draw_pictures(const Arguments& arguments, const FlattenedMo
     const auto draw = [&](const std::vector<render::Scene>& drawn, render::Edges edges) {
         return render::draw_rows(drawn, cameras, arguments.size, render::Shading::lit, edges);
     };
-    const std::vector<render::ContactSheetRow> look = draw(scenes, render::Edges::hidden);
-    const std::string both = "The first model in the upper row, the second below it, from the same sides";
+    const std::vector<render::ContactSheetRow> shaded = draw(scenes, render::Edges::hidden);
+    const std::string both =
+        "The first model in the upper row, the second below it, rendered with the same cameras";
     return {
-        {contact_sheet_png(look), "As they look. " + both + ".", both + "."},
-        {contact_sheet_png(draw(scenes, render::Edges::drawn)), "With the edges of their faces.",
-         both + ", with edges."},
-        {contact_sheet_png(draw(errors, render::Edges::hidden), &look),
-         "The distance to the other model: from dark, none, to yellow, the largest but for one point in two "
-         "hundred.",
-         both + ", coloured by their distance to each other."}};
+        {contact_sheet_png(shaded), "Shaded. " + both + ".", both + "."},
+        {contact_sheet_png(draw(scenes, render::Edges::drawn)), "With mesh edges.",
+         both + ", with mesh edges."},
+        {contact_sheet_png(draw(errors, render::Edges::hidden), &shaded),
+         "Distance to the other model: from dark (zero) to yellow (the 99.5th percentile of the vertices' "
+         "distances, and above).",
+         both + ", coloured by the distance to the other model."}};
 }
 
-/// Nothing, with a note, where the page cannot have it.
+/// Returns the data of the 3D view. Returns nothing and adds a note to the page if the view is not available.
 std::optional<ViewerData> make_viewer_data(const Arguments& arguments, const FlattenedModel& a,
                                            const FlattenedModel& b, const ErrorSurface& error_a,
                                            const ErrorSurface& error_b, ReportPage& page, double limit,
                                            double max_distance) {
     if (arguments.without_view) return std::nullopt;
     if (!has_viewer()) {
-        page.notes.push_back("No 3D view: this faqem was built without npm.");
+        page.notes.push_back("No 3D view: faqem was built without npm.");
         return std::nullopt;
     }
     const MeshInfo& info = page.comparison.a;
@@ -91,8 +92,8 @@ std::optional<ViewerData> make_viewer_data(const Arguments& arguments, const Fla
     ViewerData view{viewer_glb(a, error_a, frame), viewer_glb(b, error_b, frame), limit / unit,
                     max_distance / unit, unit};
     if (view.a.size() + view.b.size() > max_viewer_bytes) {
-        page.notes.push_back("No 3D view: the models would take more than " +
-                             std::to_string(max_viewer_bytes / 1'000'000) + " MB of the page.");
+        page.notes.push_back("No 3D view: the models exceed the limit of " +
+                             std::to_string(max_viewer_bytes / 1'000'000) + " MB.");
         return std::nullopt;
     }
     return view;
@@ -133,18 +134,18 @@ int run(const Arguments& arguments) {
 void add_report_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
-        "report", "Compare two models on a page: side by side in 3D, with figures, pictures and a heat map");
+        "report", "Compare two models on an HTML page with a 3D view, figures, pictures and a heat map");
     command->add_option("A", arguments->a, "The original")->required();
     command->add_option("B", arguments->b, "The other model")->required();
-    command->add_option("-o,--out", arguments->out, "The page, .html")->required();
-    command->add_option("--size", arguments->size, "Side of one view of a picture in pixels (default 320)")
+    command->add_option("-o,--out", arguments->out, "The page, .html or .htm")->required();
+    command->add_option("--size", arguments->size, "Side of one view of a picture, pixels (default 320)")
         ->check(CLI::Range(16, 2048));
     command->add_option("--views", arguments->views, "Views of a picture (default 4)")
         ->check(CLI::Range(1, 16));
     command->add_flag("--without-view", arguments->without_view,
-                      "Figures and pictures only: a small page without the models");
+                      "Figures and pictures only, without the 3D view");
     add_compare_options(*command, arguments->options);
-    command->add_flag("--force", arguments->force, "Replace a page that exists");
+    command->add_flag("--force", arguments->force, "Overwrite an existing page");
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

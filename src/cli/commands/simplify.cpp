@@ -31,17 +31,17 @@ namespace {
 
 using detail::Stopwatch;
 
-/// The command line as it was given.
+/// The parsed command line.
 struct Arguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
-    std::uint64_t max_bytes = 0;   ///< 0: any size
-    std::uint64_t max_memory = 0;  ///< bytes; 0: the machine's
+    std::uint64_t max_bytes = 0;   ///< 0: unlimited
+    std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
     bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
 
-/// Everything that can be wrong about the output, before hours of work go into it.
+/// Checks all output files before the work starts, which may take hours.
 void check_outputs(const Arguments& arguments) {
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
     std::vector<std::filesystem::path> taken = {arguments.in};
@@ -51,7 +51,7 @@ void check_outputs(const Arguments& arguments) {
         check_output(file, taken, arguments.overwrite());
         for (const auto& other : taken) {
             if (std::filesystem::path(file).lexically_normal() == other.lexically_normal()) {
-                throw OptionError(file + ": is named twice");
+                throw OptionError(file + ": is given for two files");
             }
         }
         taken.emplace_back(file);
@@ -71,7 +71,7 @@ void write_correspondence(const Arguments& arguments, const std::vector<PageOrig
 }
 
 void print_counts(std::ostream& out, const Report& report) {
-    std::string_view separator = "refused: ";
+    std::string_view separator = "rejected pairs: ";
     for (std::size_t i = 0; i < refusal_kinds; ++i) {
         if (report.refusals[i] == 0) continue;
         out << separator << report.refusals[i] << " " << name(static_cast<Refusal>(i));
@@ -94,7 +94,7 @@ void print_summary(const Arguments& arguments, const Report& report) {
         << name(report.stop) << ", preset " << name(report.preset) << "\n";
     if (report.max_error) {
         const MeasuredError& error = *report.max_error;
-        out << "distance: " << error.value << " found, at most " << error.bound << " (allowed "
+        out << "distance: at least " << error.value << ", at most " << error.bound << " (allowed "
             << error.allowed << "), " << error.runs << (error.runs == 1 ? " run\n" : " runs\n");
     }
     print_counts(out, report);
@@ -119,7 +119,8 @@ int cancelled() {
     return exit_cancelled;
 }
 
-/// Writes the model last but for the report, which tells how long that took.
+/// Writes the history, the correspondence and then the model. The report is written later, because it has the
+/// time that saving took.
 void save_result(const Arguments& arguments, SimplifiedAsset& simplified) {
     const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
@@ -144,7 +145,7 @@ int run(const Arguments& arguments) {
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
         if (!makes_atlas(options.bake.kind))
-            throw OptionError("--correspondence needs a new atlas: --bake auto, atlas or per-triangle");
+            throw OptionError("--correspondence: requires --bake auto, atlas or per-triangle");
         options.bake.correspondence = Recording::on;
     }
     check_outputs(arguments);
@@ -187,25 +188,27 @@ void add_run_options(CLI::App& command, Arguments& a) {
     command
         .add_option(
             "--max-bytes", a.max_bytes,
-            "Largest size of all files of the result together, as 2MB or 500KB: fewer faces and smaller "
-            "images until it fits")
+            "Maximum total size of all output files, as 2MB or 500KB; faces and images are reduced until "
+            "they fit")
         ->transform(CLI::AsSizeValue(true))
         ->check(positive_number())
         ->excludes("--max-error");
-    command.add_option("--threads", a.options.threads, "Threads at most; the result does not depend on it")
+    command
+        .add_option("--threads", a.options.threads,
+                    "Maximum number of threads; 0: all (default). The result does not depend on it")
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--max-memory", a.max_memory,
-                    "Refuse a model that may bring the memory above this, as 8GB or 500MB (default: the "
-                    "machine's)")
+                    "Reject a model that may need more memory, as 8GB or 500MB (default: the machine's "
+                    "memory)")
         ->transform(CLI::AsSizeValue(false))
         ->check(positive_number());
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");
     command.add_option("--correspondence", a.correspondence,
-                       "Write where each texel of the new atlas lies on the original to this file");
-    command.add_flag("--force", a.force, "Replace files that exist");
-    command.add_flag("--quiet", a.quiet, "No summary, no progress bar");
+                       "Write the position of each texel of the new atlas on the original to this file");
+    command.add_flag("--force", a.force, "Overwrite existing files");
+    command.add_flag("--quiet", a.quiet, "Print no summary and no progress bar");
 }
 
 }  // namespace
@@ -213,7 +216,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
 void add_simplify_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        app.add_subcommand("simplify", "Make a model lighter and bake its look into a new texture");
+        app.add_subcommand("simplify", "Simplify a model and bake its appearance into a new texture");
     command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
     command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
     add_simplify_options(*command, *arguments);

@@ -29,7 +29,7 @@ struct Arguments : SimplifyArguments {
 
 std::vector<ChainHistory> read_histories(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw ReadError(file, "", "cannot be read");
+    if (!in) throw ReadError(file, "", "cannot open the file");
     std::vector<ChainHistory> histories;
     try {
         do histories.push_back(read_chain_history(in));
@@ -40,7 +40,7 @@ std::vector<ChainHistory> read_histories(const std::string& file) {
     return histories;
 }
 
-/// All that a history holds: parts without name, material or place in a scene.
+/// Creates an asset from the histories alone: parts without names, materials or scene graph.
 Asset geometry_only(const SimplifiedParts& simplified_parts) {
     Asset original;
     for (const SimplifyResult& one : simplified_parts.parts) {
@@ -49,7 +49,7 @@ Asset geometry_only(const SimplifiedParts& simplified_parts) {
         part.triangles = one.history.triangles;
         part.face_material.assign(part.triangles.size(), no_index);
         for (Triangle& t : part.triangles) {
-            if (t[0] == no_index) t = {0, 0, 0};  // dropped before the run
+            if (t[0] == no_index) t = {0, 0, 0};  // dropped during preprocessing
         }
     }
     Options geometry_options;
@@ -72,7 +72,7 @@ Asset baked_model(const Arguments& arguments, const SimplifiedParts& simplified_
 int run(const Arguments& arguments) {
     const Options options = make_options(arguments);
     if (options.bake.kind == Bake::keep)
-        throw OptionError("--bake keep: a history does not hold the UVs that were kept");
+        throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
     std::vector<std::filesystem::path> inputs = {arguments.history};
     if (!arguments.source.empty()) inputs.emplace_back(arguments.source);
@@ -81,7 +81,7 @@ int run(const Arguments& arguments) {
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));
     if (simplified_parts.report.faces_out > arguments.faces) {
         std::cerr << "faqem: target missed: " << arguments.history << " ends with "
-                  << simplified_parts.report.faces_out << " faces, " << arguments.faces << " wanted; "
+                  << simplified_parts.report.faces_out << " faces, the target is " << arguments.faces << "; "
                   << arguments.out << " was not written\n";
         return exit_target_missed;
     }
@@ -101,21 +101,22 @@ int run(const Arguments& arguments) {
 void add_truncate_command(CLI::App& app, Action& action) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        app.add_subcommand("truncate", "Make a level of detail from a stored history, without another run");
-    command->add_option("HISTORY", arguments->history, "File of simplify --history or lod --history")
+        app.add_subcommand("truncate", "Extract a level of detail from a stored history without another run");
+    command->add_option("HISTORY", arguments->history, "File written by simplify --history or lod --history")
         ->required();
     command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
-    command->add_option("--faces", arguments->faces, "Number of faces to keep")
+    command->add_option("--faces", arguments->faces, "Maximum number of faces")
         ->required()
         ->check(positive_number());
     command->add_option("--source", arguments->source,
-                        "The model that was simplified: gives the result its look, with the options below. "
-                        "Without it: geometry alone");
+                        "The original model, from which the appearance is baked with the options below. "
+                        "Without it: geometry only");
     add_bake_options(*command, *arguments);
-    command->add_option("--threads", arguments->options.threads, "Threads at most")
+    command
+        ->add_option("--threads", arguments->options.threads, "Maximum number of threads; 0: all (default)")
         ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Replace a file that exists");
-    command->add_flag("--quiet", arguments->quiet, "No summary");
+    command->add_flag("--force", arguments->force, "Overwrite an existing file");
+    command->add_flag("--quiet", arguments->quiet, "Print no summary");
     command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 

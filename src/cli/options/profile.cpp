@@ -15,11 +15,12 @@ namespace faqem::cli {
 namespace {
 
 constexpr const char* version_key = "faqem-profile";
-constexpr const char* schema_key = "$schema";  // editors look for it
+constexpr const char* schema_key = "$schema";  // used by editors, ignored by faqem
 constexpr int version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
-/// The option's value on the command line, nothing if it is not there.
+/// Returns the value of an option on the command line; empty if the option is the last word; nothing if it is
+/// not given.
 std::optional<std::string> value_of(const std::string& option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
         if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
@@ -28,21 +29,21 @@ std::optional<std::string> value_of(const std::string& option, const std::vector
     return std::nullopt;
 }
 
-/// nlohmann keeps the last of keys that are there twice.
+/// Parses a profile. Rejects duplicate keys, of which nlohmann::json would silently keep the last.
 Json parse_profile(const std::string& file) {
     const std::vector<std::uint8_t> bytes = detail::read_file(file, max_file_size);
     std::set<std::string> keys;
     const auto reject_duplicate_keys = [&](int depth, Json::parse_event_t event, Json& value) {
         if (event == Json::parse_event_t::key && depth == 1 && !keys.insert(value.get<std::string>()).second)
-            throw InputError(file, value.get<std::string>(), "is there twice");
+            throw InputError(file, value.get<std::string>(), "duplicate key");
         return true;
     };
     try {
         Json profile = Json::parse(bytes, reject_duplicate_keys);
-        if (!profile.is_object()) throw InputError(file, "", "is no JSON object");
+        if (!profile.is_object()) throw InputError(file, "", "is not a JSON object");
         return profile;
     } catch (const Json::exception& error) {
-        throw InputError(file, "", std::string("is no JSON: ") + error.what());
+        throw InputError(file, "", std::string("is not valid JSON: ") + error.what());
     }
 }
 
@@ -55,7 +56,7 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
 
 [[noreturn]] void throw_unknown_key(const CommandTree& tree, const CommandInfo& command,
                                     const std::string& file, const std::string& key) {
-    std::string text = file + ": '" + key + "' is no option of faqem " + command.name;
+    std::string text = file + ": '" + key + "' is not an option of faqem " + command.name;
     std::vector<std::string> known;
     for (const OptionInfo& option : command.options) {
         const std::string name = option.names.back().substr(2);
@@ -67,7 +68,7 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
     if (!suggested.empty())
         text += "; did you mean '" + suggested + "'?";
     else if (other != tree.commands.end())
-        text += ", but one of faqem " + other->name;
+        text += ", but of faqem " + other->name;
     throw OptionError(text);
 }
 
@@ -77,7 +78,7 @@ std::string text_of(const Json& value, const std::string& where) {
     throw OptionError(where + ": must be a number or a string");
 }
 
-/// As words of a command line; false is none.
+/// Converts an entry of a profile to words of the command line; none for a flag that is false.
 std::vector<std::string> to_arguments(const OptionInfo& option, const Json& value, const std::string& where) {
     const std::string& name = option.names.back();
     if (option.value_name.empty()) {
@@ -98,10 +99,10 @@ bool is_overridden(const OptionInfo& option, const std::vector<std::string>& wor
 
 void check_version(const Json& profile, const std::string& file) {
     if (!profile.contains(version_key))
-        throw OptionError(file + ": is no profile: \"" + version_key + "\": 1 is missing");
+        throw OptionError(file + ": is not a profile: \"" + version_key + "\": 1 is missing");
     if (profile[version_key] != version)
-        throw OptionError(file + ": " + version_key + " " + profile[version_key].dump() +
-                          " is not known; this faqem knows 1");
+        throw OptionError(file + ": " + version_key + ": version " + profile[version_key].dump() +
+                          " is not supported, only version 1");
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ void check_version(const Json& profile, const std::string& file) {
 void add_profile_option(CLI::App& command) {
     command.add_option_function<std::string>(
         "--config", [](const std::string&) {},
-        "Take options from this profile, a JSON file; those given here beat it");
+        "Read options from a profile (JSON file); options on the command line take precedence");
 }
 
 std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
@@ -133,7 +134,7 @@ std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std
         const std::vector<std::string> more = to_arguments(*option, value, *file + ": " + key);
         if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
     }
-    // Before a `--`, behind which nothing is an option.
+    // Inserted before `--`, because words after it are not options.
     words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
     return words;
 }

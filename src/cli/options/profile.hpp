@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Options kept in a file: docs/profile.md.
+/// Profiles: JSON files with options, see docs/profile.md.
 
 #include <string>
 #include <vector>
@@ -13,15 +13,19 @@ class App;
 
 namespace faqem::cli {
 
-/// Adds --config to a command. It is expand_profile() that reads it.
+/// Adds --config to a command. The option itself has no effect: expand_profile() reads the profile before
+/// parsing.
 void add_profile_option(CLI::App& command);
 
-/// The command line with the options of its profile behind it; where there is no --config, as it is. What is
-/// on the command line beats the profile: an option of the same name, and one that excludes the profile's.
-/// \param words  of the command line, without the program's name
+/// Returns the command line with the options of its profile appended; unchanged if there is no --config. The
+/// command line takes precedence: entries of the profile are omitted if their option, or one that excludes
+/// it, is given.
+/// \param tree   all commands and options
+/// \param words  the command line without the name of the program
 /// \throws ReadError    the profile cannot be read
-/// \throws InputError   it is no JSON
-/// \throws OptionError  it is of another version, or has a key that is no option of the command
+/// \throws InputError   the profile is not a JSON object or has duplicate keys
+/// \throws OptionError  the version is not supported, a key is not an option of the command, or a value has
+/// the wrong type
 std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words);
 
 }  // namespace faqem::cli

@@ -57,17 +57,18 @@ double parse_number(const std::string& text, const char* option) {
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc{} || stop != end)
-        throw OptionError(std::string(option) + ": '" + text + "' is no number");
+        throw OptionError(std::string(option) + ": '" + text + "' is not a number");
     return value;
 }
 
-/// `0.01` in model units, or `0.1%` of the diagonal.
+/// Parses `0.01` (model units) or `0.1%` (of the diagonal).
 Length parse_length(const std::string& text, const char* option) {
     if (!text.ends_with('%')) return model_units(parse_number(text, option));
     return of_diagonal(parse_number(text.substr(0, text.size() - 1), option) / 100);
 }
 
-/// `kind` or `kind:NUMBER`. \return the number, nothing if there is none
+/// Parses `kind:NUMBER`, removes the suffix from the text and returns the number. Returns nothing for other
+/// texts.
 std::optional<double> take_suffix_number(std::string& text, std::string_view kind, const char* option) {
     if (text.compare(0, kind.size() + 1, std::string(kind) + ":") != 0) return std::nullopt;
     const double value = parse_number(text.substr(kind.size() + 1), option);
@@ -99,47 +100,47 @@ std::string preset_names() {
 }
 
 void add_target_options(CLI::App& command, SimplifyArguments& a) {
-    auto* ratio =
-        command.add_option("--ratio", a.ratio, "Share of the faces to keep, in (0, 1] (default 0.1)");
+    auto* ratio = command.add_option("--ratio", a.ratio, "Ratio of faces to keep, in (0, 1] (default 0.1)");
     auto* faces = command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive_number());
     ratio->excludes(faces);
     command.add_option("--max-error", a.max_error,
-                       "Largest distance from the original, in model units or with % of the diagonal: the "
-                       "smallest mesh found within it; with --ratio or --faces: a condition");
+                       "Maximum distance from the original, in model units or with % of the diagonal. Finds "
+                       "the smallest mesh within it; with --ratio or --faces the distance is only checked");
 }
 
 void add_metric_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--budget", a.budget,
-                       "How the meshes of a scene share the faces: scene (by error, default), mesh (in "
-                       "proportion to their faces)");
-    command.add_option(
-        "--visibility", a.visibility,
-        "What is hidden from outside: ignored (counts like all else, default), weighted (counts less)");
+                       "How the faces are distributed among the meshes of a scene: scene (by error, "
+                       "default), mesh (in proportion to their face counts)");
+    command.add_option("--visibility", a.visibility,
+                       "Errors on hidden surface: ignored (visibility has no effect, default), weighted "
+                       "(they count less)");
     command.add_option(
         "--preset", a.preset,
         "Metric and rules: " + preset_names() + " (default " + std::string(name(Options{}.preset)) + ")");
     command.add_option("--w-area", a.options.weights.area, "Weight of the boundary area term");
     command.add_option("--w-boundary", a.options.weights.boundary, "Weight of the boundary curvature term");
     command.add_option("--w-normal", a.options.weights.normal, "Weight of the normal term");
-    command.add_option("--w-uv", a.options.weights.uv, "Factor on quadrics at UV seams, where UVs are kept");
+    command.add_option("--w-uv", a.options.weights.uv, "Factor on quadrics at preserved UV seams");
     command.add_option("--w-plane-area", a.options.weights.plane_area,
                        "Inverse-area weight of planes; 0: unweighted");
 }
 
 void add_topology_options(CLI::App& command, SimplifyArguments& a) {
     command.add_flag_callback(
-        "--link", [&a] { a.link = true; }, "Keep the topology (link condition)");
-    command.add_flag("--lock-boundary", a.lock_boundary, "Open borders stay where they are");
+        "--link", [&a] { a.link = true; }, "Enforce the link condition while the target can be reached");
+    command.add_flag("--lock-boundary", a.lock_boundary, "Do not move boundary vertices");
     command.add_flag("--keep-groups", a.keep_groups,
-                     "Borders between materials stay where they are, even if the target is missed");
-    command.add_option("--weld", a.options.topology.weld_distance, "Join vertices at most this far apart");
+                     "Preserve boundaries between materials, even if the target is missed");
+    command.add_option("--weld", a.options.topology.weld_distance,
+                       "Weld vertices that are at most this far apart, model units");
     command.add_option("--prune", a.prune,
-                       "Delete connected components whose box has a smaller diagonal, in model units or "
-                       "with % of the scene's diagonal; never the largest of a mesh");
-    // A flag, not an option: an option would take the file name that may follow for its value.
-    command.add_flag(
-        "--virtual-edges{0.01}", a.virtual_edges,
-        "Join parts that do not touch; =TAU: over gaps up to TAU of the diagonal (default 0.01)");
+                       "Delete connected components whose bounding box has a smaller diagonal, in model "
+                       "units or with % of the scene's diagonal; the largest of each mesh is kept");
+    // A flag with an optional value: an option would take a file name that follows as its value.
+    command.add_flag("--virtual-edges{0.01}", a.virtual_edges,
+                     "Connect boundaries of different components; =TAU: across gaps of at most TAU times "
+                     "the diagonal (default 0.01)");
 }
 
 }  // namespace
@@ -152,26 +153,23 @@ void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
 void add_bake_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option(
         "--bake", a.bake,
-        "Where colours go: auto (default: atlas or per-triangle; see docs/baking.md), atlas (charts), "
-        "per-triangle, vertex, keep, none");
+        "Where colours are stored: auto (default: atlas or per-triangle, see docs/baking.md), atlas "
+        "(charts), per-triangle, vertex, keep, none");
     command.add_option("--texture-size", a.options.bake.texture_size,
-                       "Largest side of a baked image, a power of two from 64 to 16384 (default 2048)");
-    command.add_option(
-        "--texel-density", a.options.bake.texel_density,
-        "Texels per length of a new texture, times those of the source, 0.125 to 8 (default 1; more "
-        "on small pages)");
+                       "Maximum side of a baked image, a power of two from 64 to 16384 (default 2048)");
+    command.add_option("--texel-density", a.options.bake.texel_density,
+                       "Texels per length of a new texture, relative to the source, 0.125 to 8 (default 1; "
+                       "more on small pages)");
     command.add_option("--normal-map", a.normal_map,
-                       "Normal map of a new texture: auto (where the source has one or its normals differ; "
+                       "Normal map of a new texture: auto (if the source has one or its normals differ; "
                        "default), on, off");
-    command.add_option(
-        "--normals", a.normals,
-        "Vertex normals: transfer (the original's; default), smooth or smooth:ANGLE (averaged up "
-        "to ANGLE degrees, 40), flat, none (with --bake none: geometry alone)");
+    command.add_option("--normals", a.normals,
+                       "Vertex normals: transfer (from the original; default), smooth or smooth:ANGLE "
+                       "(averaged below ANGLE degrees, default 40), flat, none (only with --bake none)");
     command.add_option("--image-format", a.image_format,
-                       "Of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, 90), source (as the "
-                       "images they are baked from)");
-    command.add_option("--mapping", a.mapping,
-                       "Way back to the original: projection (default), lineage, closest");
+                       "Format of baked images: png (default), jpeg or jpeg:QUALITY (1 to 100, default "
+                       "90), source (that of the images they are baked from)");
+    command.add_option("--mapping", a.mapping, "Map to the original: projection (default), lineage, closest");
 }
 
 void add_level_options(CLI::App& command, SimplifyArguments& a) {
@@ -179,19 +177,21 @@ void add_level_options(CLI::App& command, SimplifyArguments& a) {
     add_bake_options(command, a);
     add_topology_options(command, a);
     command.add_flag("--strict", a.strict,
-                     "Exit with 3 where the input would be repaired: nothing left out, every face with area "
-                     "and once");
+                     "Exit with 3 if the input would be repaired: invalid elements, faces of zero area, "
+                     "duplicate faces");
     command.add_flag("--strict-target", a.strict_target,
-                     "Exit with 5, and write no model, when the target is missed");
+                     "Exit with 5, and write no model, if the target is missed");
 }
 
 namespace {
 
-/// What the library calls an option that begins its sentence, and what the command calls it.
+/// Beginnings of the library's error messages about options, and the texts with the command's option names
+/// that replace them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_names = {
     {{"target ratio", "--ratio"},
      {"max_error", "--max-error"},
-     {"visibility: a distance counts", "--visibility weighted: a distance counts"},
+     {"visibility must be ignored if max_error is given without a target",
+      "--visibility must be ignored if --max-error is given without --ratio or --faces"},
      {"weights.area", "--w-area"},
      {"weights.boundary", "--w-boundary"},
      {"weights.normal", "--w-normal"},
@@ -203,9 +203,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_n
      {"texture_size", "--texture-size"},
      {"texel_density", "--texel-density"},
      {"crease_angle", "--normals: the angle of smooth"},
-     {"normals can be left out", "--normals none: they can be left out"}}};
+     {"normals may be none only if bake is none", "--normals may be none only if --bake is none"}}};
 
-/// validate() in the words of the command.
+/// Calls validate(). Error messages name the options of the command instead of those of the library.
 void validate_with_option_names(const Options& options) try {
     validate(options);
 } catch (const OptionError& error) {
@@ -254,7 +254,7 @@ Level parse_level(const std::string& text) {
     const double value = parse_number(text, "--levels");
     if (value > 0 && value <= 1) return ratio(value);
     if (!(value > 1 && value < 1e15 && value == std::floor(value)))
-        throw OptionError("--levels: '" + text + "' is neither a share of the faces nor a number of them");
+        throw OptionError("--levels: '" + text + "' is neither a ratio in (0, 1] nor a number of faces");
     return faces(static_cast<std::uint64_t>(value));
 }
 

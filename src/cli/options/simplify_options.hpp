@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options of faqem simplify that say what the result is to be; faqem batch and faqem lod have the same.
+/// Options that determine the result, shared by `faqem simplify`, `batch`, `lod` and `truncate`.
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@ class App;
 
 namespace faqem::cli {
 
-/// The command line as it was given.
+/// Values of the options as parsed from the command line.
 struct SimplifyArguments {
     std::string preset, budget, visibility, bake, mapping, normal_map, normals, image_format;
     std::string virtual_edges;  ///< empty: off
@@ -25,29 +25,30 @@ struct SimplifyArguments {
     std::uint64_t faces = 0;
     bool link = false, lock_boundary = false, keep_groups = false;
     bool strict = false, strict_target = false;
-    Options options;  ///< those that need no translation
+    Options options;  ///< options whose values are parsed directly into their member
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
 };
 
-/// Adds the options to a command; they are read into `arguments`, which has to live on.
+/// Adds all options of SimplifyArguments to a command.
+/// \param arguments  receives the values; must outlive the command
 void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
 
-/// Those that do not say how many faces or how close.
+/// Adds all options except the targets (--ratio, --faces and --max-error). \param arguments  as above
 void add_level_options(CLI::App& command, SimplifyArguments& arguments);
 
-/// Those that say what is baked.
+/// Adds only the options of baking. \param arguments  as above
 void add_bake_options(CLI::App& command, SimplifyArguments& arguments);
 
-/// `0.5`, a share of the faces; `5000`, a number of them; `error:0.01` in model units or `error:0.1%` of the
-/// diagonal.
-/// \throws OptionError
+/// Parses one level: `0.5` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
+/// or `error:0.1%` (distance relative to the diagonal).
+/// \throws OptionError  the text has another form
 Level parse_level(const std::string& text);
 
-/// \throws OptionError  a value is unknown or out of range
+/// Converts and validates the arguments. \throws OptionError  a value is unknown or out of range
 Options make_options(const SimplifyArguments& arguments);
 
-/// Everything in the options that the result depends on, as text: equal where the results are.
+/// Returns all options that the result depends on as text. Options with equal texts give equal results.
 std::string options_key(const Options& options);
 
 }  // namespace faqem::cli

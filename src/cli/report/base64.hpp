@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bytes as text (RFC 4648, section 4).
+/// Base64 encoding.
 
 #include <cstdint>
 #include <span>
@@ -8,6 +8,7 @@
 
 namespace faqem::cli {
 
+/// Returns the Base64 encoding of bytes, with padding (RFC 4648, section 4).
 std::string base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace faqem::cli

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options that say how thoroughly two models are compared.
+/// The options of comparing two models, shared by `faqem compare` and `faqem report`.
 
 #include "faqem/compare.hpp"
 
@@ -10,7 +10,7 @@ class App;
 
 namespace faqem::cli {
 
-/// Adds them to a command; they are read into `options`, which has to live on.
+/// Adds the options to a command. \param options  receives the values; must outlive the command
 void add_compare_options(CLI::App& command, CompareOptions& options);
 
 }  // namespace faqem::cli

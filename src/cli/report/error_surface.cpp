@@ -16,10 +16,10 @@ namespace {
 
 using engine::Vector3;
 
-constexpr Index max_subdivisions = 1024;              // of a face
-constexpr std::uint64_t max_added_faces = 1'000'000;  // faces more, of all together
+constexpr Index max_subdivisions = 1024;              // segments along each edge of a face
+constexpr std::uint64_t max_added_faces = 1'000'000;  // total over all faces
 
-/// How many subdivisions to cut a face into, along each of its sides.
+/// Returns the number of segments into which each edge of a face is divided.
 Index subdivision_count(const Part& mesh, const Triangle& t, double spacing) {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -41,11 +41,12 @@ std::uint64_t added_face_count(const Part& mesh, double spacing) {
     return sum;
 }
 
-/// Into `subdivisions` subdivisions along each side: subdivisions^2 faces. The corners are shared with the neighbours.
+/// Divides each edge into `subdivisions` segments and the face into subdivisions^2 faces. Only the corners
+/// are shared with adjacent faces.
 void subdivide_face(ErrorSurface& surface, const Triangle& t, Index subdivisions) {
     const Vec3 a = surface.positions[t[0]], b = surface.positions[t[1]], c = surface.positions[t[2]];
     std::vector<Index> above, row;
-    for (Index i = 0; i <= subdivisions; ++i) {  // rows from a down to the side b c
+    for (Index i = 0; i <= subdivisions; ++i) {  // rows from corner a to the edge (b, c)
         row.clear();
         for (Index j = 0; j <= i; ++j) {
             const bool is_last_row = i == subdivisions;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Colours for how large an error is: from dark blue to yellow, in steps that are even for the eye.
+/// The perceptually uniform colour map of heat maps, from dark blue to yellow.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace faqem::cli {
 
-/// sRGB. Every eighth of viridis, by van der Walt and Smith, which is in the public domain.
+/// Samples of the colour map viridis (van der Walt and Smith, public domain) at multiples of 1/8. sRGB, 0 to
+/// 255.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1, 84},
                                                                           {71, 45, 123},
                                                                           {59, 82, 139},
@@ -20,7 +21,8 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1
                                                                           {170, 220, 50},
                                                                           {253, 231, 37}}};
 
-/// \param share  of the ramp; below 0 and not a number: 0, above 1: 1
+/// Returns the interpolated colour at a position of the colour map.
+/// \param share  position in [0, 1]; clamped, NaN is treated as 0
 /// \return linear RGBA
 Vec4f heat_colour(double share);
 

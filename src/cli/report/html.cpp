@@ -41,7 +41,8 @@ std::string fill_template(std::string_view text,
         if (begin == std::string_view::npos) return result;
         const std::size_t end = std::min(text.find_first_not_of(letters, begin + 1), text.size());
         const std::string_view name = text.substr(begin + 1, end - begin - 1);
-        if (name.empty() || end == text.size() || text[end] != '@') {  // of a style: @media
+        if (name.empty() || end == text.size() ||
+            text[end] != '@') {  // not a placeholder, for example @media
             result += '@';
             text.remove_prefix(begin + 1);
             continue;

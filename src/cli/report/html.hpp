@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pieces of HTML.
+/// Functions that generate HTML.
 
 #include <string>
 #include <string_view>
@@ -9,17 +9,17 @@
 
 namespace faqem::cli {
 
-/// Text as HTML shows it, also inside of quoted attributes.
+/// Escapes text for HTML, also inside quoted attributes.
 std::string escape_html(std::string_view text);
 
-/// Replaces `@NAME@` by its value, each once and never inside of a value.
-/// \param values  names in capitals, digits and underscores
+/// Replaces each `@NAME@` in a text by its value. Names inside values are not replaced.
+/// \param values  pairs of name and value; names consist of capital letters, digits and underscores
 /// \pre every name in the text has a value
 std::string fill_template(std::string_view text,
                           const std::vector<std::pair<std::string_view, std::string>>& values);
 
-/// A table. The first column and the row of titles are headers. All cells are text, to be escaped.
-/// \param rows  as long as `titles` each
+/// Returns an HTML table. The row of titles and the first column are header cells. All texts are escaped.
+/// \param rows  each with as many cells as `titles`
 std::string html_table(const std::string& caption, const std::vector<std::string>& titles,
                        const std::vector<std::vector<std::string>>& rows);
 

@@ -8,7 +8,7 @@ namespace faqem::cli {
 FlattenedModel load_flattened(const std::string& file) {
     FlattenedModel model{file, load(file), {}};
     model.flat = detail::flatten(model.asset);
-    if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with area");
+    if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with non-zero area");
     return model;
 }
 

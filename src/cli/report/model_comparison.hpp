@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Everything that is measured between two models.
+/// Comparison of two models, shared by `faqem compare` and `faqem report`.
 
 #include <optional>
 #include <string>
@@ -11,26 +11,31 @@
 
 namespace faqem::cli {
 
-/// A model, and all its instances in world space as one mesh.
+/// A model as loaded, and all its instances in world space as one mesh.
 struct FlattenedModel {
     std::string file;
     Asset asset;
-    Part flat;
+    Part flat;  ///< world space
 
+    /// Returns a view of `flat`. Valid while this object is not changed.
     MeshView view() const { return {flat.positions, flat.triangles}; }
 };
 
-/// \throws ReadError, InputError (also where no face has area), UnsupportedError
+/// Loads and flattens a model.
+/// \throws ReadError         the file cannot be read
+/// \throws InputError        the file is damaged, or no face has a non-zero area
+/// \throws UnsupportedError  the format or a feature of the file is not supported
 FlattenedModel load_flattened(const std::string& file);
 
 struct ModelComparison {
     Comparison distances;
-    std::optional<ColorComparison> colors;  ///< none: a model says nothing of colours, or see the warning
-    std::string colors_warning;             ///< why an image cannot be read; that withholds no distances
+    std::optional<ColorComparison> colors;  ///< none if a model has no colours or `colors_warning` is set
+    std::string colors_warning;             ///< reason why colours cannot be compared; otherwise empty
     MeshInfo a, b;
 };
 
-/// \param a  the original
+/// Compares two models. If their colours cannot be compared, the distances are computed nevertheless.
+/// \param a  the original, whose diagonal is the unit of relative distances
 ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
                                const CompareOptions& options);
 

@@ -55,7 +55,7 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
         row("Bytes", a.bytes, b.bytes)};
     rows.back()[1] = size_text(a.bytes);
     rows.back()[2] = size_text(b.bytes);
-    return html_table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "share"}, rows);
+    return html_table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "ratio"}, rows);
 }
 
 std::string distances_table(const ReportPage& page) {
@@ -67,13 +67,13 @@ std::string distances_table(const ReportPage& page) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
     return html_table(
-        "Distances, in model units and as a share of the diagonal of " + name_of(page.a),
+        "Distances, in model units and relative to the diagonal of " + name_of(page.a),
         {"", "to " + name_of(page.b), "to " + name_of(page.a)},
-        {row("Largest found", [&](const OneSided& s) { return cell(s.max); }),
-         row("Largest, at most", [&](const OneSided& s) { return cell(s.max_bound); }),
+        {row("Maximum, lower bound", [&](const OneSided& s) { return cell(s.max); }),
+         row("Maximum, upper bound", [&](const OneSided& s) { return cell(s.max_bound); }),
          row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
          row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
-         row("Normals, mean angle",
+         row("Mean normal deviation",
              [](const OneSided& s) { return number(s.mean_normal_degrees, 3) + "°"; })});
 }
 
@@ -85,12 +85,12 @@ std::string colors_table(const ReportPage& page) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
     return html_table(
-        "Colours, sRGB from 0 to 1 without light; PSNR of both: " + decibels,
+        "Colour differences, unlit sRGB from 0 to 1; PSNR of both directions: " + decibels,
         {"", "to " + name_of(page.b), "to " + name_of(page.a)},
         {row("Root mean square", [](const OneSidedColors& s) { return number(s.rmse, 3); }),
-         row("More than 0.25 off", [](const OneSidedColors& s) { return percent(s.outliers); }),
-         row("Nothing looks that way", [](const OneSidedColors& s) { return percent(s.unmatched); }),
-         row("Masked out", [](const OneSidedColors& s) { return percent(s.hidden); })});
+         row("Difference above 0.25", [](const OneSidedColors& s) { return percent(s.outliers); }),
+         row("No face of similar orientation", [](const OneSidedColors& s) { return percent(s.unmatched); }),
+         row("Cut away by an alpha mask", [](const OneSidedColors& s) { return percent(s.hidden); })});
 }
 
 std::string summary(const ReportPage& page) {

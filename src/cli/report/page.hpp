@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The page of `faqem report`: one HTML file that refers to no other.
+/// The page of `faqem report`: a self-contained HTML file.
 
 #include <cstdint>
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace faqem::cli {
 
-/// A column of the figures.
+/// Data of one model for the tables of the page.
 struct ReportedModel {
     std::string file;
-    std::uint64_t bytes = 0;  ///< of the file and those that it refers to
+    std::uint64_t bytes = 0;  ///< total size of the file and the files it refers to
     MeshInfo mesh;
     std::size_t materials = 0, images = 0;
 };
 
 struct Picture {
     Image png;
-    std::string caption;      ///< for all, below it
-    std::string description;  ///< instead of it, for those who do not see it
+    std::string caption;      ///< text below the picture
+    std::string description;  ///< alternative text
 };
 
-/// The models of the 3D view, and how it colours errors.
+/// The models of the 3D view and the scale of its heat map.
 struct ViewerData {
-    std::vector<std::uint8_t> a, b;  ///< from viewer_glb()
-    double limit = 0,
-           max_distance = 0;  ///< distance with the full colour, and the largest; in units of the frame
-    double unit = 1;          ///< of the frame, model units
+    std::vector<std::uint8_t> a, b;  ///< GLB files from viewer_glb()
+    double limit = 0;                ///< distance at the end of the colour scale, units of the frame
+    double max_distance = 0;         ///< maximum distance, units of the frame
+    double unit = 1;                 ///< ViewerFrame::unit, model units
 };
 
 struct ReportPage {
@@ -38,13 +38,13 @@ struct ReportPage {
     ModelComparison comparison;
     std::vector<Picture> pictures;
     std::optional<ViewerData> view;
-    std::vector<std::string> notes;  ///< why there is no view, what was repaired; a sentence each
+    std::vector<std::string> notes;  ///< sentences: reason for a missing view, warnings of load()
 };
 
-/// Whether faqem was built with the script of the 3D view.
+/// Returns whether faqem was built with the script of the 3D view.
 bool has_viewer();
 
-/// The page as HTML. Names of files are escaped; nothing is fetched when it is opened.
+/// Returns the page as HTML. File names are escaped. The page loads no external resources.
 std::string report_html(const ReportPage& page);
 
 }  // namespace faqem::cli

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
     Asset asset;
     asset.images = model.asset.images;
     asset.materials = model.asset.materials;
-    // What the file said of them in other words belongs to its own document.
+    // `source` is an index into the source's glTF document, which is not part of this asset.
     for (Material& material : asset.materials) material.source = no_index;
     asset.parts = {model.flat, error_part(error, "error")};
     asset.parts[0].name = "look";

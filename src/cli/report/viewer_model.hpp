@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the page's 3D view shows of a model.
+/// The models that are embedded in the page for its 3D view and heat maps.
 
 #include <cstdint>
 #include <vector>
@@ -10,19 +10,21 @@
 
 namespace faqem::cli {
 
-/// Where the view has its origin and how long its unit is: numbers near 1 for a graphics card, wherever and
-/// however large the models are.
+/// Coordinate frame of the 3D view. It normalizes positions to magnitudes near 1, because graphics hardware
+/// computes in single precision.
 struct ViewerFrame {
-    Vec3 centre = {};  ///< world space
-    double unit = 1;   ///< model units, > 0
+    Vec3 centre = {};  ///< origin of the frame, world space
+    double unit = 1;   ///< length of its unit, model units, > 0
 };
 
-/// A GLB with two meshes in the frame: `look`, all instances of the model, and `error`, whose texture
-/// coordinate u is the distance, in units of the frame. Skins and morph targets are in rest pose.
+/// Returns a GLB file with two meshes in the frame: `look` contains all instances of the model with its
+/// materials, `error` the error surface with the distance, in units of the frame, as texture coordinate u.
+/// Skins and morph targets are in rest pose.
 std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
                                      const ViewerFrame& frame);
 
-/// The model's error surface coloured by distance, as a scene for the rasteriser. \param limit  full colour
+/// Returns the error surface with vertex colours by distance, for the rasteriser.
+/// \param limit  distance at the end of the colour scale, model units
 Asset color_by_distance(const ErrorSurface& error, double limit);
 
 }  // namespace faqem::cli

@@ -25,9 +25,9 @@ OptionInfo info_of(const CLI::Option& option) {
     for (const std::string& name : option.get_snames()) info.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) info.names.push_back("--" + name);
     for (const CLI::Option* other : option.get_excludes()) info.excludes.push_back(other->get_name());
-    std::sort(info.excludes.begin(), info.excludes.end());  // the set is one of addresses
+    std::sort(info.excludes.begin(), info.excludes.end());  // CLI11's set is ordered by address
     std::string type = option.get_type_name();
-    type = type.substr(0, type.find(':'));  // behind it is what the value is checked for
+    type = type.substr(0, type.find(':'));  // the validators follow after the colon
     if (option.get_expected_min() == 0) {
         info.optional_value_name = type;
         return info;
@@ -37,7 +37,7 @@ OptionInfo info_of(const CLI::Option& option) {
     return info;
 }
 
-/// The lines of a footer behind its title, without the space before them.
+/// Returns the indented lines of a footer without their indentation.
 std::vector<std::string> example_lines(const std::string& footer) {
     std::vector<std::string> lines;
     for (const std::string& line : split(footer, '\n')) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The command line as plain data: what man page, completion and suggestions are made from.
+/// Commands and options as plain data, from which the manual page, completion scripts and suggestions are
+/// made.
 
 #include <string>
 #include <vector>
@@ -11,13 +12,13 @@ class App;
 
 namespace faqem::cli {
 
-/// An option, or an argument without dashes.
+/// An option or a positional argument.
 struct OptionInfo {
-    std::vector<std::string> names;     ///< `-h` and `--help`; of an argument its one name
-    std::string value_name;             ///< what stands for the value; empty: a flag, or an argument
-    std::vector<std::string> choices;   ///< all that the value can be; empty: anything
-    std::string optional_value_name;    ///< of a flag that may have a value behind `=`: what stands for it
-    std::vector<std::string> excludes;  ///< options that cannot be given with it, sorted
+    std::vector<std::string> names;     ///< for example `-h` and `--help`; one name for an argument
+    std::string value_name;             ///< placeholder for the value; empty for flags and arguments
+    std::vector<std::string> choices;   ///< the possible values; empty if they are not enumerated
+    std::string optional_value_name;    ///< placeholder for the value of a flag that accepts `=VALUE`
+    std::vector<std::string> excludes;  ///< options that cannot be given together with this one, sorted
     std::string description;
 };
 
@@ -29,12 +30,12 @@ struct CommandInfo {
 
 struct CommandTree {
     std::string description;
-    std::string exit_codes;           ///< a paragraph
-    std::vector<OptionInfo> options;  ///< of the command itself
+    std::string exit_codes;           ///< paragraph that lists the exit codes
+    std::vector<OptionInfo> options;  ///< options of `faqem` without a subcommand
     std::vector<CommandInfo> commands;
 };
 
-/// \param app  from build_command_line()
+/// Extracts commands and options. \param app  filled by build_command_line()
 CommandTree command_tree(const CLI::App& app);
 
 }  // namespace faqem::cli

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scripts that complete the command line in a shell.
+/// Completion scripts for shells.
 
 #include <string>
 
@@ -8,10 +8,10 @@
 
 namespace faqem::cli {
 
-/// For bash 4 or newer, without the package bash-completion.
+/// Returns a completion script for bash 4 or newer. It does not need the package bash-completion.
 std::string bash_completion(const CommandTree& tree);
 
-/// For zsh, as a function file `_faqem` or to be sourced.
+/// Returns a completion script for zsh, which can be installed as function file `_faqem` or sourced.
 std::string zsh_completion(const CommandTree& tree);
 
 }  // namespace faqem::cli

@@ -4,7 +4,7 @@ namespace faqem::cli {
 
 namespace {
 
-/// Text that troff shows as it is.
+/// Escapes text so that troff prints it literally.
 std::string escape_troff(std::string_view text) {
     std::string result;
     bool at_line_start = true;
@@ -53,7 +53,7 @@ std::string section(const CommandInfo& command) {
 std::string man_page(const CommandTree& tree, std::string_view version) {
     std::string text = ".TH FAQEM 1 \"\" \"faqem ";
     text.append(version).append("\" \"User Commands\"\n");
-    text += ".SH NAME\nfaqem \\- mesh simplification that keeps the look\n";
+    text += ".SH NAME\nfaqem \\- mesh simplification with texture baking\n";
     text.append(".SH SYNOPSIS\n").append(bold("faqem")).append(" ").append(italic("COMMAND"));
     text.append(" [").append(italic("OPTION")).append("]...\n");
     text.append(".SH DESCRIPTION\n").append(escape_troff(tree.description)).append("\n");

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The manual page.
+/// Generation of the manual page.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace faqem::cli {
 
-/// faqem(1), in the man macros of troff. \param version  as faqem::version()
+/// Returns the manual page faqem(1) in the man macros of troff. \param version  value of faqem::version()
 std::string man_page(const CommandTree& tree, std::string_view version);
 
 }  // namespace faqem::cli

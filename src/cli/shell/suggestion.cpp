@@ -35,7 +35,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string closest_word(std::string_view wrong, const std::vector<std::string>& known) {
-    constexpr std::size_t longest = 64;  // no option is; what is longer is no option misspelt
+    constexpr std::size_t longest = 64;  // limits the work; all options are shorter
     if (wrong.size() > longest) return {};
     std::size_t best = std::max<std::size_t>(1, wrong.size() / 3) + 1;
     std::string found;

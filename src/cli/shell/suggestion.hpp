@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// "Did you mean": the known word that a wrong one is closest to.
+/// Suggestions for misspelt commands and options.
 
 #include <string>
 #include <string_view>
@@ -10,17 +10,19 @@
 
 namespace faqem::cli {
 
-/// Letters to insert, delete, replace, or swap with their neighbour, to make one word the other; each place
-/// is changed once at most (optimal string alignment). O(product of the lengths)
+/// Returns the optimal string alignment distance: the number of insertions, deletions, replacements and swaps
+/// of adjacent characters that turn one word into the other, where no substring is edited more than once.
+/// Complexity: O(a.size() * b.size()).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The first of the closest words: one that begins with the wrong one, or is at most a third of its letters
-/// (and at least one) away. Empty: there is none.
+/// Returns the closest known word; the first one if several are equally close. A word that begins with
+/// `wrong` (of at least four characters) has distance 0. Empty if no word is within max(1, a third of the
+/// length of `wrong`).
 std::string closest_word(std::string_view wrong, const std::vector<std::string>& known);
 
-/// The known command or option that is closest to the first wrong one.
-/// \param words  of the command line, without the program's name
-/// \return empty where nothing is wrong or nothing is close
+/// Returns the known command or option that is closest to the first unknown one on a command line.
+/// \param words  the command line without the name of the program
+/// \return empty if no command or option is unknown or none is close
 std::string suggestion(const CommandTree& tree, const std::vector<std::string>& words);
 
 }  // namespace faqem::cli

@@ -1,6 +1,7 @@
-// node simplify.mjs INDEX IN OUT FACES [update]: simplifies with the meshoptimizer of the package whose file INDEX is,
-// and prints the seconds that took. IN and OUT: the counts of vertices and triangles, x y z of each vertex in floats,
-// the three vertices of each triangle; all in 32 bits. With `update` vertices are moved, too.
+// node simplify.mjs INDEX IN OUT FACES [update]: simplifies a mesh with the meshoptimizer package whose main
+// file is INDEX, and prints elapsed time and CPU time in seconds. Format of IN and OUT, all values with 32
+// bits: numbers of vertices and triangles, x y z of each vertex (float), the three vertices of each triangle.
+// With `update` vertices are moved.
 import { readFileSync, writeFileSync } from "node:fs";
 import { performance } from "node:perf_hooks";
 import { pathToFileURL } from "node:url";
@@ -9,7 +10,7 @@ const [index, input, output, faces, update] = process.argv.slice(2);
 const loaded = await import(pathToFileURL(index));
 const simplifier = (loaded.MeshoptSimplifier ? loaded : loaded.default).MeshoptSimplifier;
 await simplifier.ready;
-simplifier.useExperimentalFeatures = true; // what 0.18 asks for before it simplifies
+simplifier.useExperimentalFeatures = true; // required by version 0.18
 
 const { buffer, byteOffset } = readFileSync(input);
 const [vertices, triangles] = new Uint32Array(buffer, byteOffset, 2);
@@ -17,21 +18,21 @@ const original = {
   positions: new Float32Array(buffer, byteOffset + 8, 3 * vertices),
   indices: new Uint32Array(buffer, byteOffset + 8 + 12 * vertices, 3 * triangles),
 };
-const limit = 3.4e38; // the error does not end it
+const limit = 3.4e38; // unlimited error
 
 function simplify({ positions, indices }) {
   if (!update) {
     const [kept] = simplifier.simplify(indices, positions, 3, 3 * faces, limit);
     return { positions, indices: kept };
   }
-  // It writes to its arrays, and returns how many indices are left.
+  // It modifies its arguments and returns the number of remaining indices.
   const none = new Float32Array(0);
   const [count] = simplifier.simplifyWithUpdate(indices, positions, 3, none, 0, [], null, 3 * faces, limit);
   return { positions, indices: indices.slice(0, count) };
 }
 
 let result, seconds, cpu;
-for (let run = 0; run < 2; ++run) { // the first is for the compiler
+for (let run = 0; run < 2; ++run) { // the first run is for the just-in-time compiler
   const mesh = { positions: original.positions.slice(), indices: original.indices.slice() };
   const start = performance.now();
   const used = process.cpuUsage();

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// The lines of a run by the models' names.
+/// Parses the output lines of a batch. \return the lines by path of their model
 std::map<std::string, Json> lines_of(const Outcome& outcome) {
     std::map<std::string, Json> lines;
     std::istringstream in(outcome.out);
@@ -33,7 +33,7 @@ std::string status(const Outcome& outcome, const std::string& name) {
     return lines.contains(name) ? lines.at(name)["status"].get<std::string>() : "none";
 }
 
-/// in/a.glb, in/sub/b.obj with its library and image, in/sub/c.ply
+/// Writes in/a.glb, in/sub/b.obj with its library and image, and in/sub/c.ply.
 void make_models(const Folder& folder) {
     fs::create_directories(folder / "in/sub");
     faqem::save(sheet(8), folder / "in/a.glb");
@@ -41,7 +41,7 @@ void make_models(const Folder& folder) {
     faqem::save(sheet(6), folder / "in/sub/c.ply");
 }
 
-/// Moves the time of the last change; the content stays.
+/// Changes the modification time of a file, but not its content.
 void touch(const fs::path& file) {
     fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(3));
 }
@@ -50,7 +50,7 @@ const std::string batch = "batch in out --texture-size 64 --ratio 0.5 ";
 
 }  // namespace
 
-TEST_CASE("a batch makes of every model what simplify makes of it, in the same tree") {
+TEST_CASE("batch writes the same bytes as simplify for every model of a directory tree") {
     const Folder folder;
     make_models(folder);
     write(folder / "in/notes.txt", "no model");
@@ -77,7 +77,7 @@ TEST_CASE("a batch makes of every model what simplify makes of it, in the same t
     CHECK(lines.at("a.glb")["faces_in"] == 128);
 }
 
-TEST_CASE("a batch writes the format asked for") {
+TEST_CASE("batch --format selects the output format") {
     const Folder folder;
     make_models(folder);
     CHECK(run(folder, batch + "--format ply").code == 0);
@@ -86,7 +86,7 @@ TEST_CASE("a batch writes the format asked for") {
     CHECK(!fs::exists(folder / "other"));
 }
 
-TEST_CASE("a failure does not stop a batch, and its line says what simplify would") {
+TEST_CASE("a failing model does not stop a batch and its line has the code and message of simplify") {
     const Folder folder;
     make_models(folder);
     write(folder / "in/broken.ply", "ply\nno header");
@@ -105,14 +105,16 @@ TEST_CASE("a failure does not stop a batch, and its line says what simplify woul
     CHECK(!fs::exists(folder / "out/broken.glb"));
 }
 
-TEST_CASE("a batch refuses models as simplify does") {
+TEST_CASE("batch applies --max-error and --strict to each model") {
     const Folder folder;
     make_models(folder);
     const Outcome outcome = run(folder, batch + "--max-error 1e-9");
     CHECK(outcome.code == 9);
     CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
     CHECK(!fs::exists(folder / "out/a.glb"));
-    // A face twice is a repair, and with --strict an error; what was made without it is made again.
+    // Dropping a duplicate face is a repair, which is an error with --strict. The other results were written
+    // without
+    // --strict, so they are out of date.
     write(folder / "in/twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 4 1 3\n");
     CHECK(status(run(folder, batch), "twice.obj") == "done");
     const Outcome strict = run(folder, batch + "--strict --resume");
@@ -121,7 +123,7 @@ TEST_CASE("a batch refuses models as simplify does") {
     CHECK(status(strict, "a.glb") == "done");
 }
 
-TEST_CASE("two models with one result are named before anything is done") {
+TEST_CASE("two models with the same output file are an error before the batch starts") {
     const Folder folder;
     make_models(folder);
     faqem::save(sheet(4), folder / "in/a.stl");
@@ -133,14 +135,14 @@ TEST_CASE("two models with one result are named before anything is done") {
     CHECK(!fs::exists(folder / "out"));
 }
 
-TEST_CASE("a batch never takes its results for models, nor its models for results") {
+TEST_CASE("batch does not read its results as models and does not overwrite its models") {
     const Folder folder;
     make_models(folder);
     CHECK(run(folder, "batch in in").code == 2);
     CHECK(run(folder, "batch in in/sub/..").code == 2);
     CHECK(run(folder, "batch in in/out --texture-size 64").code == 0);
     CHECK(lines_of(run(folder, "batch in in/out --texture-size 64 --force")).size() == 3);
-    // The result of in/a.glb would be in/a.glb, by a link.
+    // linked/a.glb is a hard link to in/a.glb.
     fs::create_directory(folder / "linked");
     fs::create_hard_link(folder / "in/a.glb", folder / "linked/a.glb");
     const std::string before = read(folder / "in/a.glb");
@@ -148,7 +150,7 @@ TEST_CASE("a batch never takes its results for models, nor its models for result
     CHECK(read(folder / "in/a.glb") == before);
 }
 
-TEST_CASE("a batch without models, or without the folder, is bad input") {
+TEST_CASE("batch exits with 3 if the input directory is missing or has no models") {
     const Folder folder;
     CHECK(run(folder, "batch nowhere out").code == 3);
     fs::create_directory(folder / "in");
@@ -156,7 +158,7 @@ TEST_CASE("a batch without models, or without the folder, is bad input") {
     CHECK(!fs::exists(folder / "out"));
 }
 
-TEST_CASE("a batch keeps files that exist unless --force says otherwise") {
+TEST_CASE("batch overwrites existing files only with --force") {
     const Folder folder;
     make_models(folder);
     fs::create_directory(folder / "out");
@@ -171,7 +173,7 @@ TEST_CASE("a batch keeps files that exist unless --force says otherwise") {
     CHECK(read(folder / "out/a.glb") != "precious");
 }
 
-TEST_CASE("a resumed batch does only what is new, changed or missing") {
+TEST_CASE("batch --resume processes only models that are new, changed or without result") {
     const Folder folder;
     make_models(folder);
     const auto again = [&](const std::string& name) { return status(run(folder, batch + "--resume"), name); };
@@ -189,7 +191,7 @@ TEST_CASE("a resumed batch does only what is new, changed or missing") {
         CHECK(status(outcome, "a.glb") == "done");
         CHECK(status(outcome, "sub/c.ply") == "skipped");
     }
-    SECTION("a library or an image that a model refers to") {
+    SECTION("a referenced material library or image that changed") {
         touch(folder / "in/sub/b.mtl");
         CHECK(again("sub/b.obj") == "done");
         touch(folder / "in/sub/b_0.png");
@@ -202,7 +204,7 @@ TEST_CASE("a resumed batch does only what is new, changed or missing") {
         CHECK(status(run(folder, batch + "--resume --preset fast --threads 2"), "a.glb") == "skipped");
         CHECK(status(run(folder, batch + "--resume"), "a.glb") == "done");
     }
-    SECTION("a result that is gone") {
+    SECTION("a result that was deleted") {
         fs::remove(folder / "out/a.glb");
         CHECK(again("a.glb") == "done");
     }
@@ -210,7 +212,7 @@ TEST_CASE("a resumed batch does only what is new, changed or missing") {
         faqem::save(sheet(5), folder / "in/new.stl");
         CHECK(again("new.stl") == "done");
     }
-    SECTION("not a result that somebody changed") {
+    SECTION("a result that was changed is not overwritten") {
         write(folder / "out/a.glb", "precious");
         touch(folder / "in/a.glb");
         CHECK(again("a.glb") == "failed");
@@ -219,12 +221,13 @@ TEST_CASE("a resumed batch does only what is new, changed or missing") {
     }
 }
 
-TEST_CASE("a batch that was cut off goes on") {
+TEST_CASE("batch --resume redoes a result whose record is truncated") {
     const Folder folder;
     make_models(folder);
     REQUIRE(run(folder, batch + "--jobs 1").code == 0);
     std::string record = read(folder / "out/.faqem-batch.jsonl");
-    // The end of the last line is lost: its result was begun, and may be replaced.
+    // Only the first entry of this result remains, which says that it was begun, so that it may be
+    // overwritten.
     write(folder / "out/.faqem-batch.jsonl", record.substr(0, record.size() - 20));
     const Outcome outcome = run(folder, batch + "--resume");
     CHECK(outcome.code == 0);
@@ -235,7 +238,7 @@ TEST_CASE("a batch that was cut off goes on") {
         CHECK(line["status"] == "skipped");
 }
 
-TEST_CASE("a signal ends a batch with 8, and it can be resumed") {
+TEST_CASE("batch exits with 8 after a signal and can be resumed") {
     const Folder folder;
     fs::create_directory(folder / "in");
     for (const char* name : {"in/a.glb", "in/b.glb", "in/c.glb"}) faqem::save(sheet(150), folder / name);
@@ -250,14 +253,14 @@ TEST_CASE("a signal ends a batch with 8, and it can be resumed") {
     const int status = signal_and_wait(process, SIGTERM);
     REQUIRE(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 8);
-    // Every model has its line, whatever became of it.
+    // Cancelled models have a line, too.
     CHECK(lines_of({0, read(folder / "lines"), ""}).size() == 3);
     const Outcome outcome = run(folder, "batch in out --bake none --resume");
     CHECK(outcome.code == 0);
     CHECK(lines_of(outcome).size() == 3);
 }
 
-TEST_CASE("two batches do not work in one folder") {
+TEST_CASE("batch exits with 7 if another batch uses the output directory") {
     const Folder folder;
     make_models(folder);
     fs::create_directory(folder / "out");
@@ -270,7 +273,7 @@ TEST_CASE("two batches do not work in one folder") {
     CHECK(run(folder, batch).code == 0);
 }
 
-TEST_CASE("a batch does as well with little memory") {
+TEST_CASE("batch completes with a memory limit below the estimate of each model") {
     const Folder folder;
     make_models(folder);
     CHECK(run(folder, batch + "--jobs 3 --max-memory 1MB").code == 0);

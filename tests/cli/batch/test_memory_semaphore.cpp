@@ -8,7 +8,7 @@
 
 using namespace faqem::cli;
 
-TEST_CASE("what is at work at once fits into the memory, and what does not fit works alone") {
+TEST_CASE("MemorySemaphore keeps the total below the limit and grants larger requests exclusively") {
     constexpr std::uint64_t limit = 10;
     MemorySemaphore semaphore(limit);
     std::atomic<std::uint64_t> used{0};
@@ -32,13 +32,13 @@ TEST_CASE("what is at work at once fits into the memory, and what does not fit w
     CHECK(!too_much);
 }
 
-TEST_CASE("the peak that is predicted grows with the file, the page and the preset") {
+TEST_CASE("the memory estimate of a file grows with its size, the texture size and the preset") {
     faqem::Options options;
     const auto peak = [&](const char* file, std::uint64_t bytes) {
         return estimated_peak_memory_of_file(file, bytes, options);
     };
     CHECK(peak("a.glb", 2'000'000) > peak("a.glb", 1'000'000));
-    // A binary file of the same size has more faces.
+    // A binary file has more faces than a text file of the same size.
     CHECK(peak("a.PLY", 1'000'000) > peak("a.obj", 1'000'000));
     const std::uint64_t balanced = peak("a.glb", 1'000'000);
     options.preset = faqem::Preset::best;

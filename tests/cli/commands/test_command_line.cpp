@@ -5,7 +5,7 @@
 
 using namespace tool_test;
 
-TEST_CASE("help and version go to stdout and are no errors") {
+TEST_CASE("help and version are printed to stdout with exit code 0") {
     const Folder folder;
     for (const char* arguments : {"--help", "--version", "simplify --help", "batch --help", "info --help",
                                   "compare --help", "render --help", "man", "completion bash"}) {
@@ -16,12 +16,12 @@ TEST_CASE("help and version go to stdout and are no errors") {
     }
 }
 
-TEST_CASE("the version is the library's") {
+TEST_CASE("faqem --version prints the version of the library") {
     const Folder folder;
     CHECK(run(folder, "--version").out == "faqem " + std::string(faqem::version()) + "\n");
 }
 
-TEST_CASE("a wrong command line ends with 2 and says so on stderr") {
+TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
     for (const char* arguments : {"",
@@ -73,7 +73,7 @@ TEST_CASE("a wrong command line ends with 2 and says so on stderr") {
     }
 }
 
-TEST_CASE("what is out of range is called by the option's name") {
+TEST_CASE("messages about values out of range name the option of the command") {
     const Folder folder;
     faqem::save(sheet(2), folder / "a.glb");
     const std::pair<const char*, const char*> wrong[] = {{"--ratio", "2"},
@@ -102,7 +102,7 @@ TEST_CASE("what is out of range is called by the option's name") {
     }
 }
 
-TEST_CASE("a flag with an optional value does not swallow a file name") {
+TEST_CASE("a flag with an optional value does not consume the next argument") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     CHECK(run(folder, "simplify --virtual-edges in.glb a.glb --bake none --quiet").code == 0);
@@ -111,7 +111,7 @@ TEST_CASE("a flag with an optional value does not swallow a file name") {
     CHECK(fs::exists(folder / "b.glb"));
 }
 
-TEST_CASE("bad input ends with 3, input of an unknown kind with 4") {
+TEST_CASE("bad input exits with 3 and an unknown file format with 4") {
     const Folder folder;
     write(folder / "garbage.glb", std::string("glTF\2\0\0\0\xff\xff\0\0", 12));
     write(folder / "model.xyz", "1 2 3");
@@ -134,7 +134,7 @@ TEST_CASE("bad input ends with 3, input of an unknown kind with 4") {
           {"compare empty.obj empty.obj", "empty.obj: no faces"},
           {"render empty.obj out.png", "empty.obj: no faces"},
           {"simplify nothing.gltf out.glb", "nothing.gltf: has no triangles"},
-          {"compare nothing.gltf nothing.gltf", "nothing.gltf: has no face with area"},
+          {"compare nothing.gltf nothing.gltf", "nothing.gltf: has no face with non-zero area"},
           {"render nothing.gltf out.png", "nothing.gltf: has no triangles"}}) {
         CAPTURE(arguments);
         const Outcome empty = run(folder, arguments);
@@ -145,7 +145,7 @@ TEST_CASE("bad input ends with 3, input of an unknown kind with 4") {
     CHECK(!fs::exists(folder / "out.png"));
 }
 
-TEST_CASE("the output may not be the input, whatever it is called") {
+TEST_CASE("an output file that is the input is rejected, also through links") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     const std::string before = read(folder / "in.glb");
@@ -165,7 +165,7 @@ TEST_CASE("the output may not be the input, whatever it is called") {
     CHECK(!fs::exists(folder / "new.glb"));
 }
 
-TEST_CASE("files that exist are kept unless --force says otherwise") {
+TEST_CASE("simplify and render overwrite existing files only with --force") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     write(folder / "out.glb", "precious");
@@ -182,7 +182,7 @@ TEST_CASE("files that exist are kept unless --force says otherwise") {
     for (const char* file : {"out.glb", "report.json", "out.png"}) CHECK(read(folder / file) != "precious");
 }
 
-TEST_CASE("what cannot be written is found out before the work") {
+TEST_CASE("output files that cannot be written are reported before the input is read") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     fs::create_directory(folder / "folder.glb");
@@ -193,11 +193,11 @@ TEST_CASE("what cannot be written is found out before the work") {
     CHECK(run(folder, "simplify in.glb folder.glb --force").code == 7);
     CHECK(run(folder, "simplify in.glb out.glb --report nowhere/r.json").code == 7);
     CHECK(!fs::exists(folder / "out.glb"));
-    // The output is looked at first: the input is not even opened.
+    // The output is checked before the missing input is opened.
     CHECK(run(folder, "simplify missing.glb nowhere/out.glb").code == 7);
 }
 
-TEST_CASE("no colours are written, not even on a terminal") {
+TEST_CASE("no colour escape sequences are written on a terminal") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
@@ -209,11 +209,11 @@ TEST_CASE("no colours are written, not even on a terminal") {
         const std::string seen = read(folder / "seen");
         CHECK(seen.find("load [") != std::string::npos);  // the progress bar
         for (std::size_t at = seen.find("\x1b["); at != std::string::npos; at = seen.find("\x1b[", at + 1))
-            CHECK(seen.compare(at, 3, "\x1b[K") == 0);  // wipes a line
+            CHECK(seen.compare(at, 3, "\x1b[K") == 0);  // erases a line
     }
 }
 
-TEST_CASE("a full standard output is an error") {
+TEST_CASE("failing to write to standard output exits with 7") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
     const std::string command =

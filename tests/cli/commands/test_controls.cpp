@@ -1,4 +1,4 @@
-// What the user may ask to keep or to leave out: --keep-groups, --prune.
+// The options --prune, --keep-groups, --strict-target and --strict.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,8 +10,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A bumpy sheet with a speck beside it whose box has the diagonal 0.01 sqrt(2).
-faqem::Asset dusty_sheet() {
+// A bumpy sheet and a separate small triangle whose bounding box has the diagonal 0.01 sqrt(2).
+faqem::Asset sheet_with_small_component() {
     faqem::Asset asset = sheet(20, 0.2);
     faqem::Part& part = asset.parts[0];
     const auto first = static_cast<faqem::Index>(part.positions.size());
@@ -32,9 +32,9 @@ Json report_of(const Folder& folder, const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("small components are pruned by model units and by the scene's diagonal") {
+TEST_CASE("simplify --prune deletes small components by model units or relative to the scene's diagonal") {
     const Folder folder;
-    faqem::save(dusty_sheet(), folder / "in.gltf");
+    faqem::save(sheet_with_small_component(), folder / "in.gltf");
     for (const char* size : {"0.015", "1%"}) {
         CAPTURE(size);
         const Json report = report_of(folder, std::string("in.gltf out.glb --prune ") + size);
@@ -50,9 +50,9 @@ TEST_CASE("small components are pruned by model units and by the scene's diagona
     CHECK(report_of(folder, "in.gltf out.glb")["components_pruned"] == 0);
 }
 
-TEST_CASE("a size to prune is one in the scene, at the largest scale a mesh has there") {
+TEST_CASE("simplify --prune measures components at the largest scale of their mesh in the scene") {
     const Folder folder;
-    faqem::save(dusty_sheet(), folder / "small.gltf");
+    faqem::save(sheet_with_small_component(), folder / "small.gltf");
     Json scene = Json::parse(read(folder / "small.gltf"));
     const std::size_t node = scene["scenes"][0]["nodes"][0];
     scene["nodes"][node]["scale"] = {8, 8, 8};
@@ -60,7 +60,7 @@ TEST_CASE("a size to prune is one in the scene, at the largest scale a mesh has 
     CHECK(report_of(folder, "large.gltf out.glb --prune 0.015")["components_pruned"] == 0);
     CHECK(report_of(folder, "large.gltf out.glb --prune 0.12")["components_pruned"] == 1);
     CHECK(report_of(folder, "large.gltf out.glb --prune 1%")["components_pruned"] == 1);
-    // At home as well it is small, but it is as large as before where it was.
+    // A second, unscaled instance does not change the largest scale.
     scene["nodes"].push_back({{"mesh", scene["nodes"][node]["mesh"]}});
     scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
     write(folder / "both.gltf", scene.dump());
@@ -68,9 +68,9 @@ TEST_CASE("a size to prune is one in the scene, at the largest scale a mesh has 
     CHECK(report_of(folder, "both.gltf out.glb --prune 0.12")["components_pruned"] == 1);
 }
 
-TEST_CASE("a size to prune is a positive number") {
+TEST_CASE("simplify --prune accepts only positive finite sizes") {
     const Folder folder;
-    faqem::save(dusty_sheet(), folder / "in.glb");
+    faqem::save(sheet_with_small_component(), folder / "in.glb");
     for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "0%", "''"}) {
         CAPTURE(bad);
         CHECK(run(folder, std::string("simplify in.glb out.glb --prune=") + bad).code == 2);
@@ -78,7 +78,7 @@ TEST_CASE("a size to prune is a positive number") {
     }
 }
 
-TEST_CASE("borders between materials are kept on demand") {
+TEST_CASE("simplify --keep-groups preserves boundaries between materials") {
     const Folder folder;
     faqem::Asset asset = sheet(30, 0);
     asset.materials.push_back(asset.materials[0]);
@@ -92,24 +92,24 @@ TEST_CASE("borders between materials are kept on demand") {
         const Json kept = report_of(folder, std::string(file) + " kept.obj --ratio 0.02 --keep-groups");
         CHECK(kept["refusals"]["group"] > 0);
         CHECK(kept["stop_reason"] == "reached_target");
-        const faqem::Asset light = faqem::load(folder / "kept.obj");
-        std::size_t on_border = 0;
-        for (std::size_t f = 0; f < light.parts[0].triangles.size(); ++f) {
+        const faqem::Asset simplified = faqem::load(folder / "kept.obj");
+        std::size_t on_boundary = 0;
+        for (std::size_t f = 0; f < simplified.parts[0].triangles.size(); ++f) {
             bool inside = false, outside = false;
-            for (const faqem::Index v : light.parts[0].triangles[f]) {
-                const double x = std::abs(light.parts[0].positions[v][0]);
+            for (const faqem::Index v : simplified.parts[0].triangles[f]) {
+                const double x = std::abs(simplified.parts[0].positions[v][0]);
                 inside |= x < 1.0 / 3 - 1e-5;
                 outside |= x > 1.0 / 3 + 1e-5;
-                on_border += std::abs(x - 1.0 / 3) <= 1e-5;
+                on_boundary += std::abs(x - 1.0 / 3) <= 1e-5;
             }
             CHECK(!(inside && outside));
         }
-        CHECK(on_border > 0);
+        CHECK(on_boundary > 0);
         CHECK(report_of(folder, std::string(file) + " free.obj --ratio 0.02")["refusals"]["group"] == 0);
     }
 }
 
-TEST_CASE("kept borders that do not allow the target end with 5 where that was asked for") {
+TEST_CASE("a target that --keep-groups prevents exits with 5 with --strict-target") {
     const Folder folder;
     faqem::Asset asset = sheet(6, 0.2);
     asset.materials.resize(72, asset.materials[0]);
@@ -121,7 +121,7 @@ TEST_CASE("kept borders that do not allow the target end with 5 where that was a
     CHECK(run(folder, "simplify in.glb out.glb --bake none --strict-target").code == 0);
 }
 
-TEST_CASE("with --strict a repair is an error that says what was wrong") {
+TEST_CASE("simplify --strict rejects input that would be repaired and names the element") {
     const Folder folder;
     const auto refused = [&](const std::string& text, const std::string& why) {
         write(folder / "in.obj", text);
@@ -136,11 +136,11 @@ TEST_CASE("with --strict a repair is an error that says what was wrong") {
         CHECK(!fs::exists(folder / "out.ply"));
     };
     const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n";
-    refused(square + "v nan 0 0\nf 1 2 3\nf 1 3 4\nf 1 2 6\n", "not finite");
-    refused(square + "f 1 2 3\nf 1 3 4\nf 1 2 5\n", "part 'in': face 2: has no area");
-    refused(square + "f 1 2 3\nf 1 3 4\nf 4 1 3\n", "face 2: is face 1 again");
+    refused(square + "v nan 0 0\nf 1 2 3\nf 1 3 4\nf 1 2 6\n", "non-finite");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 1 2 5\n", "part 'in': face 2: has zero area");
+    refused(square + "f 1 2 3\nf 1 3 4\nf 4 1 3\n", "face 2: is a duplicate of face 1");
     refused("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "none.mtl");
-    // Faces back to back and vertices no face uses are no repairs.
+    // Two faces of opposite orientation and an unreferenced vertex need no repair.
     write(folder / "in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 7 7 7\nf 1 2 3\nf 1 3 2\n");
     CHECK(run(folder, "simplify in.obj out.ply --quiet --strict").code == 0);
 }

@@ -6,7 +6,7 @@
 using namespace tool_test;
 using Json = nlohmann::json;
 
-TEST_CASE("info counts what is in a file") {
+TEST_CASE("info prints counts and measures of meshes and images") {
     const Folder folder;
     faqem::save(sheet(5, 0), folder / "in.glb");
     const Outcome outcome = run(folder, "info in.glb --json");
@@ -38,7 +38,7 @@ TEST_CASE("info counts what is in a file") {
     }
 }
 
-TEST_CASE("compare measures distances and tells what it measured") {
+TEST_CASE("compare prints two-sided distances and the settings of the measurement") {
     const Folder folder;
     faqem::Asset a = sheet(5, 0), b = sheet(7, 0);
     for (faqem::Vec3& p : b.parts[0].positions) p[2] += 0.5;
@@ -66,7 +66,7 @@ TEST_CASE("compare measures distances and tells what it measured") {
     CHECK(run(folder, "compare a.glb b.stl --samples 1000 --seed 7 --threads 1").out == outcome.out);
 }
 
-TEST_CASE("compare measures colours where both models have some") {
+TEST_CASE("compare measures colour differences if both models have colours") {
     const Folder folder;
     const faqem::Asset sheet = tool_test::sheet(5, 0);
     faqem::Asset blue = sheet;
@@ -76,7 +76,7 @@ TEST_CASE("compare measures colours where both models have some") {
     faqem::save(blue, folder / "blue.glb");
     faqem::save(sheet, folder / "bare.stl");
 
-    // Half of the sheet is red, which is blue in two channels of three.
+    // The red half of the sheet differs from blue by 1 in two of three channels.
     const Json result = Json::parse(run(folder, "compare sheet.glb blue.glb --samples 10000").out);
     const Json& colors = result["colors"];
     CHECK(colors["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
@@ -92,7 +92,7 @@ TEST_CASE("compare measures colours where both models have some") {
     CHECK(Json::parse(run(folder, "compare sheet.glb bare.stl --samples 1000").out)["colors"].is_null());
 }
 
-TEST_CASE("compare measures distances where an image cannot be read") {
+TEST_CASE("compare measures distances even if an image cannot be read") {
     const Folder folder;
     faqem::Asset asset = sheet(5, 0);
     asset.images[0].encoded.resize(60);
@@ -104,9 +104,9 @@ TEST_CASE("compare measures distances where an image cannot be read") {
     CHECK(outcome.err.find("warning: colours are not compared") != std::string::npos);
 }
 
-TEST_CASE("compare puts instances where their nodes put them") {
+TEST_CASE("compare transforms instances by their nodes") {
     const Folder folder;
-    // One triangle, placed twice; once moved by 10 and mirrored.
+    // Two instances of one triangle; the second is translated by 10 and mirrored.
     write(folder / "two.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
         "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [10, 0, 0], "scale": [-1, 1, 1]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],

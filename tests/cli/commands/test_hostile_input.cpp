@@ -1,4 +1,4 @@
-// Files made to do harm end with 3 (or 4), the file and the element named, and nothing written.
+// Malicious files exit with 3 (or 4) and an error that names the file and the element; no output is written.
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@ using faqem::testing::square_gltf;
 
 namespace {
 
-/// Refused by simplify and info alike, with these words on stderr.
+/// Checks that `simplify` and `info` reject a file with an error message that contains all `words`.
 void check_refused(const Folder& folder, const std::string& file, const std::vector<std::string>& words,
                    int code = 3) {
     for (const std::string& command : {"simplify " + file + " out.glb", "info " + file}) {
@@ -35,7 +35,7 @@ void check_refused(const GltfBuilder& builder, const std::vector<std::string>& w
 
 }  // namespace
 
-TEST_CASE("hostile: 20,000 brackets, in arrays and in objects, closed or not") {
+TEST_CASE("hostile: JSON with 20,000 nested arrays or objects is rejected") {
     const Folder folder;
     const std::string start = R"({"asset":{"version":"2.0"},"extras":)", open(20000, '[');
     write(folder / "open.gltf", start + open);
@@ -47,7 +47,7 @@ TEST_CASE("hostile: 20,000 brackets, in arrays and in objects, closed or not") {
         check_refused(folder, file, {"nested deeper than 64"});
 }
 
-TEST_CASE("hostile: counts and offsets near 2^62 and 2^64") {
+TEST_CASE("hostile: counts and offsets near 2^62 and 2^64 are rejected") {
     for (const std::uint64_t huge : {std::uint64_t{1} << 62, UINT64_MAX}) {
         GltfBuilder builder = square_gltf();
         builder.json["accessors"][0]["count"] = huge;
@@ -76,7 +76,7 @@ TEST_CASE("hostile: counts and offsets near 2^62 and 2^64") {
     check_refused(folder, "a.obj", {"line 2"});
 }
 
-TEST_CASE("hostile: node graphs that are no forest") {
+TEST_CASE("hostile: node graphs with cycles or nodes with two parents are rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"] = Json::parse(R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[0]}])");
     builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
@@ -85,15 +85,15 @@ TEST_CASE("hostile: node graphs that are no forest") {
     check_refused(builder, {"/nodes/2", "two parents"});
 }
 
-TEST_CASE("hostile: nodes that place a mesh beyond all numbers") {
+TEST_CASE("hostile: node transforms that overflow are rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"] =
         Json::parse(R"([{"scale":[1e200,1,1],"children":[1]},{"scale":[1e200,1,1],"mesh":0}])");
     builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
-    check_refused(builder, {"/meshes/0", "beyond the range of numbers"});
+    check_refused(builder, {"/meshes/0", "out of the range of double"});
 }
 
-TEST_CASE("hostile: an image that claims more pixels than its bytes can hold") {
+TEST_CASE("hostile: an image whose header has more pixels than its bytes can encode is rejected") {
     // IHDR of 16384 x 16384 RGBA with its checksum, an empty IDAT, IEND.
     const unsigned char png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,
                                  13,   'I', 'H', 'D', 'R',  0,    0,    0x40, 0,    0,    0,
@@ -115,11 +115,11 @@ TEST_CASE("hostile: an image that claims more pixels than its bytes can hold") {
     CHECK(outcome.code == 3);
     CHECK(contains(outcome.err, "faqem: a.glb: material 0: image: "));
     CHECK(!fs::exists(folder / "out.glb"));
-    // Where no pixel is needed the image goes along as it is.
+    // --bake keep copies the encoded image without decoding it.
     CHECK(run(folder, "simplify a.glb out.glb --bake keep --quiet").code == 0);
 }
 
-TEST_CASE("hostile: references that leave the folder, by name, by code, by link, from the current folder") {
+TEST_CASE("hostile: references to files outside the model's directory are rejected") {
     const Folder folder;
     fs::create_directory(folder / "in");
     const std::string bytes(60, 'x');
@@ -135,15 +135,16 @@ TEST_CASE("hostile: references that leave the folder, by name, by code, by link,
     };
     for (const char* uri : {"../secret.bin", "%2e%2e/secret.bin", "%2E%2E%2Fsecret.bin",
                             "./b/../../secret.bin", "link.bin", "up/secret.bin"})
-        refused(uri, "leads out of the folder");
+        refused(uri, "is outside the folder");
     refused((folder / "secret.bin").string(), "absolute");
-    refused("file://" + (folder / "secret.bin").string(), "not a path relative");
-    refused("http://localhost/secret.bin", "not a path relative");
-    // The tool runs in the outer folder: a file of that name is there, but not beside the asset.
+    refused("file://" + (folder / "secret.bin").string(), "not a relative path");
+    refused("http://localhost/secret.bin", "not a relative path");
+    // The command runs in the outer directory, which has a file of this name, but the asset's directory has
+    // none.
     refused("secret.bin", "No such file");
 }
 
-TEST_CASE("hostile: required extensions and other versions are unsupported") {
+TEST_CASE("hostile: unknown required extensions and other versions of glTF exit with 4") {
     for (const char* name : {"KHR_texture_basisu", "ACME_teapots"}) {
         GltfBuilder builder = square_gltf();
         builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {name};
@@ -154,7 +155,7 @@ TEST_CASE("hostile: required extensions and other versions are unsupported") {
     check_refused(builder, {"/asset/version"}, 4);
 }
 
-TEST_CASE("hostile: pipes, devices and folders are not read") {
+TEST_CASE("hostile: directories and devices are rejected as input") {
     const Folder folder;
     fs::create_directory(folder / "a.glb");
     check_refused(folder, "a.glb", {"not a regular file"});

@@ -19,12 +19,12 @@ Json manifest(const Folder& folder, const std::string& name) { return Json::pars
 
 std::size_t faces(const fs::path& file) { return faqem::load(file).parts.at(0).triangles.size(); }
 
-/// The last collapse may take one face more than asked for.
+/// A collapse removes up to two faces, so that a result may have one face less than the target.
 bool close_to(std::size_t faces, std::size_t target) { return faces <= target && faces + 2 > target; }
 
 }  // namespace
 
-TEST_CASE("lod writes the original, a model for each level and a manifest") {
+TEST_CASE("lod writes the original, one model per level and a manifest") {
     const Folder folder;
     faqem::save(sheet(30, 0.2), folder / "hill.glb");
     const Outcome outcome = run(folder, "lod hill.glb out --levels 0.5,0.1,50 --bake none");
@@ -36,28 +36,28 @@ TEST_CASE("lod writes the original, a model for each level and a manifest") {
     CHECK(json["source"] == "hill.glb");
     const faqem::Asset original = faqem::load(folder / "hill.glb");
     const faqem::MeshView before{original.parts[0].positions, original.parts[0].triangles};
-    double last = 0, far = 0;
+    double last_error = 0, last_distance = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         const Json& level = json["levels"][i];
         const std::string file = "hill_LOD" + std::to_string(i) + ".glb";
         CHECK(level["file"] == file);
         CHECK(level["faces"] == faces(folder / ("out/" + file)));
-        CHECK(level["error"] >= last);
-        CHECK(level["switch_distance"] >= far);
-        last = level["error"], far = level["switch_distance"];
-        const faqem::Asset light = faqem::load(folder / ("out/" + file));
-        const faqem::MeshView after{light.parts[0].positions, light.parts[0].triangles};
-        CHECK(faqem::hausdorff(before, after).value <= last + 1e-6);
+        CHECK(level["error"] >= last_error);
+        CHECK(level["switch_distance"] >= last_distance);
+        last_error = level["error"], last_distance = level["switch_distance"];
+        const faqem::Asset simplified = faqem::load(folder / ("out/" + file));
+        const faqem::MeshView after{simplified.parts[0].positions, simplified.parts[0].triangles};
+        CHECK(faqem::hausdorff(before, after).value <= last_error + 1e-6);
         CHECK(level.contains("report") == (i > 0));
     }
     CHECK(json["levels"][0]["faces"] == 1800);
     CHECK(json["levels"][0]["error"] == 0);
     CHECK(json["levels"][0]["screen_coverage"].is_null());
-    const std::size_t most[] = {1800, 900, 180, 50};
-    for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], most[i]));
+    const std::size_t targets[] = {1800, 900, 180, 50};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], targets[i]));
 }
 
-TEST_CASE("lod without the original begins with the first level") {
+TEST_CASE("lod --without-original writes the first level as LOD0") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     REQUIRE(
@@ -70,19 +70,20 @@ TEST_CASE("lod without the original begins with the first level") {
     CHECK(json["levels"][1]["error"] <= json["levels"][1]["report"]["max_error"]["allowed"]);
 }
 
-TEST_CASE("the switch distance shows an error under as many pixels as allowed") {
+TEST_CASE("at the switch distance the error covers the allowed number of pixels") {
     using namespace faqem::cli;
-    // At 90 degrees a screen of 1000 pixels shows 2 units at distance 1: an error of 0.01 is 5 pixels there.
+    // With a field of view of 90 degrees, 1000 pixels show 2 units at distance 1: an error of 0.01 covers 5
+    // pixels.
     CHECK(switch_distance(0.01, {1, 90, 1000}) == Approx(5));
     CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
     CHECK(switch_distance(0, {1, 60, 1080}) == 0);
     const faqem::cli::Json json =
         lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 0.009, 0.01, nullptr}});
-    // 3 units are 1.5 times the height at distance 1, and 0.3 of it at distance 5.
+    // 3 units are 1.5 times the view height at distance 1, and 0.3 of it at distance 5.
     CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
 }
 
-TEST_CASE("lod refuses what makes no chain, and touches nothing") {
+TEST_CASE("lod rejects invalid levels and options and writes nothing") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
     for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "5%"}) {
@@ -98,7 +99,7 @@ TEST_CASE("lod refuses what makes no chain, and touches nothing") {
     CHECK(run(folder, "lod a.glb out --format xyz").code == 2);
 }
 
-TEST_CASE("ten million units from the origin, all levels keep their shape and their place") {
+TEST_CASE("levels of a mesh ten million units from the origin keep shape and position") {
     const Folder folder;
     faqem::Asset hill = sheet(20, 0.2);
     for (faqem::Vec3& p : hill.parts[0].positions) p[0] += 1e7, p[1] -= 2e7;
@@ -122,7 +123,7 @@ TEST_CASE("ten million units from the origin, all levels keep their shape and th
     }
 }
 
-TEST_CASE("lod replaces nothing without --force") {
+TEST_CASE("lod overwrites existing files only with --force") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
     write(folder / "a_LOD1.glb", "mine");
@@ -134,7 +135,7 @@ TEST_CASE("lod replaces nothing without --force") {
     CHECK(close_to(faces(folder / "a_LOD1.glb"), 64));
 }
 
-TEST_CASE("lod writes nothing where a level misses a target that is strict") {
+TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
     const Outcome outcome =
@@ -145,7 +146,7 @@ TEST_CASE("lod writes nothing where a level misses a target that is strict") {
     CHECK(run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none").code == 6);
 }
 
-TEST_CASE("lod puts all levels into one file, which shows the finest") {
+TEST_CASE("lod --one-file writes all levels to one file whose scene has the finest") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     const std::string options = " --levels 0.5,0.1 --texture-size 128";
@@ -158,7 +159,7 @@ TEST_CASE("lod puts all levels into one file, which shows the finest") {
     REQUIRE(shown.size() == 1);
     CHECK(shown[0].part == 0);
     const std::string bytes = read(folder / "one/hill_LOD.glb");
-    std::uint32_t length = 0;  // of the JSON, which is the first chunk
+    std::uint32_t length = 0;  // of the first chunk, which is the JSON
     std::memcpy(&length, bytes.data() + 12, 4);
     const Json gltf = Json::parse(bytes.substr(20, length));
     const Json& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
@@ -182,9 +183,9 @@ TEST_CASE("lod puts all levels into one file, which shows the finest") {
     CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
 }
 
-TEST_CASE("a level may be so many pixels off at a distance") {
+TEST_CASE("a level pixels:N@D is the error that covers N pixels at distance D") {
     using namespace faqem::cli;
-    const ViewSettings view_settings{1, 90, 1000};  // 2 units are 1000 pixels at distance 1
+    const ViewSettings view_settings{1, 90, 1000};  // 2 units cover 1000 pixels at distance 1
     const auto error = [&](const char* text) {
         const faqem::Level level = parse_lod_level(text, view_settings);
         REQUIRE(std::holds_alternative<faqem::MaxError>(level));
@@ -202,7 +203,7 @@ TEST_CASE("a level may be so many pixels off at a distance") {
     }
 }
 
-TEST_CASE("lod stays below as many pixels at a distance as asked for") {
+TEST_CASE("lod meets error levels given in pixels at a distance") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     REQUIRE(run(folder, "lod a.glb out --levels pixels:1@2,pixels:1@20 --bake none --quiet").code == 0);
@@ -212,7 +213,7 @@ TEST_CASE("lod stays below as many pixels at a distance as asked for") {
     CHECK(json["levels"][2]["switch_distance"] > 2);
 }
 
-TEST_CASE("levels that keep the texture share it in one file") {
+TEST_CASE("levels with --bake keep share the original image in one file") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     REQUIRE(run(folder, "lod a.glb out --levels 0.5,0.1 --bake keep --one-file --quiet").code == 0);
@@ -222,7 +223,7 @@ TEST_CASE("levels that keep the texture share it in one file") {
     CHECK(document["meshes"].size() == 3);
 }
 
-TEST_CASE("levels may share a new texture, which one file stores once") {
+TEST_CASE("levels with --textures shared share a new texture, stored once in one file") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     const std::string options =

@@ -14,7 +14,7 @@ faqem::MeshView view(const faqem::Part& part) { return {part.positions, part.tri
 
 }  // namespace
 
-TEST_CASE("an error finds the smallest model within that distance and reports it") {
+TEST_CASE("simplify --max-error finds the smallest model within the distance and reports the bounds") {
     const Folder folder;
     faqem::save(sheet(30, 0.2), folder / "in.glb");
     const Outcome outcome =
@@ -34,11 +34,11 @@ TEST_CASE("an error finds the smallest model within that distance and reports it
     const faqem::Asset in = faqem::load(folder / "in.glb"), out = faqem::load(folder / "out.glb");
     CHECK(out.parts[0].triangles.size() == report["faces_out"]);
     CHECK(out.parts[0].triangles.size() < 900);
-    // The file has floats.
+    // The tolerance accounts for positions stored as floats.
     CHECK(faqem::hausdorff(view(in.parts[0]), view(out.parts[0])).value <= 0.01 + 1e-6);
 }
 
-TEST_CASE("an error with a percent sign is a share of the scene's diagonal, and nodes scale") {
+TEST_CASE("simplify --max-error in percent is relative to the diagonal of the transformed scene") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "small.gltf");
     Json scene = Json::parse(read(folder / "small.gltf"));
@@ -58,14 +58,14 @@ TEST_CASE("an error with a percent sign is a share of the scene's diagonal, and 
           Approx(8 * small["max_error"]["allowed"].get<double>()));
     CHECK(large["max_error"]["bound"].get<double>() == Approx(8 * small["max_error"]["bound"].get<double>()));
     CHECK(report("large.gltf", "0.08")["faces_out"] == report("small.gltf", "0.01")["faces_out"]);
-    // Another, smaller place of the same mesh changes nothing but the box.
+    // A second, smaller instance of the mesh changes only the bounding box of the scene.
     scene["nodes"].push_back({{"mesh", scene["nodes"][node]["mesh"]}});
     scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
     write(folder / "both.gltf", scene.dump());
     CHECK(report("both.gltf", "0.08")["faces_out"] == report("small.gltf", "0.01")["faces_out"]);
 }
 
-TEST_CASE("a count that cannot meet the error ends with 6 and writes no model") {
+TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no model") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "in.glb");
     for (const char* target : {"--faces 30", "--ratio 0.04"}) {
@@ -86,7 +86,7 @@ TEST_CASE("a count that cannot meet the error ends with 6 and writes no model") 
     }
 }
 
-TEST_CASE("an error is a positive number, and a missed target comes first") {
+TEST_CASE("simplify --max-error accepts only positive finite numbers and a missed target has precedence") {
     const Folder folder;
     faqem::save(sheet(6, 0.2), folder / "in.glb");
     for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "1e999", "0%", "1%%", "''"}) {
@@ -96,7 +96,7 @@ TEST_CASE("an error is a positive number, and a missed target comes first") {
     }
     CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-boundary --strict-target --max-error 1e-9")
               .code == 5);
-    // Without a target none is missed.
+    // Without a target, --strict-target has no effect.
     CHECK(run(folder, "simplify in.glb out.glb --lock-boundary --strict-target --max-error 10 --bake none")
               .code == 0);
 }

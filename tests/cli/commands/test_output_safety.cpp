@@ -1,4 +1,4 @@
-// Whatever happens, an output file is the old one, the new one, or none.
+// Output files are written atomically: after any failure a file is unchanged, complete or missing.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -25,7 +25,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// As run(), from a shell that does `before` first.
+/// As run(), but the shell executes `before` first.
 Outcome run_after(const Folder& folder, const std::string& before, const std::string& arguments) {
     const Folder streams;
     const std::string command = "cd '" + folder.path().string() + "' && " + before +
@@ -37,8 +37,8 @@ Outcome run_after(const Folder& folder, const std::string& before, const std::st
 
 }  // namespace
 
-TEST_CASE("a full disk ends with 7, the old file stays, nothing is left behind") {
-    // A limit of the file size stands for the full disk: a part is written, then write() fails.
+TEST_CASE("a failed write exits with 7, keeps the old file and leaves no temporary file") {
+    // A limit of the file size simulates a full disk: write() fails after part of the file is written.
     const Folder folder;
     faqem::save(sheet(40), folder / "in.glb");
     write(folder / "old.glb", "precious");
@@ -55,10 +55,10 @@ TEST_CASE("a full disk ends with 7, the old file stays, nothing is left behind")
     }
 }
 
-TEST_CASE("a full file system and a read-only one end with 7, the old file stays, nothing is left behind") {
-    // A file system of four pages, mounted where nobody else sees it.
+TEST_CASE("a full or read-only file system exits with 7, keeps the old file and leaves no temporary file") {
+    // A file system of four pages, mounted in a private mount namespace.
     if (std::system("unshare -rm mount -t tmpfs -o size=16k none /mnt 2>/dev/null") != 0) {
-        WARN("no file systems may be mounted here");
+        WARN("skipped: mounting a file system is not permitted");
         return;
     }
     const Folder folder;
@@ -76,12 +76,12 @@ TEST_CASE("a full file system and a read-only one end with 7, the old file stays
         REQUIRE(std::system(("cd '" + folder.path().string() + "' && unshare -rm sh script").c_str()) == 0);
         CHECK(read(folder / "out") == "7 old.glb precious\n7 old.glb precious\n");
         CHECK(contains(read(folder / "err"), "cannot write: No space left on device"));
-        CHECK(contains(read(folder / "err"), ": the folder cannot be written to"));
+        CHECK(contains(read(folder / "err"), ": the directory is not writable"));
         CHECK(contains(read(folder / "err"), "/mnt/" + out.substr(0, 4)));
     }
 }
 
-TEST_CASE("devices and pipes are no outputs, and that is found out before the work") {
+TEST_CASE("devices and pipes are rejected as output files before the input is read") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
     REQUIRE(::mkfifo((folder / "fifo.glb").c_str(), 0600) == 0);
@@ -97,13 +97,13 @@ TEST_CASE("devices and pipes are no outputs, and that is found out before the wo
     CHECK(!fs::exists(folder / "new.glb"));
 }
 
-TEST_CASE("a folder that cannot be written to ends with 7") {
+TEST_CASE("an output directory that is not writable exits with 7") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
     fs::create_directory(folder / "locked");
     write(folder / "locked/old.glb", "precious");
     REQUIRE(::chmod((folder / "locked").c_str(), 0555) == 0);
-    if (::geteuid() != 0) {  // root may write everywhere
+    if (::geteuid() != 0) {  // permissions do not apply to root
         for (const char* out : {"locked/new.glb", "locked/old.glb --force"}) {
             const Outcome outcome = run(folder, std::string("simplify in.glb ") + out);
             CHECK(outcome.code == 7);
@@ -112,13 +112,13 @@ TEST_CASE("a folder that cannot be written to ends with 7") {
         CHECK(read(folder / "locked/old.glb") == "precious");
     }
     ::chmod((folder / "locked").c_str(), 0755);
-    // Nobody, root included, makes a file here.
+    // No user can create files in /proc, not even root.
     const Outcome outcome = run(folder, "simplify in.glb /proc/new.glb --bake none --quiet");
     CHECK(outcome.code == 7);
-    CHECK(contains(outcome.err, "/proc/new.glb: cannot create a file beside it"));
+    CHECK(contains(outcome.err, "/proc/new.glb: cannot create a temporary file in its folder"));
 }
 
-TEST_CASE("the output may not be the input behind a linked folder") {
+TEST_CASE("an output file that is the input in a linked directory is rejected") {
     const Folder folder;
     fs::create_directory(folder / "real");
     fs::create_directory_symlink("real", folder / "alias");
@@ -126,18 +126,18 @@ TEST_CASE("the output may not be the input behind a linked folder") {
     const std::string before = read(folder / "real/in.glb");
     const Outcome outcome = run(folder, "simplify real/in.glb alias/in.glb --force");
     CHECK(outcome.code == 2);
-    CHECK(contains(outcome.err, "is the input"));
+    CHECK(contains(outcome.err, "is the same file as the input"));
     CHECK(read(folder / "real/in.glb") == before);
 }
 
-TEST_CASE("killed at any time, the old file or the new one is there, whole") {
+TEST_CASE("a killed process leaves either the complete old file or the complete new file") {
     const Folder folder;
     faqem::save(sheet(60), folder / "in.glb");
     REQUIRE(run(folder, "simplify in.glb new.glb --ratio 0.9 --bake none --quiet").code == 0);
     const std::string whole = read(folder / "new.glb"), old(whole.size(), 'o');
     std::size_t replaced = 0;
-    // The delays go from before the work to after it, whatever the machine: a killed run makes the next wait
-    // longer, a finished one ends the test.
+    // The delays increase until a run finishes before it is killed, so that they cover the whole run on any
+    // machine.
     for (useconds_t delay = 500; replaced == 0 && delay < 60'000'000; delay = delay * 5 / 4) {
         write(folder / "out.glb", old);
         const pid_t process = fork();

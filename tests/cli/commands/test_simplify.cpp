@@ -27,7 +27,7 @@ std::size_t face_count(const faqem::Asset& asset) {
 
 }  // namespace
 
-TEST_CASE("simplify writes a lighter model, a report and a summary") {
+TEST_CASE("simplify writes a simplified model, a report and a summary") {
     const Folder folder;
     faqem::save(sheet(20), folder / "in.glb");
     const Outcome outcome =
@@ -38,10 +38,10 @@ TEST_CASE("simplify writes a lighter model, a report and a summary") {
     CHECK(outcome.out.find("reached_target") != std::string::npos);
     CHECK(outcome.out.find("warnings") != std::string::npos);
 
-    const faqem::Asset light = faqem::load(folder / "out.glb");
-    CHECK(face_count(light) <= 100);
-    CHECK(face_count(light) >= 90);
-    CHECK(!light.images.empty());
+    const faqem::Asset simplified = faqem::load(folder / "out.glb");
+    CHECK(face_count(simplified) <= 100);
+    CHECK(face_count(simplified) >= 90);
+    CHECK(!simplified.images.empty());
     CHECK(files_in(folder) == 3);
 
     const Json report = Json::parse(read(folder / "r.json"));
@@ -51,7 +51,7 @@ TEST_CASE("simplify writes a lighter model, a report and a summary") {
         CHECK(report.contains(key));
     }
     CHECK(report["faces_in"] == 800);
-    CHECK(report["faces_out"] == face_count(light));
+    CHECK(report["faces_out"] == face_count(simplified));
     CHECK(report["target_faces"] == 100);
     CHECK(report["stop_reason"] == "reached_target");
     CHECK(report["warnings"].is_array());
@@ -66,7 +66,7 @@ TEST_CASE("simplify writes a lighter model, a report and a summary") {
     CHECK(report["peak_rss_bytes"] > 1'000'000);
 }
 
-TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY takes colours to its vertices") {
+TEST_CASE("simplify --bake auto adapts to the output format and to sources without materials") {
     const Folder folder;
     faqem::Asset bare = sheet(12);
     for (faqem::Part& part : bare.parts) {
@@ -77,7 +77,7 @@ TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY take
     bare.materials.clear();
     bare.images.clear();
     faqem::save(bare, folder / "bare.ply");
-    faqem::save(sheet(12), folder / "painted.glb");
+    faqem::save(sheet(12), folder / "textured.glb");
     const auto pages = [&](const std::string& files) {
         CAPTURE(files);
         const Outcome outcome = run(folder, "simplify " + files + " --ratio 0.5 --report r.json --force");
@@ -87,15 +87,15 @@ TEST_CASE("bare geometry stays bare in files that hold no textures, and PLY take
     CHECK(pages("bare.ply bare.glb --normal-map on") == 1);
     CHECK(pages("bare.ply out.ply --normal-map on") == 0);
     CHECK(pages("bare.ply out.stl --normal-map on") == 0);
-    // No normals were made to be left out.
+    // No warning about normals: the source has none, and none are computed.
     CHECK(read(folder / "r.json").find("cannot hold vertex normals") == std::string::npos);
     CHECK(pages("bare.ply out.obj --normal-map on") == 0);
-    CHECK(pages("painted.glb out.obj") == 1);
-    CHECK(pages("painted.glb painted.ply") == 0);
-    CHECK_FALSE(faqem::load(folder / "painted.ply").parts[0].colors.empty());
+    CHECK(pages("textured.glb out.obj") == 1);
+    CHECK(pages("textured.glb coloured.ply") == 0);
+    CHECK_FALSE(faqem::load(folder / "coloured.ply").parts[0].colors.empty());
 }
 
-TEST_CASE("every choice on the command line is taken") {
+TEST_CASE("simplify accepts every documented value of its options") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
     for (const char* arguments : {"--ratio 0.5",
@@ -141,17 +141,17 @@ TEST_CASE("every choice on the command line is taken") {
     CHECK(!faqem::load(folder / "vertex.glb").parts.at(0).colors.empty());
 }
 
-TEST_CASE("the look of the result follows the command line, and the report tells of its pages") {
+TEST_CASE("baking options determine maps and image format and the report describes the pages") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
     const Outcome outcome = run(folder,
                                 "simplify in.glb out.glb --texture-size 64 --normal-map on --image-format "
                                 "jpeg:60 --correspondence map.bin --report r.json");
     CHECK(outcome.code == 0);
-    const faqem::Asset light = faqem::load(folder / "out.glb");
-    CHECK(light.materials.at(0).normal_texture);
-    CHECK(!light.parts.at(0).tangents.empty());
-    for (const faqem::Image& image : light.images) CHECK(image.mime_type == "image/jpeg");
+    const faqem::Asset simplified = faqem::load(folder / "out.glb");
+    CHECK(simplified.materials.at(0).normal_texture);
+    CHECK(!simplified.parts.at(0).tangents.empty());
+    for (const faqem::Image& image : simplified.images) CHECK(image.mime_type == "image/jpeg");
     const Json pages = Json::parse(read(folder / "r.json"))["pages"];
     REQUIRE(pages.size() == 1);
     for (const char* key :
@@ -164,7 +164,7 @@ TEST_CASE("the look of the result follows the command line, and the report tells
     CHECK(fs::file_size(folder / "map.bin") == 24 + 20 * texels);
 }
 
-TEST_CASE("every output format is written") {
+TEST_CASE("simplify writes every output format") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
     for (const char* ending : {"gltf", "obj", "ply", "stl", "GLB"}) {
@@ -175,7 +175,7 @@ TEST_CASE("every output format is written") {
     }
 }
 
-TEST_CASE("the same command gives the same bytes at any thread count") {
+TEST_CASE("simplify writes the same bytes for any number of threads") {
     const Folder folder;
     faqem::save(sheet(24), folder / "in.glb");
     for (const char* threads : {"1", "2", "5"}) {
@@ -187,9 +187,9 @@ TEST_CASE("the same command gives the same bytes at any thread count") {
     CHECK(read(folder / "1.glb") == read(folder / "5.glb"));
 }
 
-TEST_CASE("a missed target is an error only where that was asked for, and then no model is written") {
+TEST_CASE("a missed target is an error only with --strict-target, and then no model is written") {
     const Folder folder;
-    // A strip: all of its vertices are on the border, which must stay.
+    // A strip: all of its vertices are on the boundary, which is locked.
     faqem::Asset strip = sheet(1, 0);
     faqem::Part& part = strip.parts[0];
     part.positions.clear();
@@ -220,7 +220,7 @@ TEST_CASE("a missed target is an error only where that was asked for, and then n
           0);
 }
 
-TEST_CASE("the histories of all parts are written one after the other") {
+TEST_CASE("simplify --history writes the histories of all parts one after the other") {
     const Folder folder;
     faqem::Asset two = sheet(12);
     two.parts.push_back(sheet(8).parts[0]);
@@ -230,16 +230,16 @@ TEST_CASE("the histories of all parts are written one after the other") {
     REQUIRE(loaded.parts.size() == 2);
     CHECK(run(folder, "simplify in.glb out.glb --history h.bin --bake none --quiet").code == 0);
     std::ifstream in(folder / "h.bin", std::ios::binary);
-    const faqem::Asset light = faqem::load(folder / "out.glb");
+    const faqem::Asset simplified = faqem::load(folder / "out.glb");
     for (std::size_t p = 0; p < 2; ++p) {
         const faqem::CollapseHistory history = faqem::read_history(in);
         CHECK(history.triangles.size() == loaded.parts[p].triangles.size());
-        CHECK(faqem::replay(history).triangles.size() == light.parts[p].triangles.size());
+        CHECK(faqem::replay(history).triangles.size() == simplified.parts[p].triangles.size());
     }
     CHECK(in.peek() == std::ifstream::traits_type::eof());
 }
 
-TEST_CASE("SIGTERM and SIGINT end the work with 8 and leave nothing behind") {
+TEST_CASE("SIGTERM and SIGINT end simplify with 8 and no temporary files") {
     for (const int number : {SIGTERM, SIGINT}) {
         const Folder folder;
         faqem::save(sheet(200), folder / "in.glb");

@@ -16,23 +16,24 @@ std::string faces_of_level(const Folder& folder, const std::string& manifest, st
 
 }  // namespace
 
-TEST_CASE("truncate gives the same bytes as the level of the run that wrote the history") {
+TEST_CASE("truncate writes the same bytes as the level of the run that wrote the history") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
-    const std::string look = " --texture-size 128";
-    REQUIRE(run(folder, "lod hill.glb out --levels 0.5,200,60 --preset best --history h.bin" + look).code ==
-            0);
+    const std::string texture = " --texture-size 128";
+    REQUIRE(
+        run(folder, "lod hill.glb out --levels 0.5,200,60 --preset best --history h.bin" + texture).code ==
+        0);
     for (std::size_t i = 1; i <= 3; ++i) {
         const std::string faces = faces_of_level(folder, "out/hill_LOD.json", i);
         const Outcome outcome =
-            run(folder, "truncate h.bin cut.glb --force --source hill.glb --faces " + faces + look);
+            run(folder, "truncate h.bin cut.glb --force --source hill.glb --faces " + faces + texture);
         CHECK(outcome.code == 0);
         CHECK(outcome.out.find(" " + faces + " faces") != std::string::npos);
         CHECK(read(folder / "cut.glb") == read(folder / ("out/hill_LOD" + std::to_string(i) + ".glb")));
     }
 }
 
-TEST_CASE("without the model a cut is the geometry") {
+TEST_CASE("truncate without --source writes the geometry") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     REQUIRE(run(folder,
@@ -43,7 +44,7 @@ TEST_CASE("without the model a cut is the geometry") {
     CHECK(is_same);
 }
 
-TEST_CASE("with qem and paper a cut has the same bytes as a run of its own") {
+TEST_CASE("truncate writes the same bytes as simplify with the presets qem and paper") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     for (const std::string preset : {"qem", "paper"}) {
@@ -59,13 +60,13 @@ TEST_CASE("with qem and paper a cut has the same bytes as a run of its own") {
     }
 }
 
-TEST_CASE("truncate takes the history of one run, and refuses what does not fit") {
+TEST_CASE("truncate reads the history of simplify and rejects invalid arguments") {
     const Folder folder;
     faqem::save(sheet(16, 0.2), folder / "a.glb");
     faqem::save(sheet(12, 0.2), folder / "b.glb");
-    REQUIRE(run(folder, "simplify a.glb light.glb --faces 80 --bake none --history h.bin").code == 0);
+    REQUIRE(run(folder, "simplify a.glb simplified.glb --faces 80 --bake none --history h.bin").code == 0);
     REQUIRE(run(folder, "truncate h.bin cut.glb --faces 80 --source a.glb --bake none").code == 0);
-    CHECK(read(folder / "cut.glb") == read(folder / "light.glb"));
+    CHECK(read(folder / "cut.glb") == read(folder / "simplified.glb"));
     const auto refused = [&](const std::string& arguments) {
         const Outcome outcome = run(folder, "truncate " + arguments);
         CHECK_FALSE(outcome.err.empty());

@@ -22,7 +22,7 @@ CommandTree tree() {
     return command_tree(app);
 }
 
-/// What a profile adds to a command line.
+/// Returns the words that a profile adds to a command line.
 Words added(const std::string& profile, Words words = {"simplify", "a", "b"}) {
     const Folder folder;
     write(folder / "p.json", profile);
@@ -43,7 +43,7 @@ std::string usage_error(const std::string& profile, const std::string& command =
 
 }  // namespace
 
-TEST_CASE("a profile's numbers, words, flags and lists are options") {
+TEST_CASE("numbers, strings, flags and lists of a profile are converted to options") {
     CHECK(
         added(
             R"({"faqem-profile": 1, "ratio": 0.25, "preset": "fast", "link": true, "keep-groups": false})") ==
@@ -57,7 +57,7 @@ TEST_CASE("a profile's numbers, words, flags and lists are options") {
     CHECK(added(R"({"$schema": "profile.schema.json", "faqem-profile": 1})").empty());
 }
 
-TEST_CASE("the command line beats the profile, also where options exclude each other") {
+TEST_CASE("the command line takes precedence over the profile, also for options that exclude each other") {
     const std::string profile = R"({"faqem-profile": 1, "ratio": 0.25, "preset": "fast"})";
     CHECK(added(profile, {"simplify", "a", "b", "--ratio", "0.5"}) == Words{"--preset=fast"});
     CHECK(added(profile, {"simplify", "a", "b", "--ratio=0.5"}) == Words{"--preset=fast"});
@@ -65,34 +65,34 @@ TEST_CASE("the command line beats the profile, also where options exclude each o
     CHECK(added(profile, {"batch", "a", "b", "--preset", "qem"}) == Words{"--ratio=0.25"});
 }
 
-TEST_CASE("without a profile the command line stays as it is") {
+TEST_CASE("the command line is unchanged without a profile") {
     for (const Words& words : {Words{}, Words{"simplify", "a", "b"}, Words{"info", "--config=p"},
                                Words{"simplify", "a", "--", "--config=p"}, Words{"simplify", "--config"}}) {
         CHECK(expand_profile(tree(), words) == words);
     }
 }
 
-TEST_CASE("a profile does what its options do") {
+TEST_CASE("a profile gives the same result as its options on the command line") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     write(folder / "p.json", R"({"faqem-profile": 1, "faces": 30, "bake": "none", "quiet": true})");
     REQUIRE(run(folder, "simplify in.glb by-profile.glb --config p.json").out.empty());
-    REQUIRE(run(folder, "simplify in.glb by-words.glb --faces 30 --bake none --quiet").code == 0);
-    CHECK(read(folder / "by-profile.glb") == read(folder / "by-words.glb"));
-    REQUIRE(run(folder, "simplify in.glb beaten.glb --config p.json --faces 60").code == 0);
-    CHECK(faqem::load(folder / "beaten.glb").parts[0].triangles.size() > 30);
+    REQUIRE(run(folder, "simplify in.glb by-options.glb --faces 30 --bake none --quiet").code == 0);
+    CHECK(read(folder / "by-profile.glb") == read(folder / "by-options.glb"));
+    REQUIRE(run(folder, "simplify in.glb overridden.glb --config p.json --faces 60").code == 0);
+    CHECK(faqem::load(folder / "overridden.glb").parts[0].triangles.size() > 30);
 }
 
-TEST_CASE("an unknown key is a usage error, with what may have been meant") {
+TEST_CASE("an unknown key of a profile is a usage error with a suggestion") {
     const std::string wrong = usage_error(R"({"faqem-profile": 1, "ration": 0.5})");
-    CHECK(wrong == "faqem: p.json: 'ration' is no option of faqem simplify; did you mean 'ratio'?\n");
+    CHECK(wrong == "faqem: p.json: 'ration' is not an option of faqem simplify; did you mean 'ratio'?\n");
     CHECK(usage_error(R"({"faqem-profile": 1, "levels": [0.5]})") ==
-          "faqem: p.json: 'levels' is no option of faqem simplify, but one of faqem lod\n");
-    CHECK(usage_error(R"({"faqem-profile": 1, "config": "other.json"})").find("'config' is no option") !=
+          "faqem: p.json: 'levels' is not an option of faqem simplify, but of faqem lod\n");
+    CHECK(usage_error(R"({"faqem-profile": 1, "config": "other.json"})").find("'config' is not an option") !=
           std::string::npos);
 }
 
-TEST_CASE("a value of another kind, and another version, are usage errors") {
+TEST_CASE("values of the wrong type and other versions of the profile are usage errors") {
     CHECK(usage_error(R"({"faqem-profile": 1, "link": 1})") ==
           "faqem: p.json: link: must be true or false\n");
     CHECK(usage_error(R"({"faqem-profile": 1, "ratio": true})") ==
@@ -101,15 +101,15 @@ TEST_CASE("a value of another kind, and another version, are usage errors") {
           std::string::npos);
     CHECK(usage_error(R"({"faqem-profile": 1, "ratio": "much"})").find("--ratio") != std::string::npos);
     CHECK(usage_error(R"({"ratio": 0.5})") ==
-          "faqem: p.json: is no profile: \"faqem-profile\": 1 is missing\n");
+          "faqem: p.json: is not a profile: \"faqem-profile\": 1 is missing\n");
     CHECK(usage_error(R"({"faqem-profile": 2})") ==
-          "faqem: p.json: faqem-profile 2 is not known; this faqem knows 1\n");
+          "faqem: p.json: faqem-profile: version 2 is not supported, only version 1\n");
 }
 
-TEST_CASE("a profile that is missing or no JSON is bad input") {
+TEST_CASE("a profile that is missing or not a JSON object is bad input") {
     const Folder folder;
     write(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    CHECK(run(folder, "simplify a.obj b.obj --config gone.json").code == 3);
+    CHECK(run(folder, "simplify a.obj b.obj --config missing.json").code == 3);
     for (const char* text : {"", "{", "[1]", "{\"faqem-profile\": 1, \"faces\": 5, \"faces\": 6}"}) {
         CAPTURE(text);
         write(folder / "p.json", text);
@@ -119,7 +119,7 @@ TEST_CASE("a profile that is missing or no JSON is bad input") {
     }
 }
 
-TEST_CASE("the schema knows the options of the commands that take a profile, and no other") {
+TEST_CASE("the profile schema has exactly the options of simplify, lod and batch") {
     const Json schema = Json::parse(read(FAQEM_SOURCE "/docs/profile.schema.json"));
     std::set<std::string> known, described = {"$schema", "faqem-profile"};
     for (const auto& [key, value] : schema["properties"].items()) known.insert(key);

@@ -12,7 +12,7 @@ using faqem::Part;
 
 namespace {
 
-/// A square of two faces over [-1, 1]^2 at a height.
+/// A square of two faces, [-1, 1]^2 at the height z.
 Part square(double z) {
     Part part;
     part.positions = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
@@ -20,7 +20,7 @@ Part square(double z) {
     return part;
 }
 
-/// Four slopes over the same square.
+/// A pyramid of four faces over the same square.
 Part roof(double height) {
     Part part = square(0);
     part.positions.push_back({0, 0, height});
@@ -41,30 +41,30 @@ double longest_edge(const ErrorSurface& surface) {
     return longest;
 }
 
-constexpr double uncut = std::numeric_limits<double>::infinity();
+constexpr double undivided = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("each vertex has its distance to the other mesh") {
-    const ErrorSurface surface = error_surface(square(0.25), square(0), uncut);
+TEST_CASE("error_surface computes the distance of each vertex to the other mesh") {
+    const ErrorSurface surface = error_surface(square(0.25), square(0), undivided);
     CHECK(surface.triangles == square(0).triangles);
     CHECK(surface.distances == std::vector<double>(4, 0.25));
 }
 
-TEST_CASE("a cut face shows the error between its corners") {
-    const ErrorSurface corners = error_surface(square(0), roof(0.5), uncut);
+TEST_CASE("subdividing a face reveals the error between its corners") {
+    const ErrorSurface corners = error_surface(square(0), roof(0.5), undivided);
     CHECK(distance_quantile(corners, corners, 1) == Approx(0).margin(1e-12));
     const ErrorSurface surface = error_surface(square(0), roof(0.5), 0.095);
     CHECK(longest_edge(surface) <= 0.095);
-    // The middle of the square is nearest to the slopes, which rise by 0.5 over 1.
+    // The maximum is at the centre of the square: the distance to faces that rise by 0.5 over a length of 1.
     CHECK(distance_quantile(surface, surface, 1) == Approx(0.5 / std::sqrt(1.25)));
 }
 
-TEST_CASE("cut faces cover the same area, look the same way, and share their corners") {
+TEST_CASE("subdivided faces preserve area, orientation and original vertices") {
     for (const double spacing : {2.9, 1.5, 0.7, 0.31}) {
         CAPTURE(spacing);
         const ErrorSurface surface = error_surface(roof(0.3), square(0), spacing);
-        CHECK(area(surface) == Approx(area(error_surface(roof(0.3), square(0), uncut))));
+        CHECK(area(surface) == Approx(area(error_surface(roof(0.3), square(0), undivided))));
         for (const faqem::Triangle& t : surface.triangles) {
             const faqem::Vec3 &a = surface.positions[t[0]], &b = surface.positions[t[1]],
                               &c = surface.positions[t[2]];
@@ -74,19 +74,19 @@ TEST_CASE("cut faces cover the same area, look the same way, and share their cor
     }
 }
 
-TEST_CASE("however fine the spacing, there are no more than a million faces more") {
+TEST_CASE("error_surface adds at most a million faces for any spacing") {
     const ErrorSurface surface = error_surface(square(0), square(1), 1e-9);
     CHECK(surface.triangles.size() > 400'000);
     CHECK(surface.triangles.size() <= 1'000'002);
 }
 
-TEST_CASE("the result does not depend on the number of threads") {
+TEST_CASE("error_surface does not depend on the number of threads") {
     const ErrorSurface one = error_surface(square(0), roof(0.5), 0.02, 1),
                        four = error_surface(square(0), roof(0.5), 0.02, 4);
     CHECK(one.distances == four.distances);
 }
 
-TEST_CASE("a share of the vertices is within the distance of that share") {
+TEST_CASE("distance_quantile returns quantiles of the distances of both surfaces") {
     ErrorSurface a, b;
     CHECK(distance_quantile(a, b, 0.5) == 0);
     a.distances = {4, 1};
@@ -97,8 +97,8 @@ TEST_CASE("a share of the vertices is within the distance of that share") {
     CHECK(distance_quantile(a, b, 1) == 4);
 }
 
-TEST_CASE("there is no distance to a mesh without area") {
+TEST_CASE("error_surface rejects a mesh without area") {
     Part flat = square(0);
     for (faqem::Vec3& p : flat.positions) p = {0, 0, 0};
-    CHECK_THROWS_AS(error_surface(square(0), flat, uncut), faqem::InputError);
+    CHECK_THROWS_AS(error_surface(square(0), flat, undivided), faqem::InputError);
 }

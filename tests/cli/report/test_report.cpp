@@ -15,7 +15,7 @@ namespace {
 
 bool has(const std::string& text, std::string_view piece) { return text.find(piece) != std::string::npos; }
 
-/// The sheet, and one with fewer faces half a unit above it.
+/// Saves a sheet as a.glb, and one with fewer faces half a unit above it as b.glb.
 void save_two(const Folder& folder) {
     faqem::Asset a = sheet(8, 0), b = sheet(2, 0);
     for (faqem::Vec3& p : b.parts[0].positions) p[2] += 0.5;
@@ -27,7 +27,7 @@ constexpr const char* small = " --size 16 --views 1 --samples 500";
 
 }  // namespace
 
-TEST_CASE("a report has the figures and the pictures, and fetches nothing") {
+TEST_CASE("a report page contains figures and pictures and loads no external resources") {
     const Folder folder;
     save_two(folder);
     const Outcome outcome = run(folder, std::string("report a.glb b.glb -o page.html") + small);
@@ -52,7 +52,7 @@ TEST_CASE("a report has the figures and the pictures, and fetches nothing") {
     CHECK(has(outcome.err, "No 3D view") != has_viewer());
 }
 
-TEST_CASE("a report without the view is small and has no script") {
+TEST_CASE("a report page with --without-view is small and has no script") {
     const Folder folder;
     save_two(folder);
     REQUIRE(run(folder, std::string("report a.glb b.glb --out page.html --without-view") + small).code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("a report without the view is small and has no script") {
     CHECK(page.size() < 30'000);
 }
 
-TEST_CASE("a file's name cannot change the page") {
+TEST_CASE("file names are escaped in a report page") {
     const Folder folder;
     faqem::save(sheet(2), folder / "<script>&.glb");
     REQUIRE(
@@ -72,7 +72,7 @@ TEST_CASE("a file's name cannot change the page") {
     CHECK(has(read(folder / "p.html"), "&lt;script&gt;&amp;.glb"));
 }
 
-TEST_CASE("a report is not written over a file, nor under another ending") {
+TEST_CASE("report overwrites a file only with --force and writes only .html files") {
     const Folder folder;
     save_two(folder);
     write(folder / "page.html", "mine");
@@ -81,10 +81,10 @@ TEST_CASE("a report is not written over a file, nor under another ending") {
     CHECK(run(folder, std::string("report a.glb b.glb -o page.html --force") + small).code == 0);
     CHECK(run(folder, "report a.glb b.glb -o page.pdf").code == 2);
     CHECK(run(folder, "report a.glb b.glb").code == 2);
-    CHECK(run(folder, "report a.glb gone.glb -o other.html").code == 3);
+    CHECK(run(folder, "report a.glb missing.glb -o other.html").code == 3);
 }
 
-TEST_CASE("the model of the view is near the origin, of about unit size, with its errors") {
+TEST_CASE("viewer_glb writes the model and its error surface in normalized coordinates") {
     FlattenedModel model{"a.glb", sheet(1, 0), {}};
     for (faqem::Vec3& p : model.asset.parts[0].positions) p[0] += 1e6;
     model.flat = model.asset.parts[0];
@@ -100,12 +100,12 @@ TEST_CASE("the model of the view is near the origin, of about unit size, with it
     CHECK(read.parts[1].uvs[0][3] == faqem::Vec2f{2, 0});
 }
 
-TEST_CASE("the ramp goes from dark to light and ends there") {
-    const auto light = [](double share) {
+TEST_CASE("heat_colour increases in luminance and clamps its argument") {
+    const auto luminance = [](double share) {
         const faqem::Vec4f c = heat_colour(share);
         return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
     };
-    for (int i = 0; i < 16; ++i) CHECK(light(i / 16.0) < light((i + 1) / 16.0));
+    for (int i = 0; i < 16; ++i) CHECK(luminance(i / 16.0) < luminance((i + 1) / 16.0));
     CHECK(heat_colour(2) == heat_colour(1));
     CHECK(heat_colour(-1) == heat_colour(0));
     CHECK(heat_colour(std::nan("")) == heat_colour(0));

@@ -12,7 +12,7 @@ using namespace faqem::cli;
 
 namespace {
 
-/// Parses a command line without running it. \return whether it is one
+/// Parses a command line without running it. \return whether it is valid
 bool parses(const std::string& line) {
     CLI::App app;
     Action action;
@@ -34,7 +34,7 @@ CommandTree whole_tree() {
 
 }  // namespace
 
-TEST_CASE("every command and option is described, and every value has a name") {
+TEST_CASE("every command and option has a description and every value a placeholder") {
     const CommandTree tree = whole_tree();
     CHECK(tree.commands.size() == 10);
     CHECK(tree.exit_codes.find("11 not enough memory") != std::string::npos);
@@ -49,7 +49,7 @@ TEST_CASE("every command and option is described, and every value has a name") {
     }
 }
 
-TEST_CASE("every command has an example, and each of them can be parsed") {
+TEST_CASE("every command has examples that can be parsed") {
     const CommandTree tree = whole_tree();
     for (const CommandInfo& command : tree.commands) {
         CAPTURE(command.name);
@@ -65,8 +65,8 @@ TEST_CASE("every command has an example, and each of them can be parsed") {
     }
 }
 
-TEST_CASE("every choice that is offered is taken, and nothing else is") {
-    const auto takes = [](const std::string& line) {
+TEST_CASE("enumerated options accept exactly the values of their placeholder") {
+    const auto accepts = [](const std::string& line) {
         CLI::App app;
         SimplifyArguments arguments;
         add_simplify_options(app, arguments);
@@ -86,18 +86,18 @@ TEST_CASE("every choice that is offered is taken, and nothing else is") {
         for (const std::string& choice : option.choices) {
             CAPTURE(choice);
             const bool without_baking = choice == "none" && option.names.back() == "--normals";
-            CHECK(takes((without_baking ? "--bake none " : "") + option.names.back() + " " + choice));
+            CHECK(accepts((without_baking ? "--bake none " : "") + option.names.back() + " " + choice));
         }
-        CHECK(!takes(option.names.back() + " nothing"));
+        CHECK(!accepts(option.names.back() + " nothing"));
         choices += option.choices.size();
     }
     CHECK(choices == 29);
 }
 
-TEST_CASE("help shows examples and what values can be") {
+TEST_CASE("help shows examples and the possible values of options") {
     const tool_test::Folder folder;
     const std::string help = tool_test::run(folder, "simplify --help").out;
     CHECK(help.find("Examples:\n  faqem simplify model.glb") != std::string::npos);
     CHECK(help.find("--preset qem|paper|stmw|fast|balanced|best") != std::string::npos);
-    CHECK(tool_test::run(folder, "--help").out.find("Exit codes: 0 done") != std::string::npos);
+    CHECK(tool_test::run(folder, "--help").out.find("Exit codes: 0 success") != std::string::npos);
 }

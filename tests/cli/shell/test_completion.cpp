@@ -10,7 +10,8 @@ using namespace tool_test;
 
 namespace {
 
-/// Lines that a script prints. \param shell  with the options that keep the user's own settings out
+/// Runs a script and returns the lines that it prints.
+/// \param shell  command with options that disable the user's startup files
 std::set<std::string> lines_of(const std::string& shell, const Folder& folder, const std::string& script) {
     write(folder / "script", script);
     const std::string command = "cd '" + folder.path().string() + "' && " + shell + " script >lines 2>errors";
@@ -22,7 +23,7 @@ std::set<std::string> lines_of(const std::string& shell, const Folder& folder, c
     return lines;
 }
 
-/// What bash offers behind `faqem WORDS`, of which the last is being typed.
+/// Returns the completions that bash offers for `faqem WORDS`. \param last  index of the word to complete
 std::set<std::string> in_bash(const std::string& words, int last) {
     const Folder folder;
     write(folder / "faqem.bash", run(folder, "completion bash").out);
@@ -46,11 +47,11 @@ TEST_CASE("bash completes commands, options and values") {
     CHECK(in_bash("simplify a.glb --textu", 3) == Words{"--texture-size"});
     CHECK(in_bash("info --", 2) == Words{"--help", "--json"});
     CHECK(in_bash("simplify --preset ''", 3) == Words{"qem", "paper", "stmw", "fast", "balanced", "best"});
-    CHECK(in_bash("batch models light --format g", 5) == Words{"glb", "gltf"});
+    CHECK(in_bash("batch models simplified --format g", 5) == Words{"glb", "gltf"});
     CHECK(in_bash("completion ''", 2) == Words{"bash", "zsh"});
 }
 
-TEST_CASE("where bash is to offer files, faqem offers nothing") {
+TEST_CASE("bash completion offers no words for file names") {
     CHECK(in_bash("simplify ''", 2).empty());
     CHECK(in_bash("simplify mod", 2).empty());
     CHECK(in_bash("simplify a.glb b.glb --report ''", 5).empty());
@@ -58,7 +59,7 @@ TEST_CASE("where bash is to offer files, faqem offers nothing") {
 
 TEST_CASE("zsh completes commands, options and values") {
     if (std::system("command -v zsh >/dev/null") != 0) {
-        WARN("there is no zsh");
+        WARN("skipped: zsh was not found");
         return;
     }
     const Folder folder;
@@ -68,14 +69,14 @@ TEST_CASE("zsh completes commands, options and values") {
         "source ./_faqem\n";
     const Words commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
     CHECK(commands.size() == 10);
-    CHECK(commands.count("info:Count and measure what is in a file"));
+    CHECK(commands.count("info:Count and measure the contents of a file"));
     const Words options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
     CHECK(options.count(
-        "--budget[How the meshes of a scene share the faces\\: scene (by error, default), mesh (in "
-        "proportion to their faces)]:value:(scene mesh)"));
-    CHECK(options.count("--force[Replace files that exist]"));
+        "--budget[How the faces are distributed among the meshes of a scene\\: scene (by error, default), "
+        "mesh (in proportion to their face counts)]:value:(scene mesh)"));
+    CHECK(options.count("--force[Overwrite existing files]"));
     CHECK(options.count("*:argument:_files"));
 }
 
-TEST_CASE("another shell is refused") { CHECK(run(Folder(), "completion fish").code == 2); }
+TEST_CASE("completion rejects other shells") { CHECK(run(Folder(), "completion fish").code == 2); }

@@ -5,7 +5,7 @@
 #include "faqem/version.hpp"
 #include "support/cli_support.hpp"
 
-TEST_CASE("what troff would take for its own is escaped") {
+TEST_CASE("man_page escapes the special characters of troff") {
     faqem::cli::CommandTree tree;
     tree.description = ".first\n'second\na\\b-c";
     const std::string page = faqem::cli::man_page(tree, "1.2.3");
@@ -13,7 +13,7 @@ TEST_CASE("what troff would take for its own is escaped") {
     CHECK(page.find(".TH FAQEM 1 \"\" \"faqem 1.2.3\"") == 0);
 }
 
-TEST_CASE("the manual has every command with its options, the exit codes and examples") {
+TEST_CASE("the manual page lists commands, options, exit codes and examples") {
     const tool_test::Folder folder;
     const tool_test::Outcome outcome = tool_test::run(folder, "man");
     CHECK(outcome.code == 0);

@@ -1,4 +1,4 @@
-// Colours by distance, shaded a little by the face's normal so that the shape is seen.
+// Material that colours faces by distance, with slight shading by the face normal to make the shape visible.
 import { DataTexture, DoubleSide, LinearFilter, ShaderMaterial } from 'three';
 
 const vertexShader = `
@@ -23,7 +23,8 @@ const fragmentShader = `
     gl_FragColor = vec4(colour * (0.65 + 0.35 * abs(normal.z)), 1.0);
   }`;
 
-/// \param ramp  sRGB colours, 0 to 255, from no error to the largest
+/// Creates the material. \param ramp  sRGB colours, 0 to 255, from zero distance to the end of the colour
+/// scale
 export function makeErrorMaterial(ramp) {
   const texture = new DataTexture(Uint8Array.from(ramp.flatMap((colour) => [...colour, 255])), ramp.length, 1);
   texture.minFilter = texture.magFilter = LinearFilter;

@@ -1,5 +1,5 @@
-// The 3D view of a page of `faqem report`: both models under one camera. The page holds the models as base64 GLB and
-// says in #view-data how to colour errors; it is complete without this script.
+// The 3D view of a page of `faqem report`: both models with a shared camera. The page contains the models as
+// base64 GLB and the scale of the heat map in #view-data. The rest of the page works without this script.
 import { makeErrorMaterial } from './error_material.js';
 import { readModel } from './model.js';
 import { makeStage } from './stage.js';
@@ -10,7 +10,7 @@ function connectControls(stage, errorMaterial, view) {
   const wireframe = byId('wireframe'), error = byId('error'), limit = byId('limit');
   const show = () => stage.show({ wireframe: wireframe.checked, error: error.checked });
   const colour = () => {
-    // A share of the largest distance, squared: most distances are far smaller than the largest.
+    // The slider is quadratic, because most distances are much smaller than the maximum.
     const value = view.max_distance * limit.value ** 2;
     errorMaterial.uniforms.limit.value = value;
     byId('limit-value').textContent = `${(value * view.unit).toPrecision(3)} (${(100 * value).toPrecision(2)}%)`;
@@ -24,7 +24,7 @@ function connectControls(stage, errorMaterial, view) {
   limit.addEventListener('input', colour);
   byId('reset').addEventListener('click', stage.reset);
   limit.value = view.max_distance > 0 ? Math.sqrt(view.limit / view.max_distance) : 1;
-  byId('scale').hidden = !error.checked; // a browser may remember the boxes
+  byId('scale').hidden = !error.checked; // browsers may restore the check boxes on reload
   colour();
   show();
 }

@@ -1,4 +1,4 @@
-// A model of the page: its look, its faces coloured by error, and its edges.
+// Reads a model of the page: its surface with materials, its error surface, and its edges.
 import { Group, Mesh, MeshBasicMaterial } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
@@ -6,17 +6,17 @@ const wires = new MeshBasicMaterial({ wireframe: true, color: 0x10131a, transpar
 
 function bytesOf(element) {
   const text = atob(element.textContent.trim());
-  element.remove(); // its memory
+  element.remove(); // frees the memory of the text
   return Uint8Array.from(text, (character) => character.charCodeAt(0)).buffer;
 }
 
-// Faces a little farther back, so that their edges are not half hidden by them.
+// Moves faces slightly away from the camera, so that they do not hide their edges (z-fighting).
 function pushBack(material) {
   Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
 }
 
-/// The GLB has two meshes: `look`, the model itself, and `error`, whose texture coordinate u is the distance to the
-/// other model. \return what is drawn, for each way to show it
+/// Parses the GLB file of a model, which has two meshes: `look`, the model itself, and `error`, whose texture
+/// coordinate u is the distance to the other model. \return the three objects that can be shown
 export async function readModel(element, errorMaterial) {
   const { scene } = await new GLTFLoader().parseAsync(bytesOf(element), '');
   const look = scene.getObjectByName('look'), error = scene.getObjectByName('error'), edges = new Group();

@@ -1,4 +1,4 @@
-// One canvas behind the frames of both models, drawn by one camera: they are linked because there is no second one.
+// Draws both models with one shared camera on one canvas, which lies behind the frames of both models.
 import {
   NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
 } from 'three';
@@ -6,8 +6,8 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 
 const fieldOfView = 30; // degrees
-const initialDirection = new Vector3(0.34, 0.16, 0.93).normalize(); // as the first picture of the page
-const clipDistance = 1.5; // the models' diagonal is about 1: what is farther from the target is cut off
+const initialDirection = new Vector3(0.34, 0.16, 0.93).normalize(); // that of the first picture of the page
+const clipDistance = 1.5; // distance of the clipping planes from the target; the models' diagonal is about 1
 
 function moveByKeys(canvas, controls) {
   const turn = Math.PI / 36, zoom = 0.9;
@@ -26,7 +26,7 @@ function moveByKeys(canvas, controls) {
   });
 }
 
-/// \param frames  elements over the canvas, one for each model
+/// Creates the renderer. \param frames  elements above the canvas, one for each model
 export function makeStage(canvas, frames) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.toneMapping = NeutralToneMapping;
