@@ -3,15 +3,19 @@
 #
 # faqem_find_dependencies(COMPONENT...) finds the dependencies of components:
 #   core      header-only templates             Eigen
-#   faqem     compiled presets                  threads (Eigen and nanoflann while building)
-#   openmesh  OpenMesh interface                OpenMesh
-#   asset     reading and writing of files      tinygltf and OpenImageIO (private); Draco and meshoptimizer
-#                                               if FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT are set
-#   bake      texture baking                    as asset
-#   c         C interface                       none: a shared library that contains its dependencies
+#   faqem     compiled presets                  threads (Eigen while building)
+#   header_only           presets as headers                Eigen, threads
+#   openmesh_header_only  OpenMesh entry point as headers   OpenMesh, Eigen, threads
+#   openmesh  OpenMesh door                     OpenMesh
+#   asset     files                             tinygltf and OpenImageIO, hidden inside; Draco and meshoptimizer
+#                                               where FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT say so
+#   bake      baker                             as asset
+#   c         C door                            nothing: what it needs is inside it
 
 # Components that a component links to.
 set(faqem_needs_openmesh faqem)
+set(faqem_needs_header_only core)
+set(faqem_needs_openmesh_header_only header_only core)
 set(faqem_needs_asset faqem)
 set(faqem_needs_bake asset faqem)
 
@@ -31,7 +35,11 @@ endmacro()
 # The OpenImageIO target of Debian 12 lists include directories that its packages do not install.
 macro(faqem_find_openimageio)
     if(NOT TARGET OpenImageIO::OpenImageIO)
+        # Imath, which it brings in, reports each file of its Python package that is not installed.
+        set(faqem_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+        set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
         find_package(OpenImageIO CONFIG REQUIRED)
+        set(CMAKE_MESSAGE_LOG_LEVEL "${faqem_log_level}")
         foreach(faqem_target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
             get_target_property(faqem_dirs ${faqem_target} INTERFACE_INCLUDE_DIRECTORIES)
             set(faqem_existing "")
@@ -57,9 +65,9 @@ macro(faqem_find_dependencies)
     foreach(faqem_component IN ITEMS ${ARGN})
         if(faqem_component STREQUAL "core")
             find_package(Eigen3 3.3 CONFIG REQUIRED)
-        elseif(faqem_component STREQUAL "faqem")
+        elseif(faqem_component STREQUAL "faqem" OR faqem_component STREQUAL "header_only")
             find_package(Threads REQUIRED)
-        elseif(faqem_component STREQUAL "openmesh")
+        elseif(faqem_component STREQUAL "openmesh" OR faqem_component STREQUAL "openmesh_header_only")
             find_package(OpenMesh CONFIG REQUIRED)  # no version: Debian's package has no version file
         elseif(faqem_component STREQUAL "asset" OR faqem_component STREQUAL "bake")
             find_package(Threads REQUIRED)

@@ -1,15 +1,34 @@
 #!/bin/sh
-# Installs the packages that building and testing faqem needs on Debian 12, and the packages given as
-# arguments.
-# Uses sudo unless run as root.
+# Installs Debian 12 packages. Usage: cmake/install-packages.sh [GROUP...]
+#   build   what the libraries and the command need (the default; every other group includes it)
+#   test    what tests/run.sh needs besides
+#   clang   the compiler clang, for the presets clang and fuzz
+#   tidy    clang-tidy and clang-format
+#   docs    what the target docs needs
+# Uses sudo only when not root.
 set -eu
 
-packages="build-essential cmake ninja-build file pkg-config libeigen3-dev libnanoflann-dev nlohmann-json3-dev \
-libopenmesh-dev libtinygltf-dev libopenimageio-dev libdraco-dev libmeshoptimizer-dev openimageio-tools libcli11-dev catch2 doxygen \
-python3-numpy python3-pip python3-setuptools python3-wheel zsh $*"
-# The glTF validator needs Node. A Node that was not installed from Debian's packages has its own npm, which
-# conflicts with Debian's.
-command -v npm >/dev/null 2>&1 || packages="$packages npm"
+packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
+libtinygltf-dev libopenimageio-dev libdraco-dev libmeshoptimizer-dev libcli11-dev"
+for group in "$@"; do
+    case $group in
+        build) ;;
+        test)
+            packages="$packages catch2 doxygen file openimageio-tools python3-numpy python3-pip python3-setuptools \
+python3-wheel zsh"
+            # The glTF validator and the viewer need npm. A Node from elsewhere brings its own, which Debian's
+            # package conflicts with.
+            command -v npm >/dev/null 2>&1 || packages="$packages npm"
+            ;;
+        clang) packages="$packages clang" ;;
+        tidy) packages="$packages clang clang-tidy clang-format" ;;
+        docs) packages="$packages doxygen python3" ;;
+        *)
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs)" >&2
+            exit 2
+            ;;
+    esac
+done
 
 missing=""
 for package in $packages; do
@@ -23,6 +42,5 @@ fi
 as_root=""
 [ "$(id -u)" -eq 0 ] || as_root="sudo"
 echo "packages: installing$missing"
-export DEBIAN_FRONTEND=noninteractive
 $as_root apt-get update -qq
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null

@@ -1,10 +1,8 @@
 #!/bin/sh
-# Installs dependencies, builds faqem and runs all tests, on Debian 12.
-# Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]]; PRESET is a configure preset of CMakePresets.json,
-# default:
-# release.
-# --quick omits slow tests (package, Python, validator, viewer, soak, fuzzing, examples, documentation site)
-# and runs each test program in one process, in under two minutes.
+# Builds faqem and runs its tests. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
+# CMakePresets.json; default: test. Needs Debian 12 and nothing else: packages are installed first.
+# --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak,
+# fuzzing, examples, the site), and runs each test program in one process: under two minutes.
 set -eu
 cd "$(dirname "$0")/.."
 quick=""
@@ -13,16 +11,16 @@ if [ "${1:-}" = --quick ]; then
     quick="$quick|^(faqem|step_counts|asset|bake|cli|openmesh)/"  # replaced by the tests programs/*
     shift
 fi
-preset=${1:-release}
+preset=${1:-test}
 [ $# -eq 0 ] || shift
 
 echo "== packages"
 case $preset in
-    clang | fuzz) cmake/install-packages.sh clang ;;
-    *) cmake/install-packages.sh ;;
+    clang | fuzz) cmake/install-packages.sh test clang ;;
+    *) cmake/install-packages.sh test ;;
 esac
 echo "== configure ($preset)"
-cmake --preset "$preset" -DFAQEM_BUILD_TESTS=ON  # the quick start may have turned them off
+cmake --preset "$preset"
 echo "== build"
 cmake --build --preset "$preset"
 echo "== test"

@@ -28,7 +28,8 @@ class Pages:
         self.source = source
         files = [source / "README.md", source / "CHANGELOG.md", source / "CONTRIBUTING.md", source / "SECURITY.md",
                  *sorted((source / "docs").glob("*.md"))]
-        self.pages = {file.resolve(): file.stem for file in files}
+        self.pages = {file.resolve(): "index" if file == source / "docs" / "README.md" else file.stem
+                      for file in files}
         self.examples = {file.resolve(): file.stem for file in sorted((source / "examples").glob("*.cpp"))
                          if not file.stem.startswith(("model_", "make_"))}
 
@@ -59,10 +60,10 @@ class Pages:
                           lambda m: self.link(page, *m.groups()) or m.group(), line)
             heading = re.match(r"(#+)\s+(.*?)\s*$", line)
             if heading and len(heading.group(1)) == 1:
-                title = heading.group(2).replace("`", "")  # the side bar shows titles as plain text
-                line = f"# {title} {{#{page_id(page.stem)}}}"
+                title = heading.group(2).replace("`", "")  # it goes into the side bar as it is
+                line = f"# {title} {{#{page_id(self.pages[page.resolve()])}}}"
             elif heading:
-                line = f"{line} {{#{heading_id(page.stem, slug(heading.group(2)))}}}"
+                line = f"{line} {{#{heading_id(self.pages[page.resolve()], slug(heading.group(2)))}}}"
             lines.append(line)
         return "\n".join(lines) + "\n"
 

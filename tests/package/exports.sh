@@ -12,8 +12,8 @@ for library in "$@"; do
     [ -z "$foreign" ] || { echo "$library exports symbols outside namespace faqem:" "$foreign"; exit 1; }
     # A symbol of a nested namespace must be declared on a line with FAQEM_EXPORT.
     for inner in $(printf '%s\n' "$names" | sed -nE 's/^faqem::[a-z_]+::([A-Za-z_]+).*/\1/p' | sort -u); do
-        if ! grep -rqE "FAQEM_EXPORT .*\\b$inner\\b" "$source/src" "$source/include/faqem"/*.hpp; then
-            echo "$library exports $inner, which is not marked with FAQEM_EXPORT"
+        if ! grep -rqE "FAQEM_EXPORT .*\\b$inner\\b" "$source/src" "$source/include/faqem"; then
+            echo "$library shows $inner, which is not marked"
             exit 1
         fi
     done

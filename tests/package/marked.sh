@@ -9,7 +9,7 @@ nm=$1 source=$2
 shift 2
 defined=$(mktemp)
 trap 'rm -f "$defined"' EXIT
-marked=$(grep -rhE 'FAQEM_EXPORT' "$source/src" "$source/include/faqem")
+marked=$(grep -rhE 'FAQEM_(EXPORT|EXCEPTION)' "$source/src" "$source/include/faqem")
 for files in "$@"; do
     list=$(echo "$files" | tr ',' ' ')
     "$nm" -C --defined-only $list 2>/dev/null | sed -nE 's/^[0-9a-f]+ [A-Za-z] //p' | sort -u >"$defined"
@@ -19,8 +19,8 @@ for files in "$@"; do
         sort -u)
     [ -n "$names" ] || { echo "$files: no symbols of other libraries found"; exit 1; }
     for name in $names; do
-        if ! printf '%s\n' "$marked" | grep -qE "FAQEM_EXPORT.*\\b$name\\b"; then
-            echo "$name is used by another library, but not marked with FAQEM_EXPORT: $files" | cut -c 1-300
+        if ! printf '%s\n' "$marked" | grep -qE "FAQEM_(EXPORT|EXCEPTION).*\\b$name\\b"; then
+            echo "$name is not marked with FAQEM_EXPORT, and is called from another library: $files" | cut -c 1-300
             exit 1
         fi
     done

@@ -99,7 +99,15 @@ public:
     template <class Visit>
     void visit_within(const Vec3& p, double distance_squared, Visit&& visit) const;
 
-    /// The side of a triangle that a ray hits. Seen from the front, the corners are counter-clockwise.
+    /// Calls visit(face) for the faces whose bounding box is at most sqrt(limit()) from p, nearer boxes first, in an
+    /// order that is always the same. The limit is read again after each call, so that it may shrink.
+    /// \param limit  () -> double, a squared distance, rounded outwards
+    template <class Limit, class Visit>
+    void visit_near(const Vec3& p, Limit&& limit, Visit&& visit) const {
+        traverse(engine::to_eigen(p), limit, [&](const Corners& t) { visit(t.face); });
+    }
+
+    /// Which side of a triangle a ray comes from: seen from the front its corners go counter-clockwise.
     enum class Side { front, back };
 
     /// Returns whether a ray intersects a triangle that is accepted. Edges and corners belong to the

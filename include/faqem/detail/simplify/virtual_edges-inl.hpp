@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 #include <tuple>
 
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/components.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 
@@ -19,60 +19,34 @@ namespace detail {
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// Data set adaptor of nanoflann for the referenced vertices.
-struct Points {
-    const CollapseMesh& mesh;
-    std::vector<Index> vertices;
-
-    std::size_t kdtree_get_point_count() const { return vertices.size(); }
-    double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return mesh.position(vertices[i])[static_cast<Eigen::Index>(axis)];
-    }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
-
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points, double, std::size_t>,
-                                        Points, 3, std::size_t>;
-
-// Result set of nanoflann: the nearest vertices of other components within a radius; ties are ordered by
-// index.
+// The nearest vertices of other components within a radius; ties by index.
 class NearestInOtherComponents {
 public:
     struct Hit {
-        double distance;
+        double distance_squared;
         std::size_t point;
         bool operator<(const Hit& o) const {
-            return distance < o.distance || (distance == o.distance && point < o.point);
+            return std::tie(distance_squared, point) < std::tie(o.distance_squared, o.point);
         }
     };
-    using DistanceType = double;
 
-    NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius)
-        : component_of_(component_of), own_(own), radius_(radius) {}
+    NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius_squared)
+        : component_of_(component_of), own_(own), radius_squared_(radius_squared) {}
 
-    bool full() const { return true; }
-    std::size_t size() const { return count_; }
-    // The tree may skip only points beyond this distance: points at equal distance are ordered by index.
-    double worstDist() const {
-        const double worst = count_ < hits_.size() ? radius_ : hits_[count_ - 1].distance;
-        return std::nextafter(worst, std::numeric_limits<double>::infinity());
-    }
-    bool addPoint(double distance, std::size_t point) {
-        if (component_of_[point] == own_ || !(distance <= radius_)) return true;
-        const Hit hit{distance, point};
+    // Points beyond it are not needed; those at this distance are, because ties are broken by index.
+    double limit() const { return count_ < hits_.size() ? radius_squared_ : hits_[count_ - 1].distance_squared; }
+
+    void add(double distance_squared, std::size_t point) {
+        if (component_of_[point] == own_ || !(distance_squared <= radius_squared_)) return;
+        const Hit hit{distance_squared, point};
         if (count_ == hits_.size()) {
-            if (!(hit < hits_.back())) return true;
+            if (!(hit < hits_.back())) return;
         } else {
             ++count_;
         }
         std::size_t i = count_ - 1;
         for (; i > 0 && hit < hits_[i - 1]; --i) hits_[i] = hits_[i - 1];
         hits_[i] = hit;
-        return true;
     }
 
     std::span<const Hit> hits() const { return std::span(hits_).first(count_); }
@@ -80,7 +54,7 @@ public:
 private:
     const std::vector<Index>& component_of_;
     Index own_;
-    double radius_;
+    double radius_squared_;
     std::array<Hit, 4> hits_ = {};
     std::size_t count_ = 0;
 };
@@ -106,7 +80,9 @@ FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMe
     const std::vector<engine::Component> parts = engine::components(mesh, check_cancelled);
     if (parts.size() < 2) return {};
     const engine::PairTable surface(mesh, {}, check_cancelled);
-    Points points{mesh, {}};
+    std::vector<Index> vertices;
+    std::vector<Vector3> positions;
+    std::vector<Triangle> points;  // degenerate triangles: the tree is one of triangles
     std::vector<Index> component_of;
     std::vector<std::uint8_t> seen(mesh.vertex_slots(), 0);
     for (Index part = 0; part < parts.size(); ++part) {
@@ -114,12 +90,15 @@ FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMe
             check_cancelled();
             for (const Index v : mesh.triangle(f)) {
                 if (std::exchange(seen[v], std::uint8_t{1})) continue;
-                points.vertices.push_back(v);
+                const auto point = static_cast<Index>(vertices.size());
+                vertices.push_back(v);
+                positions.push_back(mesh.position(v));
+                points.push_back({point, point, point});
                 component_of.push_back(part);
             }
         }
     }
-    const Tree tree(3, points);
+    const Bvh tree(positions, points, check_cancelled);
 
     struct Edge {
         double length_squared;
@@ -129,24 +108,29 @@ FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMe
         }
     };
     std::vector<Edge> edges;
-    for (std::size_t i = 0; i < points.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
         check_cancelled();
         NearestInOtherComponents nearest(component_of, component_of[i], distance * distance);
-        const Index v = points.vertices[i];
+        const Index v = vertices[i];
         if (surface.boundary_degree(v) == 0) continue;
-        tree.findNeighbors(nearest, mesh.position(v).data(), nanoflann::SearchParams());
+        tree.visit_near(
+            engine::to_array(positions[i]), [&] { return nearest.limit(); },
+            [&](Index point) {
+                const Vector3 d = positions[point] - positions[i];
+                nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point);
+            });
         for (const auto& hit : nearest.hits()) {
-            const Index w = points.vertices[hit.point];
-            if (!(hit.distance >= min_length * min_length) || surface.boundary_degree(w) == 0) continue;
+            const Index w = vertices[hit.point];
+            if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0) continue;
             if (!are_compatible(mesh, face_groups, v, w)) continue;
-            edges.push_back({hit.distance, std::min(v, w), std::max(v, w)});
+            edges.push_back({hit.distance_squared, std::min(v, w), std::max(v, w)});
         }
     }
     std::sort(edges.begin(), edges.end(), engine::cancellable_less(check_cancelled));
     edges.erase(std::unique(edges.begin(), edges.end(),
                             [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; }),
                 edges.end());
-    if (edges.size() > points.vertices.size()) edges.resize(points.vertices.size());
+    if (edges.size() > vertices.size()) edges.resize(vertices.size());
     std::vector<std::pair<Index, Index>> result;
     result.reserve(edges.size());
     for (const Edge& edge : edges) result.emplace_back(edge.a, edge.b);
