@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "asset/gltf/levels.hpp"
+#include "asset/gltf/write/levels.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {

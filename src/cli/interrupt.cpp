@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "asset/file.hpp"
+#include "asset/io/file.hpp"
 #include "cli/exit_code.hpp"
 
 namespace faqem::cli {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "asset/file.hpp"
+#include "asset/io/file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

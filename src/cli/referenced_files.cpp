@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "asset/file.hpp"
 #include "asset/formats/mtl.hpp"
+#include "asset/io/file.hpp"
 #include "cli/json.hpp"
 #include "cli/output_file.hpp"
 #include "faqem/error.hpp"

@@ -1,5 +1,7 @@
 #include "cli/strict.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Input: JSON, a zero byte, and the BIN chunk. The GLB framing is added and always valid, so that the
 // contents are tested.
 
-#include "asset/gltf/framing.hpp"
+#include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "faqem/bake.hpp"
 #include "fuzz/fuzz.hpp"

@@ -1,5 +1,7 @@
 #include "asset/formats/mtl.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,10 +11,10 @@
 #include <optional>
 #include <string_view>
 
-#include "asset/file.hpp"
-#include "asset/formats/repair.hpp"
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

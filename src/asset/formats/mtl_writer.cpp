@@ -1,12 +1,14 @@
 #include "asset/formats/mtl_writer.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 
-#include "asset/formats/repair.hpp"
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/scene/repair.hpp"
 #include "asset/text/number_text.hpp"
 
 namespace faqem::detail {

@@ -1,18 +1,20 @@
 #include "asset/formats/obj.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
 #include <string_view>
 
-#include "asset/file.hpp"
 #include "asset/formats/mtl.hpp"
-#include "asset/formats/repair.hpp"
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/repair.hpp"
+#include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_scanner.hpp"
-#include "asset/text/value_numbers.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <string>
 
-#include "asset/file.hpp"
-#include "asset/flatten.hpp"
 #include "asset/formats/mtl_writer.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/flatten.hpp"
+#include "asset/scene/value_numbers.hpp"
 #include "asset/text/number_text.hpp"
 #include "asset/text/text_buffer.hpp"
-#include "asset/text/value_numbers.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -1,14 +1,16 @@
 #include "asset/formats/off.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
-#include "asset/file.hpp"
-#include "asset/formats/repair.hpp"
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

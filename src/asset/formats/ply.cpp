@@ -1,5 +1,7 @@
 #include "asset/formats/ply.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,11 +9,11 @@
 #include <cstring>
 #include <string_view>
 
-#include "asset/file.hpp"
 #include "asset/formats/ply_header.hpp"
-#include "asset/formats/repair.hpp"
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

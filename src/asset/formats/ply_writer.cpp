@@ -6,10 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "asset/file.hpp"
-#include "asset/flatten.hpp"
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -1,5 +1,7 @@
 #include "asset/formats/stl.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,11 +10,11 @@
 #include <limits>
 #include <string_view>
 
-#include "asset/file.hpp"
-#include "asset/flatten.hpp"
-#include "asset/formats/repair.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/flatten.hpp"
+#include "asset/scene/repair.hpp"
+#include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_scanner.hpp"
-#include "asset/text/value_numbers.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

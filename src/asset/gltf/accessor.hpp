@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/source_document.hpp"
+#include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {
 

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "asset/gltf/gltf.hpp"
-#include "asset/source_document.hpp"
+#include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {
 namespace {

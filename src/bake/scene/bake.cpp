@@ -1,5 +1,7 @@
 #include "faqem/bake.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <string>
 #include <utility>
 
@@ -10,17 +12,6 @@
 namespace faqem {
 
 namespace detail {
-
-std::string material_title(const Asset& asset, Index material) {
-    if (material == no_index) return "the default material";
-    const std::string& name = asset.materials[material].name;
-    return name.empty() ? "material " + std::to_string(material) : "material '" + name + "'";
-}
-
-std::string part_title(const Asset& asset, std::size_t part) {
-    const std::string& name = asset.parts[part].name;
-    return name.empty() ? "part " + std::to_string(part) : "part '" + name + "'";
-}
 
 namespace {
 

@@ -1,10 +1,12 @@
 #include "bake/scene/check_asset.hpp"
 
+#include "asset/scene/messages.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "asset/material_textures.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 

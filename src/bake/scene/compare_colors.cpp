@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "asset/flatten.hpp"
 #include "asset/image/srgb.hpp"
-#include "bake/transfer/source_surface.hpp"
+#include "asset/scene/flatten.hpp"
+#include "bake/transfer/source_sampler.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 

@@ -1,10 +1,12 @@
 #include <algorithm>
+
 #include <cmath>
 #include <optional>
 #include <string>
+#include "asset/scene/messages.hpp"
 
 #include "bake/scene/check_asset.hpp"
-#include "bake/scene/duplicate_faces.hpp"
+#include "bake/scene/coincident_faces.hpp"
 #include "bake/scene/face_budget.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/scene_size.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "asset/motion.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"

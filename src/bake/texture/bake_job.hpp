@@ -34,13 +34,13 @@ public:
     void report_progress(Phase phase, double fraction) const {
         phase_ = phase;
         fraction_ = fraction;
-        check_cancelled().now();
+        cancellation_check().now();
     }
     /// Check for loops on the calling thread. It passes on the progress that was reported last.
     CancellationCheck cancellation_check() const {
         return options.progress ? CancellationCheck(monitor_) : CancellationCheck();
     }
-    Workers workers() const { return {options.threads, check_cancelled()}; }
+    Workers workers() const { return {options.threads, cancellation_check()}; }
 
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
 
@@ -70,14 +70,7 @@ void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t 
     }
 }
 
-/// Name of a material in messages: `material 'red'`, or its index if it has no name.
-std::string material_title(const Asset& asset, Index material);
-
-/// Name of a part in messages: `part 'leg'`, or its index if it has no name.
-FAQEM_EXPORT std::string part_title(const Asset& asset, std::size_t part);
-
-/// Bakes a new atlas with new images.
-/// \return false, with an unchanged result, if there are more triangles than texels
+/// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
 bool bake_pages(BakeJob& job);
 
 /// Bakes the base colour into vertex colours. The result has no textures.

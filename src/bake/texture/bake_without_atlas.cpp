@@ -1,5 +1,7 @@
 #include <algorithm>
+
 #include <map>
+#include "asset/scene/messages.hpp"
 
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"

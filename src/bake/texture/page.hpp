@@ -8,7 +8,7 @@
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_atlas.hpp"
 #include "bake/transfer/extension_layers.hpp"
-#include "bake/transfer/source_surface.hpp"
+#include "bake/transfer/source_sampler.hpp"
 
 namespace faqem::detail {
 

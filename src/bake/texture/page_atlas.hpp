@@ -11,7 +11,7 @@
 #include "bake/atlas/tiles.hpp"
 #include "bake/atlas/triangle_pairs.hpp"
 #include "bake/texture/bake_job.hpp"
-#include "bake/transfer/source_surface.hpp"
+#include "bake/transfer/source_sampler.hpp"
 
 namespace faqem::detail {
 

@@ -1,7 +1,9 @@
 #include <algorithm>
+
 #include <array>
 #include <cmath>
 #include <optional>
+#include "asset/scene/messages.hpp"
 
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "asset/known_textures.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 
 namespace faqem::detail {

@@ -4,7 +4,7 @@
 
 #include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
-#include "bake/transfer/source_surface.hpp"
+#include "bake/transfer/source_sampler.hpp"
 
 namespace faqem::detail {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "asset/flatten.hpp"
+#include "asset/scene/flatten.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"

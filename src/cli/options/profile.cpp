@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "asset/file.hpp"
+#include "asset/io/file.hpp"
 #include "cli/json.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "asset/formats/repair.hpp"
+#include "asset/scene/repair.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"

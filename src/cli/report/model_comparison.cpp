@@ -1,6 +1,6 @@
 #include "cli/report/model_comparison.hpp"
 
-#include "asset/flatten.hpp"
+#include "asset/scene/flatten.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

@@ -1,6 +1,6 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/check/checker.hpp"
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "asset/gltf/check/checker.hpp"
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
 
 namespace faqem::detail {

@@ -2,7 +2,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/check/checker.hpp"
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
 
 namespace faqem::detail {

@@ -1,12 +1,13 @@
 #include <algorithm>
+
 #include <cmath>
 #include <map>
+#include "asset/scene/messages.hpp"
 
-#include "asset/formats/repair.hpp"
 #include "asset/gltf/read/read.hpp"
 #include "asset/image/image.hpp"
-#include "asset/known_textures.hpp"
-#include "asset/material_textures.hpp"
+#include "asset/scene/material_textures.hpp"
+#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset/file.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/image/image.hpp"
-#include "asset/material_textures.hpp"
+#include "asset/io/file.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -2,7 +2,7 @@
 /// \file
 /// Conversion of the tinygltf model to parts and materials.
 
-#include "asset/gltf/load.hpp"
+#include "asset/gltf/read/load.hpp"
 
 namespace faqem::detail {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "asset/gltf/write/writer.hpp"
-#include "asset/known_textures.hpp"
+#include "asset/scene/material_textures.hpp"
 
 namespace faqem::detail {
 namespace {

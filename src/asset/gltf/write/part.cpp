@@ -1,12 +1,14 @@
 #include <algorithm>
+
 #include <cmath>
 #include <map>
 #include <utility>
+#include "asset/scene/messages.hpp"
 
-#include "asset/formats/repair.hpp"
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/attributes.hpp"
+#include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -5,14 +5,14 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/file.hpp"
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/attributes.hpp"
-#include "asset/gltf/framing.hpp"
+#include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
-#include "asset/gltf/levels.hpp"
+#include "asset/gltf/write/levels.hpp"
+#include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
+#include "asset/io/file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "asset/gltf/binary.hpp"
-#include "asset/source_document.hpp"
+#include "asset/gltf/source_document.hpp"
+#include "asset/gltf/write/buffer_builder.hpp"
 
 namespace faqem::detail {
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <random>
 
-#include "asset/text/value_numbers.hpp"
+#include "asset/scene/value_numbers.hpp"
 
 using namespace faqem;
 using faqem::detail::UniqueValues;

@@ -13,13 +13,8 @@ namespace faqem::detail {
 /// Maximum number of vertices, and of faces, of a part.
 inline constexpr std::uint64_t max_index_count = no_index;
 
-/// Formats a count with its noun: `1 face`, `2 faces`.
-std::string pluralized(std::uint64_t count, const std::string& noun);
-
-/// Checks that a number of elements can be addressed by 32-bit indices.
-/// \param file     path for messages
-/// \param element  name of the elements in the file, for example `vertex`
-/// \throws InputError  if count > max_index_count
+/// \throws InputError  when there are more than max_index_count
+/// \param element  what in the file is counted, e.g. `vertex`
 FAQEM_EXPORT void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
 
 /// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values:

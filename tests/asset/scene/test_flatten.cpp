@@ -1,4 +1,4 @@
-#include "asset/flatten.hpp"
+#include "asset/scene/flatten.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

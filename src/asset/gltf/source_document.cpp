@@ -1,8 +1,6 @@
-#include "asset/motion.hpp"
+#include "asset/gltf/source_document.hpp"
 
 #include <algorithm>
-
-#include "asset/source_document.hpp"
 
 namespace faqem::detail {
 

@@ -1,4 +1,4 @@
-#include "asset/gltf/binary.hpp"
+#include "asset/gltf/write/buffer_builder.hpp"
 
 #include <algorithm>
 #include <cstring>

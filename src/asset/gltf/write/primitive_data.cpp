@@ -1,4 +1,4 @@
-#include "asset/gltf/attributes.hpp"
+#include "asset/gltf/write/primitive_data.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <thread>
 
-#include "asset/file.hpp"
+#include "asset/io/file.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

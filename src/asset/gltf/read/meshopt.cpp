@@ -1,6 +1,6 @@
 #include <meshoptimizer.h>
 
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// Textures of the glTF material extensions that can be baked, and the meaning of their channels
+/// The textures of a material: those of glTF itself, and those of material extensions with what their channels hold
 /// (Khronos, glTF 2.0 extension registry).
 
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "faqem/asset.hpp"
 
 namespace faqem::detail {
 
@@ -58,6 +60,24 @@ inline const KnownTexture* find_known_texture(std::string_view extension, std::s
         known_textures.begin(), known_textures.end(),
         [&](const KnownTexture& known) { return known.extension == extension && known.name == name; });
     return found == known_textures.end() ? nullptr : &*found;
+}
+
+/// Calls visit(texture) for the five textures of glTF's material, in a fixed order, whether they are set or not.
+/// \param material  Material or const Material
+template <class M, class Visit>
+void for_each_core_texture(M& material, const Visit& visit) {
+    visit(material.base_color_texture);
+    visit(material.metallic_roughness_texture);
+    visit(material.normal_texture);
+    visit(material.occlusion_texture);
+    visit(material.emissive_texture);
+}
+
+/// As for_each_core_texture(), then those of extensions.
+template <class M, class Visit>
+void for_each_texture(M& material, const Visit& visit) {
+    for_each_core_texture(material, visit);
+    for (auto& extension : material.extension_textures) visit(extension.texture);
 }
 
 }  // namespace faqem::detail

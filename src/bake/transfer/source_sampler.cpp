@@ -1,4 +1,6 @@
-#include "bake/transfer/source_surface.hpp"
+#include "bake/transfer/source_sampler.hpp"
+
+#include "asset/scene/messages.hpp"
 
 #include <algorithm>
 #include <cmath>

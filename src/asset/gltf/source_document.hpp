@@ -7,6 +7,7 @@
 
 #include "asset/gltf/json.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem {
 
@@ -17,5 +18,12 @@ struct SourceDocument {
     std::vector<Image> images;        ///< one per image of the document; `encoded` is empty if it is missing
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
 };
+
+namespace detail {
+
+/// True if the scene has animations, or parts with skins or morph targets. O(parts)
+FAQEM_EXPORT bool is_dynamic(const Asset& asset);
+
+}  // namespace detail
 
 }  // namespace faqem

@@ -1,4 +1,4 @@
-#include "asset/gltf/compressed.hpp"
+#include "asset/gltf/read/compressed.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -12,7 +12,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/check/checker.hpp"
-#include "asset/source_document.hpp"
+#include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {
 

@@ -1,4 +1,4 @@
-#include "bake/scene/duplicate_faces.hpp"
+#include "bake/scene/coincident_faces.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,6 @@
-#include "asset/formats/repair.hpp"
+#include "asset/scene/repair.hpp"
+
+#include "asset/scene/messages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,12 +70,6 @@ std::uint64_t drop_vertices(Part& part) {
 }
 
 }  // namespace
-
-std::string pluralized(std::uint64_t count, const std::string& noun) {
-    if (count == 1) return "1 " + noun;
-    const bool es = noun.ends_with('x') || noun.ends_with('s');
-    return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + (es ? "es" : "s"));
-}
 
 void check_index_count(std::uint64_t count, const std::string& file, const std::string& element) {
     if (count > max_index_count)

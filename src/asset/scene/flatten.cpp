@@ -1,11 +1,11 @@
-#include "asset/flatten.hpp"
+#include "asset/scene/flatten.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "asset/formats/repair.hpp"
+#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "asset/gltf/levels.hpp"
+#include "asset/gltf/write/levels.hpp"
 
 #include <array>
 #include <utility>

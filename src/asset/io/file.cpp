@@ -1,4 +1,4 @@
-#include "asset/file.hpp"
+#include "asset/io/file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "asset/gltf/load.hpp"
+#include "asset/gltf/read/load.hpp"
 
 #include <charconv>
 #include <exception>
@@ -6,12 +6,12 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/file.hpp"
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/check/checker.hpp"
-#include "asset/gltf/compressed.hpp"
-#include "asset/gltf/framing.hpp"
+#include "asset/gltf/container.hpp"
+#include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
+#include "asset/io/file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

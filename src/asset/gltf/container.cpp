@@ -1,4 +1,4 @@
-#include "asset/gltf/framing.hpp"
+#include "asset/gltf/container.hpp"
 
 #include <algorithm>
 #include <limits>
