@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/texture/bake_job.hpp"
-#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

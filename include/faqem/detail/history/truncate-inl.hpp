@@ -10,7 +10,7 @@
 
 #include "faqem/detail/history/binary_io.hpp"
 #include "faqem/detail/history/final_versions.hpp"
-#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
 #include "faqem/export.hpp"
 

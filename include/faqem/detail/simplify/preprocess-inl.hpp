@@ -267,17 +267,5 @@ FAQEM_INLINE std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::s
     return locked;
 }
 
-FAQEM_INLINE bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    // Coordinates are halved and then scaled to about 1, so that differences and squares stay in the range of
-    // double.
-    const Vector3 p = 0.5 * engine::to_eigen(a);
-    const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
-    const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());
-    if (!(size > 0)) return true;
-    const Vector3 u = e / size, v = f / size;
-    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
-    return !(u.cross(v).norm() > 1e-12 * longest);
-}
-
 }  // namespace detail
 FAQEM_NAMESPACE_END

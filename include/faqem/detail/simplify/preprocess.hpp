@@ -60,10 +60,6 @@ std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& op
 std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
                                        std::size_t vertices);
 
-/// True if the triangle is degenerate: its height is at most 1e-12 of its longest edge, so that it has no
-/// normal. Works for coordinates of any magnitude.
-FAQEM_EXPORT bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  // namespace detail
 FAQEM_NAMESPACE_END
 
