@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.22)
 
 set(tests "")
-file(GLOB sources ${TESTS_DIR}/*/*.cpp)
+file(GLOB_RECURSE sources ${TESTS_DIR}/*.cpp)
 foreach(source IN LISTS sources)
     file(READ ${source} text)
     string(APPEND tests "${text}")

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "asset/image/image.hpp"
-#include "bake/texture/bake_job.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 

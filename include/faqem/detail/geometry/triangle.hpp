@@ -113,11 +113,11 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 inline bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
-    const Vector3 p = 0.5 * engine::to_eigen(a);
-    const Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
+    const engine::Vector3 p = 0.5 * engine::to_eigen(a);
+    const engine::Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
     const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());
     if (!(size > 0)) return true;
-    const Vector3 u = e / size, v = f / size;
+    const engine::Vector3 u = e / size, v = f / size;
     const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
     return !(u.cross(v).norm() > 1e-12 * longest);
 }

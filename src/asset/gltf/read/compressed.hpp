@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"

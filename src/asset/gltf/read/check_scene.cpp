@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 
 namespace faqem::detail {
 namespace {

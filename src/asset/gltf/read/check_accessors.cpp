@@ -1,5 +1,5 @@
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 
 namespace faqem::detail {

@@ -1,7 +1,7 @@
 #include <string_view>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
 

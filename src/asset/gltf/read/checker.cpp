@@ -1,4 +1,4 @@
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 
 #include "faqem/error.hpp"
 

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "asset/gltf/check/checker.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
 

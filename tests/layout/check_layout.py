@@ -1,0 +1,133 @@
+"""Checks the source tree: includes follow the order of the folders, and files and folders have a reasonable size.
+
+Usage: check_layout.py SOURCE
+
+docs/architecture.md describes the order. The checks:
+  * a file includes only files of its own folder, or of folders that come before it in ORDER;
+  * a private include names its folder;
+  * public headers include neither the engine nor libraries, except for the bodies at the end of a header;
+  * the engine includes no public header but plain data, and no library but Eigen;
+  * a folder has at most 20 subjects (x.hpp, x.cpp and x-inl.hpp are one);
+  * a file has at most 450 lines, and a subject of src or detail at least 40, unless it is in SMALL;
+  * every folder in ORDER exists, and every folder with sources is in ORDER.
+"""
+import collections
+import pathlib
+import re
+import sys
+
+# From the bottom to the top. Folders on one line do not include each other.
+ORDER = [
+    ["include/faqem"],
+    ["include/faqem/engine/util"],
+    ["include/faqem/engine/mesh"],
+    ["include/faqem/engine/quadric", "include/faqem/engine/queue"],
+    ["include/faqem/engine/constraints"],
+    ["include/faqem/engine/metric"],
+    ["include/faqem/engine/tracking"],
+    ["include/faqem/engine"],
+    ["include/faqem/detail/base"],
+    ["include/faqem/detail/geometry"],
+    ["include/faqem/detail/measure", "include/faqem/detail/fitting", "include/faqem/detail/history"],
+    ["include/faqem/detail/simplify", "include/faqem/detail/mapping"],
+    ["include/faqem/detail/lod"],
+    ["src/faqem"],
+    ["src/asset/text", "src/asset/io", "src/asset/image"],
+    ["src/asset/scene"],
+    ["src/asset/formats", "src/asset/gltf"],
+    ["src/asset/gltf/read", "src/asset/gltf/write"],
+    ["src/asset"],
+    ["src/image_plugin"],
+    ["src/render"],
+    ["src/bake/atlas", "src/bake/transfer"],
+    ["src/bake/texture"],
+    ["src/bake/scene"],
+    ["src/capi"],
+    ["src/cli"],
+    ["src/cli/shell"],
+    ["src/cli/options"],
+    ["src/cli/batch"],
+    ["src/cli/report"],
+    ["src/cli/commands"],
+]
+# The program's entry: above every folder.
+ENTRIES = {"src/cli/main.cpp"}
+# Public headers that the engine may include: plain data.
+PLAIN = {"export.hpp", "mesh.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
+LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|nlohmann|CLI")
+MAX_SUBJECTS = 20
+MAX_LINES = 450
+MIN_LINES = 40
+# Small subjects that stay apart: umbrellas, and what only one build uses.
+SMALL = {
+    "src/asset/gltf/read/meshopt",         # compiled only where meshoptimizer is found
+    "src/image_plugin/module",             # the whole of the plug-in's entry point
+}
+
+
+def include_lines(path):
+    """Yields (text in the brackets, True if it is one of the bodies at the end of a header)."""
+    bodies = False
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line == "#ifdef FAQEM_HEADER_ONLY":
+            bodies = True
+        match = re.match(r'\s*#\s*include\s*[<"]([^">]+)[">]', line)
+        if match:
+            yield match.group(1), bodies
+
+
+def main():
+    source = pathlib.Path(sys.argv[1])
+    rank = {folder: number for number, folders in enumerate(ORDER) for folder in folders}
+    problems = []
+    subjects = collections.defaultdict(lambda: collections.defaultdict(int))
+    files = [path for root in ("include", "src") for path in sorted((source / root).rglob("*"))
+             if path.suffix in (".hpp", ".cpp", ".h")]
+    for path in files:
+        name = path.relative_to(source).as_posix()
+        folder = path.parent.relative_to(source).as_posix()
+        if folder not in rank:
+            problems.append(f"{name}: the folder {folder} is not in the order of tests/layout/check_layout.py")
+            continue
+        lines = len(path.read_text(encoding="utf-8").splitlines())
+        subjects[folder][re.sub(r"(-inl)?\.[a-z]+$", "", path.name)] += lines
+        if lines > MAX_LINES:
+            problems.append(f"{name}: {lines} lines, more than {MAX_LINES}")
+        for included, is_body in include_lines(path):
+            target = next((root / included for root in (source / "include", source / "src")
+                           if (root / included).is_file()), None)
+            if target is None:
+                if not (source / folder / included).is_file():
+                    if folder.startswith("include/faqem/engine") and LIBRARIES.search(included) and \
+                            not included.startswith("Eigen"):
+                        problems.append(f"{name} includes {included}: the engine may use Eigen only")
+                    if folder == "include/faqem" and LIBRARIES.search(included) and path.name != "openmesh.hpp":
+                        problems.append(f"{name} includes {included}: public headers use only the standard library")
+                else:
+                    problems.append(f"{name} includes {included} without its folder")
+                continue
+            below = target.parent.relative_to(source).as_posix()
+            if folder == "include/faqem" and not is_body and below != folder and path.name != "openmesh.hpp":
+                problems.append(f"{name} includes {included}: public headers include public headers only")
+            if folder.startswith("include/faqem/engine") and below == "include/faqem" and target.name not in PLAIN:
+                problems.append(f"{name} includes {included}: of the public headers the engine may include plain data only")
+            if is_body or below == folder or name in ENTRIES or folder == "include/faqem":
+                continue
+            if below in rank and not rank[below] < rank[folder]:
+                problems.append(f"{name} includes {included}: {below} does not come before {folder}")
+    for folder in rank:
+        if folder not in subjects:
+            problems.append(f"{folder} is in the order and has no sources")
+    for folder, sizes in subjects.items():
+        if len(sizes) > MAX_SUBJECTS and folder != "include/faqem":
+            problems.append(f"{folder} has {len(sizes)} subjects, more than {MAX_SUBJECTS}")
+        for subject, lines in sizes.items():
+            is_private = folder.startswith(("src/", "include/faqem/detail/")) and folder != "src/faqem"
+            if is_private and lines < MIN_LINES and f"{folder}/{subject}" not in SMALL:
+                problems.append(f"{folder}/{subject}: {lines} lines are too few for a subject of its own")
+    print("\n".join(problems) if problems else f"{len(files)} files in {len(subjects)} folders follow the rules")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
