@@ -93,7 +93,7 @@ TEST_CASE("preprocessing finds a valid scale for coincident vertices and for the
             x = x > 0 ? std::numeric_limits<double>::max() : -std::numeric_limits<double>::max();
     for (const engine::Vector3& p : preprocess(largest.view()).engine_positions())
         CHECK(p.cwiseAbs().maxCoeff() == Approx(0.5 / std::sqrt(3.0)));
-    CHECK(prepare({}).positions.empty());
+    CHECK(preprocess({}).positions.empty());
 }
 
 TEST_CASE("has_no_area finds degenerate triangles at any scale") {

@@ -77,8 +77,8 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     const PhaseSeconds& s = report.seconds;
     json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
                        {"bake", s.bake}, {"save", s.save}, {"total", s.total}};
-    json["detail::peak_rss_bytes"] = detail::peak_rss_bytes();
-    // File names may contain invalid UTF-8, which is replaced by U+FFFD.
+    json["peak_rss_bytes"] = detail::peak_rss_bytes();
+    // File names need not be UTF-8: what is not is shown as U+FFFD.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
