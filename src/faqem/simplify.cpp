@@ -11,6 +11,8 @@
 #include "faqem/detail/simplify/prune_components-inl.hpp"
 #include "faqem/detail/simplify/report-inl.hpp"
 #include "faqem/detail/simplify/report_json-inl.hpp"
+#include "faqem/detail/simplify/result_fitting-inl.hpp"
+#include "faqem/detail/simplify/run-inl.hpp"
 #include "faqem/detail/simplify/run_state-inl.hpp"
 #include "faqem/detail/simplify/simplify-inl.hpp"
 #include "faqem/detail/simplify/spatial_order-inl.hpp"

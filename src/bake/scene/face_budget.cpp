@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 

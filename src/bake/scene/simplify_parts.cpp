@@ -18,7 +18,6 @@
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/run.hpp"
-#include "faqem/detail/simplify/target.hpp"
 
 namespace faqem {
 namespace {

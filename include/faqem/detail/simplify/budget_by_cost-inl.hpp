@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/run.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -28,7 +28,7 @@ struct CostCurve {
 };
 
 /// Simplifies a copy of the mesh with preset fast as far as its locks and seams permit, and records the
-/// costs. Defined in simplify-inl.hpp.
+/// costs. Defined in run-inl.hpp.
 /// \param mesh     see simplify(); read only during the call
 /// \param options  of the run; preset, weights, target, max_error and history are ignored
 /// \throws OptionError, InputError  as simplify()

@@ -66,7 +66,9 @@ FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& optio
                                   : original.surface().diagonal();
 }
 
-FAQEM_INLINE SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options) try {
+FAQEM_INLINE SimplifyResult
+simplify_within_error(const MeshView& mesh, const Options& options,
+                      const std::function<SimplifyResult(const Options&)>& run) try {
     const MeasurementMonitor monitor(options, 0);
     const DistanceReference original(mesh, options, monitor.cancellation_check());
     const MaxError& error = *options.max_error;
@@ -75,7 +77,7 @@ FAQEM_INLINE SimplifyResult simplify_within_error(const MeshView& mesh, const Op
                             : unpruned_diagonal(mesh, options, original, monitor.cancellation_check());
     const double allowed = error.value * unit;
     return search_within_error<SimplifyResult>(
-        options, mesh.triangles.size(), allowed, [&](const Options& own) { return simplify(mesh, own); },
+        options, mesh.triangles.size(), allowed, run,
         [&](const SimplifyResult& result, MeasureMode mode, CancellationCheck check_cancelled) {
             return distance(original, result, allowed, mode, options, check_cancelled);
         });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -110,9 +111,11 @@ Result cancelled_result() {
 }
 
 /// simplify() for meshes with Options::max_error.
+/// \param run  simplifies `mesh` to the target of the options that it is given, without an error bound
 /// \pre options are valid and have max_error
 /// \throws as simplify()
-SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options);
+SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options,
+                                     const std::function<SimplifyResult(const Options&)>& run);
 
 /// Sets stop reason, target and warnings of the report of a search.
 /// \param report           of the best result, with max_error

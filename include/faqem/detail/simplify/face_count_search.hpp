@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN

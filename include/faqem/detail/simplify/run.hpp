@@ -2,19 +2,35 @@
 /// \file
 /// A simplification run with one or more face counts as targets.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "faqem/export.hpp"
+#include "faqem/options.hpp"
 #include "faqem/simplify.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+/// Smallest target of simplify(); lower targets are raised to it.
+inline constexpr std::uint64_t min_target_faces = 4;
+
+/// Number of faces that a target requests, at most 1e18. min_target_faces is not applied.
+/// \param target  valid; Target::Kind::unset counts as a ratio
+/// \param faces   number of faces of the mesh
+inline std::uint64_t target_face_count(const Target& target, double faces) {
+    // The factor prevents rounding errors from losing a face in floor(): 0.1 * 30 must give 3.
+    const double wanted =
+        target.kind == Target::Kind::faces ? target.value : target.value * faces * (1 + 1e-15);
+    return static_cast<std::uint64_t>(std::floor(std::min(wanted, 1e18)));
+}
+
 /// Simplifies to each target in turn, continuing from the mesh of the previous target. Vertex fitting and
 /// edge flips of a result (preset best) are not passed on to the next target. The counts in a report are
-/// totals since the original; the times are those of the one target. Defined in simplify-inl.hpp.
+/// totals since the original; the times are those of the one target.
 /// \param mesh     see simplify(); read only during the call
 /// \param targets  face counts, not empty, in descending order
 /// \param options  must be valid; `target` and `max_error` are ignored
@@ -29,3 +45,7 @@ FAQEM_EXPORT std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/simplify/run-inl.hpp"
+#endif

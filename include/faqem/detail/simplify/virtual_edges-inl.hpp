@@ -19,7 +19,7 @@ namespace detail {
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// The nearest vertices of other components within a radius; ties by index.
+// The nearest vertices of other components within a radius. Ties are ordered by index.
 class NearestInOtherComponents {
 public:
     struct Hit {
@@ -33,8 +33,10 @@ public:
     NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius_squared)
         : component_of_(component_of), own_(own), radius_squared_(radius_squared) {}
 
-    // Points beyond it are not needed; those at this distance are, because ties are broken by index.
-    double limit() const { return count_ < hits_.size() ? radius_squared_ : hits_[count_ - 1].distance_squared; }
+    // Points beyond this squared distance can be skipped; points at equal distance are ordered by index.
+    double limit() const {
+        return count_ < hits_.size() ? radius_squared_ : hits_[count_ - 1].distance_squared;
+    }
 
     void add(double distance_squared, std::size_t point) {
         if (component_of_[point] == own_ || !(distance_squared <= radius_squared_)) return;
@@ -121,7 +123,8 @@ FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMe
             });
         for (const auto& hit : nearest.hits()) {
             const Index w = vertices[hit.point];
-            if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0) continue;
+            if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0)
+                continue;
             if (!are_compatible(mesh, face_groups, v, w)) continue;
             edges.push_back({hit.distance_squared, std::min(v, w), std::max(v, w)});
         }

@@ -1,4 +1,4 @@
-#include "faqem/detail/simplify/target.hpp"
+#include "faqem/detail/simplify/run.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,93 @@
+#pragma once
+/// \file
+/// One run of the collapse engine, with the metric and the queue of a preset.
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/simplify/presets.hpp"
+#include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/engine/constraints/feature_curves.hpp"
+#include "faqem/engine/engine.hpp"
+#include "faqem/engine/metric/memoryless.hpp"
+#include "faqem/engine/metric/weighted.hpp"
+#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+// Up to this number of pairs the queue returns the exact minimum.
+inline constexpr std::size_t max_exact_pairs = 1 << 17;
+
+using engine::CancellationCheck;
+using engine::CollapseMesh;
+
+// The data that one engine works on, indexed by slots.
+struct EngineInput {
+    EngineInput(const ReorderedMesh& reordered, CancellationCheck check_cancelled)
+        : collapse_mesh(reordered.positions, reordered.triangles, check_cancelled) {}
+    EngineInput(const EngineInput&) = delete;
+
+    CollapseMesh collapse_mesh;
+    engine::Wedges wedges;
+    std::vector<std::uint8_t> locked;
+    std::vector<Index> groups;  // referenced by `curves`
+    engine::FeatureCurves curves;
+    std::vector<double> importance;  // one per vertex slot; empty: uniform
+};
+
+// Weight per vertex slot: the largest weight of the input vertices that were welded.
+inline std::vector<double> vertex_importance(const MeshView& mesh, const PreprocessedMesh& prepared,
+                                             const ReorderedMesh& reordered) {
+    std::vector<double> at_vertex(prepared.positions.size(), 0), result;
+    if (mesh.vertex_weights.empty()) return result;
+    for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
+        double& weight = at_vertex[prepared.welded[v]];
+        weight = std::max<double>(weight, mesh.vertex_weights[v]);
+    }
+    for (const Index v : reordered.vertex) result.push_back(at_vertex[v]);
+    return result;
+}
+
+// Runs an engine to the target of `loop`. While should_continue(result) returns true, after which `loop` may
+// hold a lower target, continues to that target.
+template <class Recorder, class ShouldContinue>
+engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
+                              Recorder& recorder, const engine::LoopOptions& loop, const RunState& state,
+                              ShouldContinue&& should_continue) {
+    engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
+    const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
+        engine::Engine<decltype(metric), Queue, Recorder> engine(
+            work.collapse_mesh, pairs, work.wedges, work.locked, metric, recorder, curves, std::move(queue));
+        engine::LoopResult result = engine.run(loop);
+        while (should_continue(result)) result = engine.continue_to(loop);
+        return result;
+    };
+    const auto weighted = [&](auto metric, auto queue) {
+        if (work.importance.empty()) return collapse(std::move(metric), std::move(queue));
+        return collapse(engine::WeightedMetric(std::move(metric), work.importance), std::move(queue));
+    };
+    switch (settings.quadric_policy) {
+        case Settings::QuadricPolicy::memory: {
+            std::vector<std::uint8_t> seam(work.wedges.empty() ? 0 : work.collapse_mesh.vertex_slots());
+            for (Index v = 0; v < seam.size(); ++v) seam[v] = work.wedges.is_seam(work.collapse_mesh, v);
+            return weighted(engine::AccumulatedMetric(settings.weights, seam, curves), engine::HeapQueue());
+        }
+        case Settings::QuadricPolicy::memoryless:
+            return weighted(engine::MemorylessMetric({}, curves), engine::SweepQueue(max_exact_pairs));
+        case Settings::QuadricPolicy::tracked:
+            break;
+    }
+    return weighted(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
+                                          loop.target_faces, loop.distance_weight, curves),
+                    engine::SweepQueue(max_exact_pairs));
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

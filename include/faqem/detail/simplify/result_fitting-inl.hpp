@@ -1,0 +1,50 @@
+#pragma once
+
+#include "faqem/detail/simplify/result_fitting.hpp"
+
+#include "faqem/detail/fitting/vertex_fitting.hpp"
+#include "faqem/detail/geometry/edge_flip.hpp"
+#include "faqem/detail/simplify/build_result.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+FAQEM_INLINE void fit_result(const RunState& state, const PreprocessedMesh& prepared,
+                             double min_normal_cosine, const EngineInput& input,
+                             const std::vector<Index>& slots, const Workers& workers,
+                             SimplifyResult& result) {
+    std::vector<engine::Vector3> now;
+    std::vector<std::uint8_t> fixed;
+    for (const Index v : slots) {
+        now.push_back(input.collapse_mesh.position(v));
+        const bool is_seam = !input.wedges.empty() && input.wedges.is_seam(input.collapse_mesh, v);
+        fixed.push_back(input.locked[v] || is_seam || input.curves.has_vertex(v));
+    }
+    TriangleMesh& mesh = result.mesh;
+    std::vector<Vec3> moved = mesh.positions;
+    std::vector<Triangle> triangles = mesh.triangles;
+    const MeshRef simplified{now, mesh.triangles};
+    FittingResult fitted;
+    if (input.wedges.empty()) {
+        fitted = fit_vertices_and_flip_edges(state.initial_surface(), simplified, fixed, mesh.face_groups,
+                                             min_normal_cosine, workers);
+    } else {  // no edge flips: they would change the attributes of the corners
+        fitted.positions =
+            fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine, workers);
+    }
+    for (std::size_t v = 0; v < now.size(); ++v) {
+        if (fitted.positions[v] == now[v]) continue;
+        moved[v] = prepared.to_model(fitted.positions[v]);
+    }
+    for (const auto& [s, t] : fitted.flips) flip_edge(triangles[s], triangles[t]);
+    if (!revert_degenerate_faces(mesh.positions, triangles, moved)) return;
+    for (std::size_t v = 0; v < now.size(); ++v)
+        result.report.vertices_fitted += moved[v] != mesh.positions[v];
+    mesh.positions = std::move(moved);
+    mesh.triangles = std::move(triangles);
+    result.report.edges_flipped = fitted.flips.size();
+    if (!result.history.empty()) record_fitting(fitted.flips, result);
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

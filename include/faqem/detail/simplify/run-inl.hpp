@@ -1,0 +1,329 @@
+#pragma once
+
+#include "faqem/detail/simplify/run.hpp"
+
+#include <type_traits>
+#include <utility>
+
+#include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/simplify/block_decimation.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "faqem/detail/simplify/build_result.hpp"
+#include "faqem/detail/simplify/engine_run.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
+#include "faqem/detail/simplify/presets.hpp"
+#include "faqem/detail/simplify/recorders.hpp"
+#include "faqem/detail/simplify/result_fitting.hpp"
+#include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/detail/simplify/virtual_edges.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+// One run of simplify(): preprocessing, collapses, fitting, results.
+class Run {
+public:
+    Run(const MeshView& mesh, const Options& options)
+        : mesh_(mesh), options_(options), settings_(settings(options)) {
+        if (options_.progress) check_cancelled_ = CancellationCheck(monitor_);
+    }
+    Run(const Run&) = delete;
+
+    std::vector<SimplifyResult> simplify(std::span<const std::uint64_t> targets) {
+        targets_ = targets;
+        totals_.preset = options_.preset;
+        totals_.faces_in = mesh_.triangles.size();
+        totals_.vertices_in = mesh_.positions.size();
+        try {
+            simplify_to_targets();
+        } catch (const engine::Cancelled&) {
+            SimplifyResult nothing;
+            nothing.report = totals_;
+            nothing.report.stop = StopReason::cancelled;
+            results_.push_back(std::move(nothing));
+        }
+        return std::move(results_);
+    }
+
+    CostCurve curve() {
+        const std::uint64_t target = min_target_faces;
+        targets_ = {&target, 1};
+        try {
+            prepare();
+            set_target();
+            EngineInput work(state_.mesh(), check_cancelled_);
+            CostRecorder recorder;
+            const engine::LoopResult loop_result =
+                collapse(work, recorder, [](const engine::LoopResult&) { return false; });
+            return {recorder.take(), work.collapse_mesh.face_count(), settings_.diagonal / prepared_.scale,
+                    loop_result.stop != StopReason::cancelled};
+        } catch (const engine::Cancelled&) {
+            return {{}, 0, 0, false};
+        }
+    }
+
+private:
+    void simplify_to_targets() {
+        prepare();
+        if (options_.history == Recording::on) {
+            engine::HistoryRecorder history(state_.mesh().vertex, state_.mesh().face,
+                                            static_cast<Index>(prepared_.positions.size()));
+            collapse_to_targets(history);
+        } else {
+            engine::NoRecorder nothing;
+            collapse_to_targets(nothing);
+        }
+    }
+
+    void prepare() {
+        prepared_ = preprocess(mesh_, settings_, check_cancelled_);
+        totals_.faces_dropped = prepared_.dropped_faces;
+        totals_.seconds.weld = stopwatch_.seconds();
+        state_ = RunState(prepared_, welded_locks(mesh_, prepared_.welded, prepared_.positions.size()),
+                          options_.topology.boundary, check_cancelled_);
+        if (options_.history == Recording::off) prepared_.release_triangles();
+        if (mesh_.vertex_weights.empty()) prepared_.release_welded();
+        if (settings_.fit_vertices) state_.keep_initial_surface();
+        if (settings_.quadric_policy == Settings::QuadricPolicy::tracked)
+            state_.track_original(check_cancelled_);
+        area_ = state_.area();
+        loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
+                       settings_.min_fold_cosine};
+        loop_.tiny_component_diagonal = 0.02 * settings_.diagonal;
+        if (options_.progress) {
+            loop_.progress = [this](double done) {
+                return progress(done_in_blocks_ + (1 - done_in_blocks_) * done);
+            };
+        }
+    }
+
+    // Sets the options of the loop for the next target.
+    void set_target() {
+        totals_.target_faces = std::max(min_target_faces, targets_[results_.size()]);
+        loop_.target_faces = static_cast<std::size_t>(totals_.target_faces);
+        if (settings_.quadric_policy != Settings::QuadricPolicy::memory)
+            loop_.distance_weight = area_ / static_cast<double>(loop_.target_faces);
+        done_in_blocks_ = 0;
+    }
+
+    // Reports progress. The share of a target is proportional to the number of faces removed for it.
+    Continue progress(double done) {
+        const auto gone = [&](std::size_t targets) {
+            const double faces = static_cast<double>(mesh_.triangles.size());
+            return targets == 0 ? 0 : faces - std::min(faces, static_cast<double>(targets_[targets - 1]));
+        };
+        const double before = gone(results_.size()), after = gone(results_.size() + 1);
+        const double all = gone(targets_.size());
+        const double share = all > 0 ? (before + done * (after - before)) / all : done;
+        phase_ = Phase::simplify;
+        fraction_ = share;
+        return options_.progress(phase_, fraction_);
+    }
+
+    Workers workers() const { return {options_.threads, check_cancelled_}; }
+
+    double min_pair_length() const { return 1e-8 * settings_.diagonal; }
+
+    // Meshes with attributes, kept groups, weights or virtual edges are not split into blocks.
+    bool supports_blocks() const {
+        return settings_.quadric_policy != Settings::QuadricPolicy::memory && !mesh_.attributes &&
+               mesh_.vertex_weights.empty() && options_.topology.group_boundaries != GroupBoundaries::kept &&
+               options_.topology.virtual_edges != VirtualEdges::on;
+    }
+
+    // Simplifies in blocks as far as possible and compacts the rest. \return false if cancelled
+    template <class Recorder>
+    bool simplify_in_blocks_first(Recorder& recorder) {
+        if (!supports_blocks()) return true;
+        if (!state_.original()) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
+        const engine::OriginalSurface& original = *state_.original();
+        const std::size_t far = engine::TrackedMetric::tracking_start_ratio * loop_.target_faces;
+        const BlockTracking borders{original, state_.vertex_map(), Watched::borders};
+        if (!reduce_in_blocks(far, original.boundary_edges().empty() ? nullptr : &borders, recorder))
+            return false;
+        const BlockTracking all{original, state_.vertex_map()};
+        return reduce_in_blocks(loop_.target_faces, &all, recorder);
+    }
+
+    template <class Recorder>
+    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking, Recorder& recorder) {
+        const std::size_t faces = state_.mesh().triangles.size();
+        if (faces <= least) return true;
+        engine::LoopOptions loop = loop_;
+        const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
+                             static_cast<double>(faces - loop.target_faces);
+        if (options_.progress) {
+            loop.progress = [&](double done) { return progress(done_in_blocks_ + share * done); };
+        }
+        // After a first round, smaller surfaces are split as well: tracking distances in parallel saves more
+        // time than the faces between blocks cost.
+        const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
+        const ReorderedMesh& now = state_.mesh();
+        const BlockInput input{now.positions, now.triangles, state_.locked(),
+                               vertices_per_block(now.positions.size(), few)};
+        const BlockSteps blocks =
+            simplify_in_blocks(input, loop, least, tracking, options_.history, workers());
+        if (blocks.is_cancelled) return false;
+        if (blocks.steps.empty()) return true;
+        has_used_blocks_ = true;
+        done_in_blocks_ += share;
+        totals_.collapses += blocks.steps.size();
+        for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += blocks.refusals[i];
+        for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += blocks.rungs[i];
+        CompactedMesh compacted = apply_steps(input, blocks.steps, check_cancelled_);
+        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
+            record_blocks(blocks, compacted, recorder);
+        state_.advance_to(std::move(compacted));
+        return true;
+    }
+
+    // Reserves memory for the remaining collapses as well: growing the arrays later would need twice the
+    // memory.
+    void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted,
+                       engine::HistoryRecorder& recorder) const {
+        const double faces_to_go = static_cast<double>(state_.mesh().triangles.size() - loop_.target_faces);
+        const double wanted = std::max(faces_to_go / 2, static_cast<double>(blocks.steps.size()));
+        const double share = 1.05 * wanted / static_cast<double>(blocks.steps.size());
+        recorder.reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
+                         static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
+        for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
+            const auto& [survivor, gone, to] = blocks.steps[i];
+            const std::size_t begin = blocks.patch_begin[i];
+            const std::size_t end =
+                i + 1 < blocks.steps.size() ? blocks.patch_begin[i + 1] : blocks.patch_faces.size();
+            recorder.add_collapse(survivor, gone, to,
+                                  std::span(blocks.patch_faces).subspan(begin, end - begin));
+        }
+        recorder.renumber(compacted.vertices, compacted.faces);
+    }
+
+    template <class Recorder, class ShouldContinue>
+    engine::LoopResult collapse(EngineInput& work, Recorder& recorder, ShouldContinue&& should_continue) {
+        const CollapseMesh& collapse_mesh = work.collapse_mesh;
+        std::vector<std::pair<Index, Index>> extra;
+        if (options_.topology.virtual_edges == VirtualEdges::on) {
+            extra = virtual_edges(collapse_mesh, state_.mesh().per_face(mesh_.face_groups),
+                                  options_.topology.virtual_edge_distance * settings_.diagonal,
+                                  min_pair_length(), check_cancelled_);
+        }
+        totals_.virtual_edges = extra.size();
+        engine::PairTable pairs(collapse_mesh, extra, check_cancelled_);
+        if (mesh_.attributes) {
+            const auto [values, width] = *mesh_.attributes;
+            work.wedges = engine::Wedges(
+                collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width},
+                check_cancelled_);
+        }
+        work.locked = state_.locked();
+        if (options_.topology.group_boundaries == GroupBoundaries::kept) {
+            work.groups = state_.mesh().per_face(mesh_.face_groups);
+            work.curves = engine::FeatureCurves(collapse_mesh, work.groups, check_cancelled_);
+        }
+        work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
+        return run_engine(work, pairs, settings_, recorder, loop_, state_, should_continue);
+    }
+
+    // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
+    // weight from the start. Otherwise one engine continues from target to target, since it has state that
+    // cannot be transferred.
+    template <class Recorder>
+    void collapse_to_targets(Recorder& recorder) {
+        while (results_.size() < targets_.size()) {
+            set_target();
+            const bool is_cancelled = !simplify_in_blocks_first(recorder);
+            EngineInput work(state_.mesh(), check_cancelled_);
+            TracingRecorder<Recorder> tracing(recorder, work.collapse_mesh.vertex_slots());
+            engine::LoopResult loop_result;
+            if (is_cancelled) {
+                loop_result.stop = StopReason::cancelled;
+                add_result(work, tracing.trace(), recorder, loop_result);
+            } else {
+                loop_result = collapse(work, tracing, [&](const engine::LoopResult& so_far) {
+                    add_result(work, tracing.trace(), recorder, so_far);
+                    if (supports_blocks() || is_done()) return false;
+                    set_target();
+                    return true;
+                });
+            }
+            if (is_done()) return;
+            add_counts(loop_result, totals_);
+            CompactedMesh left = compacted(work.collapse_mesh, tracing.trace(), check_cancelled_);
+            if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
+                recorder.renumber(left.vertices, left.faces);
+            state_.advance_to(std::move(left));
+        }
+    }
+
+    bool is_done() const {
+        return results_.size() == targets_.size() || results_.back().report.stop == StopReason::cancelled;
+    }
+
+    // Adds the result of the current target, whether or not it was reached.
+    template <class Recorder>
+    void add_result(const EngineInput& work, const SlotTrace& trace, Recorder& recorder,
+                    const engine::LoopResult& loop_result) {
+        SimplifyResult result;
+        result.report = totals_;
+        add_counts(loop_result, result.report);
+        result.report.stop = loop_result.stop;
+        const bool is_cancelled = loop_result.stop == StopReason::cancelled;
+        const CancellationCheck check_cancelled =
+            is_cancelled ? CancellationCheck() : check_cancelled_;  // no callbacks after a cancellation
+        const std::vector<Index> slots =
+            build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
+                         state_.source_vertices_of(trace.source_slots()), check_cancelled, result);
+        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) {
+            const bool is_last = results_.size() + 1 == targets_.size();
+            result.history = is_last ? recorder.take() : recorder.history();
+            for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
+            to_model_units(prepared_, check_cancelled, result.history.collapses);
+            // The arrays are moved into the last result.
+            finish_history(mesh_, prepared_.pruned,
+                           is_last ? std::move(prepared_.positions) : prepared_.positions,
+                           is_last ? std::move(prepared_.triangles) : prepared_.triangles, result);
+        }
+        // Without a collapse the mesh equals the original.
+        if (settings_.fit_vertices && !is_cancelled && result.report.collapses > 0)
+            fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots, workers(), result);
+        finish_report(options_, settings_, prepared_, result);
+        result.report.seconds.simplify = result.report.seconds.total = stopwatch_.seconds();
+        stopwatch_ = {};
+        totals_.seconds = {};
+        results_.push_back(std::move(result));
+    }
+
+    const MeshView& mesh_;
+    const Options& options_;
+    Phase phase_ = Phase::weld;
+    double fraction_ = 0;  // of the phase, as last reported
+    engine::ProgressMonitor monitor_{[this] { return options_.progress(phase_, fraction_); }};
+    CancellationCheck check_cancelled_;  // does nothing without a callback
+    Settings settings_;
+    PreprocessedMesh prepared_;
+    RunState state_;
+    engine::LoopOptions loop_;
+    double area_ = 0;  // of the original, engine units
+    std::span<const std::uint64_t> targets_;
+    bool has_used_blocks_ = false;
+    double done_in_blocks_ = 0;  // share of the work for the current target that was done in blocks
+    Stopwatch stopwatch_;        // since the last target
+    Report totals_;              // sums of blocks and of engines that have finished
+    std::vector<SimplifyResult> results_;
+};
+
+FAQEM_INLINE std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
+                                                        std::span<const std::uint64_t> targets,
+                                                        const Options& options) {
+    return Run(mesh, options).simplify(targets);
+}
+
+FAQEM_INLINE CostCurve cost_curve(const MeshView& mesh, const Options& options) {
+    Options cheap = options;
+    cheap.preset = Preset::fast;
+    cheap.weights = {};
+    validate(cheap);
+    return Run(mesh, cheap).curve();
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END
