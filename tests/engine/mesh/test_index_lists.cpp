@@ -29,18 +29,18 @@ TEST_CASE("index lists: a list is empty initially and can be emptied again") {
 TEST_CASE("index lists: a list moves only if its capacity is exceeded") {
     IndexLists lists;
     IndexList list = lists.allocate(3), next = lists.allocate(3);
-    const Index place = list.place;
+    const Index place = list.offset;
     for (Index i = 0; i < 3; ++i) lists.push_back(list, i);
     lists.push_back(next, 9);
     lists.assign(list, std::vector<Index>{5, 6});
-    CHECK(list.place == place);
+    CHECK(list.offset == place);
     lists.assign(list, std::vector<Index>{1, 2, 3, 4});
-    CHECK(list.place != place);
+    CHECK(list.offset != place);
     CHECK(items(lists, list) == std::vector<Index>{1, 2, 3, 4});
     CHECK(items(lists, next) == std::vector<Index>{9});
-    const Index roomy = list.place;
+    const Index roomy = list.offset;
     lists.assign(list, std::vector<Index>{1, 2, 3, 4, 5, 6});  // capacity of 1.5 times the size
-    CHECK(list.place == roomy);
+    CHECK(list.offset == roomy);
 }
 
 TEST_CASE("index lists: lists are independent of each other") {

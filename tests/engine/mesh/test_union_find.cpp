@@ -22,10 +22,10 @@ TEST_CASE("union-find: each set is represented by its smallest member") {
 TEST_CASE("union-find: the order of unions does not matter") {
     // Uniting v with v + 3 yields the residue classes modulo 3.
     UnionFind upwards(100), downwards(100);
-    for (Index v = 0; v + 3 < 100; ++v) upwards.join(v, v + 3);
-    for (Index v = 97; v-- > 0;) downwards.join(v + 3, v);
+    for (Index v = 0; v + 3 < 100; ++v) upwards.unite(v, v + 3);
+    for (Index v = 97; v-- > 0;) downwards.unite(v + 3, v);
     for (Index v = 0; v < 100; ++v) {
-        CHECK(upwards.root(v) == v % 3);
-        CHECK(downwards.root(v) == v % 3);
+        CHECK(upwards.find(v) == v % 3);
+        CHECK(downwards.find(v) == v % 3);
     }
 }
