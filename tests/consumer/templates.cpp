@@ -1,8 +1,7 @@
 // Uses the engine templates with a custom metric: the shortest edge is collapsed first, to its midpoint.
 #include <faqem/engine/engine.hpp>
 
-struct ShortestEdge {
-    void initialise(const faqem::engine::CollapseMesh&, const faqem::engine::PairTable&) {}
+struct ShortestEdge : faqem::engine::MetricDefaults {
     std::optional<faqem::engine::Candidate> evaluate(const faqem::engine::CollapseMesh& mesh,
                                                      const faqem::engine::PairTable& pairs, faqem::Index pair,
                                                      faqem::engine::AllowedPosition allowed_position) const {
@@ -11,10 +10,6 @@ struct ShortestEdge {
         const auto& b = mesh.position(pairs.second(pair));
         return faqem::engine::Candidate{0.5 * (a + b), (a - b).norm()};
     }
-    void before_collapse(const faqem::engine::CollapseMesh&, const faqem::engine::PairTable&, faqem::Index,
-                         faqem::Index, const faqem::engine::Vector3&) {}
-    void after_collapse(const faqem::engine::CollapseMesh&, const faqem::engine::PairTable&, faqem::Index,
-                        std::span<const faqem::engine::PairTable::Change>) {}
     faqem::engine::Reevaluation reevaluation(const faqem::engine::PairTable::Change&) const {
         return faqem::engine::Reevaluation::immediate;
     }

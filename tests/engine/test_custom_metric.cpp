@@ -1,4 +1,5 @@
 #include "faqem/engine/custom_metric.hpp"
+#include "faqem/engine/metric/accumulated.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -120,13 +120,15 @@ namespace {
 
 // As Script, but the exact cost of some pairs is higher.
 struct CostlierExact : Script {
+    static constexpr bool has_exact_cost = true;
+
     std::map<Ends, double> real;
     double exact_cost(const CollapseMesh&, const PairTable&, Index u, Index v, const Candidate& candidate) {
         const auto at = real.find(ends(u, v));
         return at == real.end() ? candidate.cost : at->second;
     }
 };
-static_assert(LowerBoundMetric<CostlierExact> && !LowerBoundMetric<Script>);
+static_assert(CollapseMetric<CostlierExact> && CollapseMetric<Script> && !Script::has_exact_cost);
 
 }  // namespace
 

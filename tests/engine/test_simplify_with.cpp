@@ -1,3 +1,4 @@
+#include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/engine/simplify_with.hpp"
 
 #include <catch2/catch.hpp>

@@ -28,10 +28,12 @@ inline std::uint64_t refused(const LoopResult& result, Refusal why) {
 
 // A metric with a given position for each pair of original vertices. Costs are in the order of the pairs;
 // pairs without an entry are not collapsed.
-struct Script {
+struct Script : MetricDefaults {
+    Script() = default;
+    explicit Script(std::map<Ends, Vector3> o) : offers(std::move(o)) {}
+
     std::map<Ends, Vector3> offers;
 
-    void initialise(const CollapseMesh&, const PairTable&) {}
     std::optional<Candidate> evaluate(const CollapseMesh& collapse_mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
         const Index u = pairs.first(pair), v = pairs.second(pair);
@@ -43,8 +45,6 @@ struct Script {
             return Candidate{collapse_mesh.position(v), order};
         return Candidate{at->second, order};
     }
-    void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}
-    void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
     Reevaluation reevaluation(const PairTable::Change&) const { return Reevaluation::none; }
 };
 
@@ -84,7 +84,7 @@ inline const TriangleMesh hinge = make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 
 
 inline Script turn_hinge(double degrees) {
     const double a = degrees * pi / 180;
-    return {{{{2, 3}, {1, std::cos(a), std::sin(a)}}}};
+    return Script({{{2, 3}, {1, std::cos(a), std::sin(a)}}});
 }
 
 }  // namespace faqem::test

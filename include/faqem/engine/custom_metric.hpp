@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -31,18 +31,21 @@ concept Adjustment = requires(const A& adjust, const Inner& inner, const Collaps
 };
 
 /// A metric whose candidates are adjusted by a function.
-/// \tparam Inner   a metric without exact_cost(), such as AccumulatedMetric
+/// \tparam Inner   a metric whose evaluate() returns exact costs, such as AccumulatedMetric
 /// \tparam Adjust  see Adjustment; called from const functions on the calling thread
 template <CollapseMetric Inner, Adjustment<Inner> Adjust>
-requires(!LowerBoundMetric<Inner>) class CustomMetric {
+class CustomMetric {
 public:
+    static_assert(!Inner::has_exact_cost, "an adjustment must see exact costs");
+    static constexpr bool has_exact_cost = false;
+
     /// \param inner   the metric to adjust; moved into this object
     /// \param adjust  the adjustment; moved into this object
     CustomMetric(Inner inner, Adjust adjust) : inner_(std::move(inner)), adjust_(std::move(adjust)) {}
 
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
                     CancellationCheck check_cancelled = {}) {
-        engine::initialise(inner_, mesh, pairs, check_cancelled);
+        inner_.initialise(mesh, pairs, check_cancelled);
     }
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
@@ -53,6 +56,13 @@ public:
         if (found && !std::isfinite(found->cost)) return std::nullopt;
         return found;
     }
+
+    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index,
+                             const Candidate& candidate) {
+        return candidate.cost;
+    }
+
+    double weight(Index u, Index v) const { return inner_.weight(u, v); }
 
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
                          const Vector3& p) {
@@ -70,9 +80,7 @@ public:
         return inner == Reevaluation::none ? Reevaluation::deferred : inner;
     }
 
-    void set_target(std::size_t target_faces, double weight) requires TargetDependentMetric<Inner> {
-        inner_.set_target(target_faces, weight);
-    }
+    void set_target(std::size_t target_faces, double weight) { inner_.set_target(target_faces, weight); }
 
 private:
     Inner inner_;

@@ -25,13 +25,13 @@
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/engine/ladder.hpp"
-#include "faqem/engine/loop.hpp"
+#include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/components.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
 #include "faqem/engine/mesh/duplicate_faces.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
-#include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/recorder.hpp"
 #include "faqem/export.hpp"
@@ -89,9 +89,8 @@ public:
             if (distance_weight_ > 0)
                 boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex, check_cancelled_);
             queue_.reserve(pairs_.size());
-            if constexpr (TargetDependentQueue<Queue>)
-                queue_.set_target(expected_pair_count(options.target_faces), check_cancelled_);
-            initialise(metric_, mesh_, pairs_, check_cancelled_);
+            queue_.set_target(expected_pair_count(options.target_faces), check_cancelled_);
+            metric_.initialise(mesh_, pairs_, check_cancelled_);
             evaluate_all_pairs();
             face_count_at_last_pass_ = mesh_.face_count();
             collapse_to_target(options);
@@ -107,8 +106,7 @@ public:
     /// \throws whatever `options.progress` throws
     LoopResult continue_to(const LoopOptions& options) {
         distance_weight_ = options.distance_weight;
-        if constexpr (TargetDependentMetric<Metric>)
-            metric_.set_target(options.target_faces, options.distance_weight);
+        metric_.set_target(options.target_faces, options.distance_weight);
         initial_face_count_ = mesh_.face_count();
         rung_ = 0;
         set_progress(options);
@@ -225,7 +223,7 @@ private:
 
     // Evaluates the pair, or marks its cost as stale so that it is evaluated when it is popped.
     void reevaluate(Index pair) {
-        if constexpr (LazyQueue<Queue>) {
+        if constexpr (!Queue::is_exact) {
             if (queue_.mark_stale(pair) && !lifted_rules_[pair]) return;
         }
         evaluate(pair);
@@ -253,7 +251,7 @@ private:
             if (may_lift) lift_rule(pair, found->cost, *refusal);
             return may_lift;
         }
-        if constexpr (LowerBoundMetric<Metric>) {
+        if constexpr (Metric::has_exact_cost) {
             found->cost = metric_.exact_cost(mesh_, pairs_, u, v, *found);
             if (requeue_if_costlier(pair, found->cost)) return true;
         }
@@ -270,15 +268,8 @@ private:
     double boundary_cost(Index pair) {
         if (!boundary_loops_) return 0;
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
-        return distance_weight_ * weight(u, v) * boundary_loops_->squared_distance(mesh_, pairs_, u, v, pair);
-    }
-
-    double weight(Index u, Index v) const {
-        if constexpr (VertexWeightedMetric<Metric>) {
-            return metric_.weight(u, v);
-        } else {
-            return 1;
-        }
+        return distance_weight_ * metric_.weight(u, v) *
+               boundary_loops_->squared_distance(mesh_, pairs_, u, v, pair);
     }
 
     Rules rules(Index pair) const {
@@ -304,14 +295,14 @@ private:
         double area = square;
         if (refusal == Refusal::fold) area = std::max(area, fold_factor * distance_weight_);
         lifted_rules_[pair] |= refusal == Refusal::link ? link_bit : fold_bit;
-        queue_.set(pair, std::max(cost, square * area * weight(u, v)));
+        queue_.set(pair, std::max(cost, square * area * metric_.weight(u, v)));
         mark_rejected(pair);
     }
 
     // Requeues the pair with the given cost and returns true if the queue contains a cheaper pair.
     bool requeue_if_costlier(Index pair, double cost) {
-        if constexpr (LazyQueue<Queue>) {
-            // Testing a pair at a high-valence vertex is expensive. A lazy queue returns pairs only
+        if constexpr (!Queue::is_exact) {
+            // Testing a pair at a high-valence vertex is expensive. Such a queue returns pairs only
             // approximately in order, so the cost is raised by its approximation factor to avoid testing
             // the pair too early.
             const bool touches_high_valence =

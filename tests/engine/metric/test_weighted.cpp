@@ -15,10 +15,9 @@ using namespace faqem::engine;
 
 namespace {
 
-static_assert(VertexWeightedMetric<WeightedMetric<AccumulatedMetric>>);
-static_assert(!VertexWeightedMetric<MemorylessMetric>);
-static_assert(!LowerBoundMetric<WeightedMetric<MemorylessMetric>>);
-static_assert(LowerBoundMetric<WeightedMetric<TrackedMetric>>);
+static_assert(CollapseMetric<WeightedMetric<AccumulatedMetric>>);
+static_assert(!WeightedMetric<MemorylessMetric>::has_exact_cost);
+static_assert(WeightedMetric<TrackedMetric>::has_exact_cost);
 
 bool is_upper(const TriangleMesh& mesh, const Triangle& t) {
     return mesh.positions[t[0]][2] + mesh.positions[t[1]][2] + mesh.positions[t[2]][2] > 0;

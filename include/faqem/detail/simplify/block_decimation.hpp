@@ -9,7 +9,7 @@
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
-#include "faqem/engine/loop.hpp"
+#include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"

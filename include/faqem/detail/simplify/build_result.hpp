@@ -9,7 +9,7 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/constraints/wedges.hpp"
-#include "faqem/engine/loop.hpp"
+#include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"

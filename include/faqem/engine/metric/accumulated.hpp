@@ -1,10 +1,9 @@
 #pragma once
 /// \file
-/// Concepts of collapse metrics, and the metric with accumulated quadrics.
+/// The metric with accumulated quadrics.
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/engine/quadric/quadric.hpp"
 #include "faqem/engine/quadric/terms.hpp"
@@ -19,78 +19,6 @@
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
-
-/// How a collapse affects the costs of other pairs of the survivor's neighbours.
-enum class Reevaluation {
-    none,       ///< not at all
-    deferred,   ///< costs are updated when the pair is popped; rejected pairs are evaluated at once
-    immediate,  ///< all these pairs are evaluated at once
-};
-
-/// A collapse metric: determines the cost of a collapse and the position of the new vertex. It owns its
-/// per-vertex state, which it updates with each collapse. Positions and lengths are in engine units.
-template <class M>
-concept CollapseMetric = requires(M metric, const M& const_metric, const CollapseMesh& mesh,
-                                  const PairTable& pairs, Index pair, Index u, Index v,
-                                  AllowedPosition allowed_position, const Vector3& p,
-                                  const PairTable::Change& change,
-                                  std::span<const PairTable::Change> around) {
-    // Computes the state for the given mesh. Called once, before the other functions.
-    {metric.initialise(mesh, pairs)};
-    // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
-    { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
-    // Called before u and v are merged into u at p; the mesh is still unchanged.
-    {metric.before_collapse(mesh, pairs, u, v, p)};
-    // Called after u and v were merged into u. `around` are the neighbours of u.
-    {metric.after_collapse(mesh, pairs, u, around)};
-    // How the last collapse affected the other pairs of this neighbour of the survivor.
-    { const_metric.reevaluation(change) } -> std::same_as<Reevaluation>;
-};
-
-/// A metric whose initialise() can be cancelled. It may keep `check_cancelled` for later calls.
-template <class M>
-concept CancellableMetric = CollapseMetric<M> &&
-    requires(M metric, const CollapseMesh& mesh, const PairTable& pairs, CancellationCheck check_cancelled) {
-    {metric.initialise(mesh, pairs, check_cancelled)};
-};
-
-/// Calls metric.initialise(), with the cancellation check if the metric supports it.
-/// \throws whatever metric.initialise() throws
-template <CollapseMetric M>
-void initialise(M& metric, const CollapseMesh& mesh, const PairTable& pairs,
-                CancellationCheck check_cancelled) {
-    if constexpr (CancellableMetric<M>) {
-        metric.initialise(mesh, pairs, check_cancelled);
-    } else {
-        metric.initialise(mesh, pairs);
-    }
-}
-
-/// A metric whose evaluate() returns a lower bound of the cost. The engine calls exact_cost() only for
-/// pairs that are about to be collapsed.
-template <class M>
-concept LowerBoundMetric = CollapseMetric<M> &&
-    requires(M metric, const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
-             const Candidate& candidate) {
-    // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
-    { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
-};
-
-/// A metric that multiplies its costs by a weight that depends on the vertices.
-template <class M>
-concept VertexWeightedMetric = CollapseMetric<M> && requires(const M& metric, Index u, Index v) {
-    // Weight of the pair (u, v), > 0.
-    { metric.weight(u, v) } -> std::same_as<double>;
-};
-
-/// A metric whose costs depend on the target face count.
-template <class M>
-concept TargetDependentMetric = CollapseMetric<M> &&
-    requires(M metric, std::size_t target_faces, double weight) {
-    // Changes the target to a lower face count. `weight` is the cost of a squared distance; it must not be
-    // smaller than before.
-    {metric.set_target(target_faces, weight)};
-};
 
 /// How the area term is used.
 enum class AreaTerm {
@@ -112,7 +40,7 @@ struct CompositeWeights {
 
 /// The composite metric with accumulated quadrics: each vertex has the sum of the quadrics of all vertices
 /// that were merged into it (paper, Algorithm 1; Garland and Heckbert 1997). Not thread-safe.
-class AccumulatedMetric {
+class AccumulatedMetric : public MetricDefaults {
 public:
     /// \param weights      weights of the terms
     /// \param seam_vertex  empty, or one entry per vertex slot, nonzero for vertices on a UV seam; borrowed
@@ -171,8 +99,6 @@ public:
                          const Vector3&) {
         quadrics_[survivor] += quadrics_[removed];
     }
-
-    void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
 
     /// The costs of the neighbours' other pairs change only through the area term, which depends on the
     /// boundary edges at both vertices.

@@ -36,7 +36,7 @@ struct MemorylessWeights {
 /// Not thread-safe.
 ///
 /// All planes of a vertex pass through it, so that six numbers store their quadric: the sum of w n n^T.
-class MemorylessMetric {
+class MemorylessMetric : public MetricDefaults {
 public:
     /// \param weights  weights of the edge planes
     /// \param curves   boundaries between face groups, which are preserved by planes of weight

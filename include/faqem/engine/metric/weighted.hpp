@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -21,6 +21,8 @@ namespace engine {
 template <CollapseMetric Inner>
 class WeightedMetric {
 public:
+    static constexpr bool has_exact_cost = Inner::has_exact_cost;
+
     /// \param inner    the metric for weight 1; moved into this object
     /// \param weights  one per vertex slot, finite and > 0
     WeightedMetric(Inner inner, std::vector<double> weights)
@@ -28,7 +30,7 @@ public:
 
     void initialise(const CollapseMesh& mesh, const PairTable& pairs,
                     CancellationCheck check_cancelled = {}) {
-        engine::initialise(inner_, mesh, pairs, check_cancelled);
+        inner_.initialise(mesh, pairs, check_cancelled);
     }
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
@@ -41,10 +43,15 @@ public:
     }
 
     double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
-                      const Candidate& candidate) requires LowerBoundMetric<Inner> {
-        const double w = weight(u, v);
-        const double cost = w * inner_.exact_cost(mesh, pairs, u, v, {candidate.point, candidate.cost / w});
-        return std::max(candidate.cost, cost);
+                      const Candidate& candidate) {
+        if constexpr (has_exact_cost) {
+            const double w = weight(u, v);
+            const double cost =
+                w * inner_.exact_cost(mesh, pairs, u, v, {candidate.point, candidate.cost / w});
+            return std::max(candidate.cost, cost);
+        } else {
+            return candidate.cost;
+        }
     }
 
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
@@ -64,9 +71,7 @@ public:
 
     Reevaluation reevaluation(const PairTable::Change& change) const { return inner_.reevaluation(change); }
 
-    void set_target(std::size_t target_faces, double weight) requires TargetDependentMetric<Inner> {
-        inner_.set_target(target_faces, weight);
-    }
+    void set_target(std::size_t target_faces, double weight) { inner_.set_target(target_faces, weight); }
 
     /// Weight of the pair (u, v): the larger one of both vertices.
     double weight(Index u, Index v) const { return std::max(weights_[u], weights_[v]); }

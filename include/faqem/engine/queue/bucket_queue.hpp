@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/queue/heap_queue.hpp"
+#include "faqem/engine/queue/collapse_queue.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -19,7 +19,7 @@ namespace engine {
 /// A queue of buckets for metrics whose costs are estimates; several times as fast as the heap. Costs in
 /// the same bucket differ by at most 1/64 of a power of two and are popped in the order of insertion. All
 /// functions take amortised O(1).
-class BucketQueue {
+class BucketQueue : public QueueDefaults {
 public:
     BucketQueue() : buckets_(bucket_count) {}
 

@@ -1,54 +1,20 @@
 #pragma once
 /// \file
-/// Concepts of collapse queues, and an addressable heap.
+/// An addressable heap of pairs.
 
-#include <concepts>
 #include <cstddef>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/queue/collapse_queue.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A priority queue of pairs with costs, finite and >= 0; cheapest first. The order of equal costs must be
-/// deterministic: it may depend only on the sequence of calls.
-template <class Q>
-concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, double cost, std::size_t pairs) {
-    {queue.reserve(pairs)};                  // clears the queue; pairs in [0, pairs) may be inserted
-    {queue.set(pair, cost)};                 // inserts the pair or changes its cost
-    {queue.erase(pair)};                     // removes the pair; does nothing if it is not in the queue
-    { queue.pop() } -> std::same_as<Index>;  // removes and returns the cheapest pair; not empty
-    { const_queue.empty() } -> std::same_as<bool>;
-    { const_queue.contains(pair) } -> std::same_as<bool>;
-    // Whether a pair in the queue would be popped before the pair just popped, if that were inserted again
-    // with this cost.
-    { const_queue.has_cheaper(cost) } -> std::same_as<bool>;
-};
-
-/// A queue that tolerates outdated costs. A collapse usually increases the costs of the pairs around it;
-/// these are computed again when the pair is popped.
-template <class Q>
-concept LazyQueue = CollapseQueue<Q> && requires(Q queue, const Q& const_queue, Index pair) {
-    // Marks the cost of a pair as outdated. Returns false if set() must be called instead.
-    { queue.mark_stale(pair) } -> std::same_as<bool>;
-    // The cost of a popped pair is at most this factor times the lowest cost in the queue.
-    { const_queue.approximation_factor() } -> std::same_as<double>;
-};
-
-/// A queue whose strategy depends on the distance from the target.
-template <class Q>
-concept TargetDependentQueue = CollapseQueue<Q> &&
-    requires(Q queue, std::size_t pairs, CancellationCheck check_cancelled) {
-    // Sets the expected number of pairs at the target. Long loops call check_cancelled.
-    {queue.set_target(pairs, check_cancelled)};
-};
-
 /// A four-ary heap that stores the position of each pair. Equal costs are popped by index. set(), erase()
 /// and pop() take O(log n), the other functions O(1). 20 bytes per pair.
-class HeapQueue {
+class HeapQueue : public QueueDefaults {
 public:
     void reserve(std::size_t pairs) {
         heap_index_.assign(pairs, no_index);

@@ -29,6 +29,8 @@ namespace engine {
 /// set(), erase() and mark_stale() take O(1); all pops of a round together take O(pairs).
 class SweepQueue {
 public:
+    static constexpr bool is_exact = false;
+
     /// \param few  up to this number of pairs, only the bucket queue is used: with few pairs the order
     ///     matters
     explicit SweepQueue(std::size_t few = 0) : few_(few) {}
@@ -167,7 +169,7 @@ private:
     BucketQueue buckets_;
 };
 
-static_assert(LazyQueue<SweepQueue> && TargetDependentQueue<SweepQueue>);
+static_assert(CollapseQueue<SweepQueue>);
 
 }  // namespace engine
 FAQEM_NAMESPACE_END

@@ -29,8 +29,10 @@ namespace engine {
 /// and the planes of a small hole hardly contribute compared with those of the surface around it.
 /// exact_cost() is expensive; the engine calls it only when a pair is about to be collapsed. Not
 /// thread-safe.
-class TrackedMetric {
+class TrackedMetric : public MetricDefaults {
 public:
+    static constexpr bool has_exact_cost = true;
+
     /// The surface is tracked once the face count is at most this many times the target. Tracking at all
     /// sizes takes four times as long with almost no improvement (docs/quality.md).
     static constexpr std::size_t tracking_start_ratio = 4;
@@ -193,7 +195,7 @@ private:
     std::vector<Index> bound_;                   // tracked vertices bound around the pair
 };
 
-static_assert(LowerBoundMetric<TrackedMetric> && TargetDependentMetric<TrackedMetric>);
+static_assert(CollapseMetric<TrackedMetric>);
 
 }  // namespace engine
 FAQEM_NAMESPACE_END

@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// The concept of collapse metrics, and defaults for its optional parts.
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
+#include "faqem/engine/quadric/placement.hpp"
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
+
+/// How a collapse affects the costs of other pairs of the survivor's neighbours.
+enum class Reevaluation {
+    none,       ///< not at all
+    deferred,   ///< costs are updated when the pair is popped; rejected pairs are evaluated at once
+    immediate,  ///< all these pairs are evaluated at once
+};
+
+/// A collapse metric: determines the cost of a collapse and the position of the new vertex. It owns its
+/// per-vertex state, which it updates with each collapse. Positions and lengths are in engine units. A metric
+/// derives from MetricDefaults and has at least evaluate() and reevaluation(). A metric that wraps another one
+/// does not derive from it, so that the compiler checks that it forwards everything.
+template <class M>
+concept CollapseMetric = requires(M metric, const M& const_metric, const CollapseMesh& mesh,
+                                  const PairTable& pairs, Index pair, Index u, Index v,
+                                  AllowedPosition allowed_position, const Vector3& p,
+                                  const Candidate& candidate, std::size_t target_faces, double weight,
+                                  const PairTable::Change& change, std::span<const PairTable::Change> around,
+                                  CancellationCheck check_cancelled) {
+    // True if evaluate() returns a lower bound of the cost. The engine then calls exact_cost() for pairs that
+    // are about to be collapsed.
+    { M::has_exact_cost } -> std::convertible_to<bool>;
+    // Computes the state for the given mesh. Called once, before the other functions. `check_cancelled` may be
+    // kept for later calls; it is valid as long as the engine exists.
+    {metric.initialise(mesh, pairs, check_cancelled)};
+    // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
+    { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
+    // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
+    { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
+    // The factor > 0 by which the costs of the pair (u, v) were multiplied.
+    { const_metric.weight(u, v) } -> std::same_as<double>;
+    // Changes the target to a lower face count. `weight` is the cost of a squared distance; it is not smaller
+    // than before.
+    {metric.set_target(target_faces, weight)};
+    // Called before u and v are merged into u at p; the mesh is still unchanged.
+    {metric.before_collapse(mesh, pairs, u, v, p)};
+    // Called after u and v were merged into u. `around` are the neighbours of u.
+    {metric.after_collapse(mesh, pairs, u, around)};
+    // How the last collapse affected the other pairs of this neighbour of the survivor.
+    { const_metric.reevaluation(change) } -> std::same_as<Reevaluation>;
+};
+
+/// Base of metrics: defaults for a metric with exact costs, weight 1 and no state.
+struct MetricDefaults {
+    static constexpr bool has_exact_cost = false;
+    static void initialise(const CollapseMesh&, const PairTable&, CancellationCheck) {}
+    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index, const Candidate& candidate) {
+        return candidate.cost;
+    }
+    static constexpr double weight(Index, Index) { return 1; }
+    static void set_target(std::size_t, double) {}
+    static void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}
+    static void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
+};
+
+}  // namespace engine
+FAQEM_NAMESPACE_END
