@@ -30,8 +30,8 @@ std::vector<EdgeFlip> find_edge_flips(const Setting& s, std::uint32_t threads = 
     for (const Triangle& t : s.original.triangles) area += detail::area_vector(from, t).norm() / 2;
     detail::ReferenceToMeshTracker even(points, s.simplified.triangles),
         corners(detail::oriented_vertices(surface), s.simplified.triangles);
-    even.move_to(at, 1);
-    corners.move_to(at, 1);
+    even.update(at, 1);
+    corners.update(at, 1);
     std::vector<std::uint8_t> fixed = s.fixed;
     fixed.resize(at.size(), 0);
     return detail::find_edge_flips({at, s.simplified.triangles, fixed, s.groups}, original, even, corners,

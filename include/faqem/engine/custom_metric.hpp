@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 

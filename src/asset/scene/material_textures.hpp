@@ -73,7 +73,7 @@ void for_each_core_texture(M& material, const Visit& visit) {
     visit(material.emissive_texture);
 }
 
-/// As for_each_core_texture(), then those of extensions.
+/// Calls visit(texture) as for_each_core_texture() does, then for the textures of extensions.
 template <class M, class Visit>
 void for_each_texture(M& material, const Visit& visit) {
     for_each_core_texture(material, visit);

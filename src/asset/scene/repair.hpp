@@ -13,8 +13,10 @@ namespace faqem::detail {
 /// Maximum number of vertices, and of faces, of a part.
 inline constexpr std::uint64_t max_index_count = no_index;
 
-/// \throws InputError  when there are more than max_index_count
-/// \param element  what in the file is counted, e.g. `vertex`
+/// Checks a number of vertices or faces.
+/// \param file     path for messages
+/// \param element  the kind of element for messages, e.g. `vertex`
+/// \throws InputError  if `count` exceeds max_index_count
 FAQEM_EXPORT void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
 
 /// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values:

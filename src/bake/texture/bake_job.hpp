@@ -70,7 +70,8 @@ void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t 
     }
 }
 
-/// A new atlas and new images. \return false, with nothing done, if there are more triangles than texels
+/// Bakes new images with a new atlas.
+/// \return false, without changing anything, if there are more triangles than texels
 bool bake_pages(BakeJob& job);
 
 /// Bakes the base colour into vertex colours. The result has no textures.

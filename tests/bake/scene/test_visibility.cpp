@@ -136,7 +136,7 @@ TEST_CASE("visibility does not depend on the number of threads") {
     const Asset asset = shell_around(test::shaken(scaled(icosphere(3), 1.95), 0.2, 5), 4);
     const VertexVisibility one = vertex_visibility(asset, {1}), four = vertex_visibility(asset, {4});
     CHECK(one.weights == four.weights);
-    CHECK(one.hidden == four.hidden);
+    CHECK(one.hidden_vertices == four.hidden_vertices);
     const auto is_hidden = [](float weight) { return weight == min_visibility; };
     const std::vector<float>& inner = one.weights[0];
     CHECK(std::any_of(inner.begin(), inner.end(), is_hidden));
