@@ -23,6 +23,7 @@
 #include "faqem/engine/constraints/boundary_loops.hpp"
 #include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/constraints/legality.hpp"
+#include "faqem/engine/constraints/rule_exceptions.hpp"
 #include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/engine/ladder.hpp"
 #include "faqem/engine/loop_options.hpp"
@@ -70,7 +71,7 @@ public:
           legality_(mesh),
           queue_(std::move(queue)),
           has_rejected_(mesh.vertex_slots(), 0),
-          lifted_rules_(pairs.size(), 0) {}
+          exceptions_(pairs.size()) {}
 
     /// Collapses pairs until the target face count is reached or no legal collapse is left.
     /// \param options  see LoopOptions
@@ -212,7 +213,7 @@ private:
 
     void evaluate(Index pair) {
         check_cancelled_();
-        lifted_rules_[pair] = 0;
+        exceptions_.clear(pair);
         if (const auto found = candidate(pair)) {
             queue_.set(pair, found->cost);
         } else {
@@ -224,7 +225,7 @@ private:
     // Evaluates the pair, or marks its cost as stale so that it is evaluated when it is popped.
     void reevaluate(Index pair) {
         if constexpr (!Queue::is_exact) {
-            if (queue_.mark_stale(pair) && !lifted_rules_[pair]) return;
+            if (queue_.mark_stale(pair) && !exceptions_.any(pair)) return;
         }
         evaluate(pair);
     }
@@ -245,9 +246,10 @@ private:
         if (requeue_if_costlier(pair, found->cost)) return true;
         if (degenerate_.are_last_faces(mesh_, pairs_, pair, check_cancelled_))
             return count_refusal(Refusal::last_faces), false;
-        if (const auto refusal = legality_.check(mesh_, pairs_, u, v, pair, found->point, rules(pair))) {
+        if (const auto refusal = legality_.check(mesh_, pairs_, u, v, pair, found->point,
+                                                 exceptions_.rules_for(pair, rules_))) {
             count_refusal(*refusal);
-            const bool may_lift = is_liftable(*refusal);
+            const bool may_lift = RuleExceptions::is_liftable(rules_, *refusal);
             if (may_lift) lift_rule(pair, found->cost, *refusal);
             return may_lift;
         }
@@ -259,8 +261,8 @@ private:
         // a high-valence vertex are not moved to another vertex again and again.
         const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : mesh_.degree(v) > mesh_.degree(u);
         if (swap) std::swap(u, v);
-        if (lifted_rules_[pair] & link_bit) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
-        if (lifted_rules_[pair] & fold_bit) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
+        if (exceptions_.lifts_link(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
+        if (exceptions_.lifts_fold(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
         collapse(u, v, pair, *found);
         return true;
     }
@@ -272,30 +274,12 @@ private:
                boundary_loops_->squared_distance(mesh_, pairs_, u, v, pair);
     }
 
-    Rules rules(Index pair) const {
-        Rules rules = rules_;
-        if (lifted_rules_[pair] & link_bit) rules.link = LinkCondition::off;
-        if (lifted_rules_[pair] & fold_bit) rules.min_fold_cosine = -1;
-        return rules;
-    }
-
-    bool is_liftable(Refusal refusal) const {
-        if (rules_.link == LinkCondition::by_size)
-            return refusal == Refusal::link || refusal == Refusal::fold;
-        return refusal == Refusal::fold && rules_.link == LinkCondition::off;
-    }
-
-    // The feature that the link condition or the fold rule preserves at a pair is about as large as the
-    // pair. Removing it moves the surface by the pair's length l over an area of l^2, which costs l^4. The
-    // area of a fold is taken to be at least fold_factor * distance_weight_, because a fold is visible
-    // beyond that area. The rule is lifted for this pair once all other collapses cost more.
+    // The rule is lifted for this pair: it is collapsed once all other collapses cost more.
     void lift_rule(Index pair, double cost, Refusal refusal) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
         const double square = (mesh_.position(u) - mesh_.position(v)).squaredNorm();
-        double area = square;
-        if (refusal == Refusal::fold) area = std::max(area, fold_factor * distance_weight_);
-        lifted_rules_[pair] |= refusal == Refusal::link ? link_bit : fold_bit;
-        queue_.set(pair, std::max(cost, square * area * metric_.weight(u, v)));
+        const double lifted_cost = exceptions_.lift(pair, refusal, square, distance_weight_);
+        queue_.set(pair, std::max(cost, lifted_cost * metric_.weight(u, v)));
         mark_rejected(pair);
     }
 
@@ -341,7 +325,7 @@ private:
                 continue;
             pairs_.for_each_pair(change.neighbour.vertex, [&](Neighbour n) {
                 if (n.vertex == survivor) return;
-                const bool was_refused = lifted_rules_[n.pair] || !queue_.contains(n.pair);
+                const bool was_refused = exceptions_.any(n.pair) || !queue_.contains(n.pair);
                 if (reevaluation == Reevaluation::immediate || was_refused) evaluate(n.pair);
             });
         }
@@ -427,8 +411,6 @@ private:
     // Cost of one collapse with its tests in units of pair evaluations, without the re-evaluation of
     // adjacent pairs. An estimate for the cancellation check.
     static constexpr std::uint64_t evaluations_per_collapse = 8;
-    static constexpr std::uint8_t link_bit = 1, fold_bit = 2;
-    static constexpr double fold_factor = 2;
 
     CollapseMesh& mesh_;
     PairTable& pairs_;
@@ -443,7 +425,7 @@ private:
     double distance_weight_ = 0;
     Queue queue_;
     std::vector<std::uint8_t> has_rejected_;  // per vertex: its pairs may have been rejected
-    std::vector<std::uint8_t> lifted_rules_;  // per pair: bits of the rules that are lifted
+    RuleExceptions exceptions_;
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;
