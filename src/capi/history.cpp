@@ -8,7 +8,7 @@
 
 #include "capi/guard.hpp"
 #include "capi/options.hpp"
-#include "capi/result.hpp"
+#include "capi/report.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "capi/guard.hpp"
 #include "capi/levels.hpp"
 #include "capi/mesh.hpp"
-#include "capi/result.hpp"
+#include "capi/report.hpp"
 #include "faqem/faqem_levels.h"
 
 namespace {

@@ -1,12 +1,16 @@
 #pragma once
 /// \file
-/// Definition of faqem_options, and conversion of reports.
+/// Definitions of faqem_options and faqem_result, and conversion of reports.
 
+#include <limits>
 #include <string>
+#include <utility>
 
+#include "capi/guard.hpp"
 #include "faqem/faqem.h"
 #include "faqem/options.hpp"
 #include "faqem/report_json.hpp"
+#include "faqem/simplify.hpp"
 
 struct faqem_options {
     faqem::Options options;
@@ -31,3 +35,16 @@ inline Options options_or_defaults(const faqem_options* options) {
 }
 
 }  // namespace faqem::capi
+
+struct faqem_result {
+    /// \throws CancelledError  the run was cancelled
+    explicit faqem_result(faqem::SimplifyResult result,
+                          double error = std::numeric_limits<double>::quiet_NaN())
+        : out(std::move(result)), stored_report(out.report), level_error(error) {
+        if (out.report.stop == faqem::StopReason::cancelled) throw faqem::capi::CancelledError();
+    }
+
+    faqem::SimplifyResult out;
+    faqem::capi::ReportWithJson stored_report;
+    double level_error;  ///< NaN if the result is not a level
+};

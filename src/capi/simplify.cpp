@@ -4,7 +4,7 @@
 
 #include "capi/guard.hpp"
 #include "capi/mesh.hpp"
-#include "capi/result.hpp"
+#include "capi/report.hpp"
 #include "faqem/version.hpp"
 
 namespace {

@@ -60,8 +60,23 @@ MAX_LINES = 450
 MIN_LINES = 40
 # Small subjects that stay apart: umbrellas, and what only one build uses.
 SMALL = {
-    "src/asset/gltf/read/meshopt",         # compiled only where meshoptimizer is found
-    "src/image_plugin/module",             # the whole of the plug-in's entry point
+    # Utilities with several unrelated users.
+    "include/faqem/detail/base/morton",
+    "include/faqem/detail/base/stopwatch",
+    "include/faqem/detail/geometry/vertex_faces",
+    "include/faqem/detail/history/final_versions",
+    "src/asset/image/srgb",
+    "src/bake/scene/step_progress",
+    "src/bake/transfer/vector_conversion",
+    # Bodies and declarations of an interface.
+    "include/faqem/detail/base/version",
+    "include/faqem/detail/simplify/simplify",
+    "src/asset/gltf/gltf",
+    "src/cli/commands/commands",
+    "src/cli/report/embedded_files",       # the texts are generated at build time
+    # Compiled in one build only.
+    "src/asset/gltf/read/meshopt",
+    "src/image_plugin/module",
 }
 
 

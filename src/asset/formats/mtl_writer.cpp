@@ -9,7 +9,7 @@
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/text/number_text.hpp"
+#include "asset/text/text_buffer.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -10,7 +10,6 @@
 #include "asset/io/file.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/value_numbers.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/text/text_buffer.hpp"
 
 namespace faqem::detail {

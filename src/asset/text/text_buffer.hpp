@@ -1,14 +1,17 @@
 #pragma once
 /// \file
-/// A growing buffer for writing large text files.
+/// A growing buffer for writing large text files, and locale-independent conversion of numbers to text.
 
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace faqem::detail {
@@ -62,5 +65,17 @@ private:
     std::unique_ptr<char, Free> data_;
     std::size_t size_ = 0, capacity_ = 0;
 };
+
+/// Appends the shortest decimal text that reads back as the same value of type T.
+template <class T>
+void append_number(std::string& text, T value) {
+    std::array<char, 32> digits;
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text.append(digits.data(), result.ptr);
+}
+
+/// Rounds to six decimals. An sRGB value computed from a linear float is then stable under repeated
+/// conversion; the last bits of a float would not be.
+inline double round_to_six_decimals(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace faqem::detail
