@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "cli/temporary_folder.hpp"
+#include "cli/output_file.hpp"
 
 namespace faqem::cli {
 

@@ -1,13 +1,16 @@
 #pragma once
 /// \file
-/// Checks of output files before the work starts, and writing of files.
+/// Checks of output files before the work starts, writing of files, and temporary directories.
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::cli {
 
@@ -37,5 +40,28 @@ void make_folder(const std::filesystem::path& folder);
 /// Writes a text or binary file atomically: after a failure the file is unchanged. \throws WriteError
 /// writing fails
 void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
+
+/// Creates a directory in the system's temporary directory, and deletes it with its contents at destruction.
+class TemporaryFolder {
+public:
+    /// \param name  prefix of the directory's name
+    /// \throws WriteError  the directory cannot be created
+    explicit TemporaryFolder(const std::string& name) {
+        std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
+        if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot create a temporary directory");
+        path_ = path;
+    }
+    ~TemporaryFolder() {
+        std::error_code error;
+        std::filesystem::remove_all(path_, error);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
 
 }  // namespace faqem::cli

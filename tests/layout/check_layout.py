@@ -73,6 +73,7 @@ SMALL = {
     "include/faqem/detail/simplify/simplify",
     "src/asset/gltf/gltf",
     "src/cli/commands/commands",
+    "src/cli/commands/completion_and_man",
     "src/cli/report/embedded_files",       # the texts are generated at build time
     # Compiled in one build only.
     "src/asset/gltf/read/meshopt",

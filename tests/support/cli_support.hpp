@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "cli/temporary_folder.hpp"
+#include "cli/output_file.hpp"
 #include "faqem/asset.hpp"
 
 namespace tool_test {

@@ -9,7 +9,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
-#include "cli/options/positive.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"

@@ -7,7 +7,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
-#include "cli/report/compare_options.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/report/model_comparison.hpp"
 
 namespace faqem::cli {

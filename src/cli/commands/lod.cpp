@@ -13,7 +13,7 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/options/positive.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"

@@ -14,7 +14,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
 #include "cli/memory_estimate.hpp"
-#include "cli/options/positive.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"

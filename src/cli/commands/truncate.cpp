@@ -9,7 +9,7 @@
 #include "bake/scene/parts_from_histories.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/options/positive.hpp"
+#include "cli/options/common_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
 #include "faqem/bake.hpp"

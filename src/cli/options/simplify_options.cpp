@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/json.hpp"
-#include "cli/options/positive.hpp"
+#include "cli/options/common_options.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
 

@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// Functions that generate HTML.
+/// Functions that generate HTML, and Base64 for embedded data.
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,5 +24,8 @@ std::string fill_template(std::string_view text,
 /// \param rows  each with as many cells as `titles`
 std::string html_table(const std::string& caption, const std::vector<std::string>& titles,
                        const std::vector<std::vector<std::string>>& rows);
+
+/// Returns the Base64 encoding of bytes, with padding (RFC 4648, section 4).
+std::string base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace faqem::cli

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "cli/json.hpp"
-#include "cli/report/base64.hpp"
 #include "cli/report/embedded_files.hpp"
 #include "cli/report/heat_ramp.hpp"
 #include "cli/report/html.hpp"

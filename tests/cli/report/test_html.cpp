@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/report/base64.hpp"
 
 using namespace faqem::cli;
 

@@ -24,8 +24,7 @@ using engine::CancellationCheck;
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// Each block is simplified to this part of the share that the whole surface keeps, so that blocks with little
-// detail can contribute more collapses than others.
+// Part of the whole surface's share that a block keeps: blocks with little detail can give more collapses.
 inline constexpr double local_share = 0.8;
 
 /// The faces of all blocks. A face belongs to every block that contains one of its corners.
@@ -331,9 +330,8 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
     return low;
 }
 
-/// The largest selection of steps that removes at most `most` faces.
+/// The largest selection of steps that removes at most `most` faces. Non-negative doubles are ordered as their bits.
 inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
-    // Non-negative doubles have the order of their bit patterns.
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
     const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
     const std::uint64_t bits = last_kept(infinity, [&](std::uint64_t b) {

@@ -1,9 +1,11 @@
 #pragma once
 /// \file
-/// Validation of option values.
+/// Validators and options that several commands share.
 
 #include <CLI/CLI.hpp>
 #include <string>
+
+#include "faqem/compare.hpp"
 
 namespace faqem::cli {
 
@@ -18,5 +20,9 @@ inline CLI::Validator positive_number() {
         },
         "POSITIVE");
 }
+
+/// Adds the options of comparing two models (`faqem compare` and `faqem report`) to a command.
+/// \param options  receives the values; must outlive the command
+void add_compare_options(CLI::App& command, CompareOptions& options);
 
 }  // namespace faqem::cli

@@ -1,6 +1,4 @@
-#include "cli/report/compare_options.hpp"
-
-#include <CLI/CLI.hpp>
+#include "cli/options/common_options.hpp"
 
 namespace faqem::cli {
 
