@@ -12,8 +12,6 @@
 
 namespace faqem::test {
 
-using FlatTriangle = std::array<detail::ChartPoint, 3>;
-
 /// The faces of a mesh with their neighbours across edges of exactly two consistently oriented faces.
 /// \param density  texels per unit of length
 inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, double density) {
@@ -60,11 +58,11 @@ inline TriangleMesh moebius(Index around, Index across) {
 }
 
 /// Area of the intersection of two triangles, by clipping (Sutherland and Hodgman 1974).
-inline double shared_area(const FlatTriangle& a, const FlatTriangle& b) {
-    std::vector<detail::ChartPoint> polygon(a.begin(), a.end());
+inline double shared_area(const detail::Triangle2& a, const detail::Triangle2& b) {
+    std::vector<detail::Point2> polygon(a.begin(), a.end());
     for (std::size_t i = 0; i < 3; ++i) {
-        const detail::ChartPoint p = b[i], q = b[(i + 1) % 3];
-        std::vector<detail::ChartPoint> inside;
+        const detail::Point2 p = b[i], q = b[(i + 1) % 3];
+        std::vector<detail::Point2> inside;
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             const auto &s = polygon[k], &e = polygon[(k + 1) % polygon.size()];
             const double at_s = detail::twice_signed_area(p, q, s), at_e = detail::twice_signed_area(p, q, e);
@@ -82,19 +80,16 @@ inline double shared_area(const FlatTriangle& a, const FlatTriangle& b) {
 }
 
 /// The largest overlap of two triangles, relative to the smaller one of the two. Brute force over all pairs.
-inline double worst_overlap(const std::vector<FlatTriangle>& triangles) {
+inline double worst_overlap(const std::vector<detail::Triangle2>& triangles) {
     double worst = 0;
-    const auto box = [](const FlatTriangle& t, bool high, bool up) {
-        const auto at = [&](std::size_t i) { return up ? t[i].imag() : t[i].real(); };
-        return high ? std::max({at(0), at(1), at(2)}) : std::min({at(0), at(1), at(2)});
-    };
+    std::vector<detail::Box2> boxes;
+    for (const detail::Triangle2& t : triangles) boxes.push_back(detail::bounding_box(t));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t j = i + 1; j < triangles.size(); ++j) {
-            const FlatTriangle &a = triangles[i], &b = triangles[j];
-            if (box(a, true, false) < box(b, false, false) || box(b, true, false) < box(a, false, false))
-                continue;
-            if (box(a, true, true) < box(b, false, true) || box(b, true, true) < box(a, false, true))
-                continue;
+            const detail::Triangle2 &a = triangles[i], &b = triangles[j];
+            const detail::Box2 &p = boxes[i], &q = boxes[j];
+            if (p.high.x < q.low.x || q.high.x < p.low.x) continue;
+            if (p.high.y < q.low.y || q.high.y < p.low.y) continue;
             const double least = std::min(detail::twice_signed_area(a[0], a[1], a[2]),
                                           detail::twice_signed_area(b[0], b[1], b[2])) /
                                  2;

@@ -1,7 +1,7 @@
 #include "bake/atlas/boundary_clearance.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -17,19 +17,19 @@ constexpr double max_distance = 1.5;  // texels
 
 // A boundary edge of the chart, on the page and on the surface.
 struct BoundaryEdge {
-    ChartPoint a, b;  // texels
+    Point2 a, b;  // texels
     Vector3 surface_a, surface_b;
     double density;  // texels per unit of length
 
-    ChartPoint page_point(double at) const { return a + at * (b - a); }
+    // Point of the edge on the page: a for 0, b for 1.
+    Point2 page_point(double at) const { return point_on_line(a, b, at); }
+    // Point of the edge on the surface: surface_a for 0, surface_b for 1.
     Vector3 surface_point(double at) const { return surface_a + at * (surface_b - surface_a); }
     // Parameter of the point closest to p: 0 at a, 1 at b.
-    double closest(const ChartPoint& p) const {
-        const double length = std::norm(b - a);
-        return length > 0 ? std::clamp((std::conj(b - a) * (p - a)).real() / length, 0.0, 1.0) : 0;
-    }
+    double closest(const Point2& p) const { return closest_on_segment(a, b, p); }
 };
 
+// The boundary edges of a chart, face by face.
 std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart,
                                          engine::CancellationCheck check_cancelled) {
     std::vector<BoundaryEdge> edges;
@@ -52,12 +52,12 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const C
 // one of them is closer to t than max_distance, the point in between where the distance reaches max_distance.
 bool has_clearance(const BoundaryEdge& s, const BoundaryEdge& t) {
     const auto distance = [&](double at) {
-        const ChartPoint p = s.page_point(at);
-        return std::abs(t.page_point(t.closest(p)) - p);
+        const Point2 p = s.page_point(at);
+        return length(t.page_point(t.closest(p)) - p);
     };
     const auto has_clearance_at = [&](double at, double flat) {
-        const double length = (t.surface_point(t.closest(s.page_point(at))) - s.surface_point(at)).norm();
-        return length * std::min(s.density, t.density) <= 1.5 * flat + 0.5;
+        const double on_surface = (t.surface_point(t.closest(s.page_point(at))) - s.surface_point(at)).norm();
+        return on_surface * std::min(s.density, t.density) <= 1.5 * flat + 0.5;
     };
     const double a = distance(0), b = distance(1);
     if (a < max_distance && !has_clearance_at(0, a)) return false;
@@ -76,10 +76,7 @@ bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, 
     boxes.reserve(edges.size());
     for (const BoundaryEdge& s : edges) {
         check_cancelled();
-        const auto [x0, x1] = std::minmax({s.a.real(), s.b.real()});
-        const auto [y0, y1] = std::minmax({s.a.imag(), s.b.imag()});
-        boxes.push_back(
-            {x0 - max_distance / 2, y0 - max_distance / 2, x1 + max_distance / 2, y1 + max_distance / 2});
+        boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_distance / 2));
     }
     const std::optional<BoxGrid> grid = BoxGrid::build(boxes, work);
     if (!grid) return false;

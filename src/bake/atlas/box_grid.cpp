@@ -6,25 +6,22 @@
 namespace faqem::detail {
 
 BoxGrid::BoxGrid(std::span<const Box2> boxes) {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    Box2 all{inf, inf, -inf, -inf};
+    Box2 all;
     for (const Box2& b : boxes) {
-        all = {std::min(all.low_x, b.low_x), std::min(all.low_y, b.low_y), std::max(all.high_x, b.high_x),
-               std::max(all.high_y, b.high_y)};
+        all.add(b.low);
+        all.add(b.high);
     }
-    low_x_ = all.low_x;
-    low_y_ = all.low_y;
-    const double width = all.high_x - all.low_x, height = all.high_y - all.low_y;
-    const double cell = std::max({std::sqrt(width * height / static_cast<double>(boxes.size())),
+    low_ = all.low;
+    const double cell = std::max({std::sqrt(all.width() * all.height() / static_cast<double>(boxes.size())),
                                   all.size() / 4096, std::numeric_limits<double>::min()});
     scale_ = 1 / cell;
-    columns_ = static_cast<std::size_t>(width * scale_) + 1;
-    rows_ = static_cast<std::size_t>(height * scale_) + 1;
+    columns_ = static_cast<std::size_t>(all.width() * scale_) + 1;
+    rows_ = static_cast<std::size_t>(all.height() * scale_) + 1;
 }
 
 std::optional<BoxGrid> BoxGrid::build(std::span<const Box2> boxes, std::uint64_t& work) {
     for (const Box2& b : boxes) {
-        if (!std::isfinite(b.low_x + b.low_y + b.high_x + b.high_y)) return std::nullopt;
+        if (!std::isfinite(b.low.x + b.low.y + b.high.x + b.high.y)) return std::nullopt;
     }
     BoxGrid grid(boxes);
     std::uint64_t entries = 0;

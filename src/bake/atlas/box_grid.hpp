@@ -8,17 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "bake/atlas/point2.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
-
-/// Axis-aligned bounding box in the plane.
-struct Box2 {
-    double low_x, low_y, high_x, high_y;
-
-    double size() const { return std::max(high_x - low_x, high_y - low_y); }
-};
 
 /// A uniform grid with about as many cells as boxes, and the boxes that overlap each cell.
 class BoxGrid {
@@ -48,7 +42,7 @@ public:
                     --work;
                     const Box2& b = boxes[members_[j]];
                     // A pair is tested once, in the first cell that both boxes overlap.
-                    if (cell_at(std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y)) != cell) continue;
+                    if (cell_at({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) != cell) continue;
                     if (!test(members_[i], members_[j])) return false;
                 }
             }
@@ -57,27 +51,34 @@ public:
     }
 
 private:
+    /// Chooses the extent and the cell size; the cells are still empty.
     explicit BoxGrid(std::span<const Box2> boxes);
 
+    /// Calls visit(cell) for every cell that the box overlaps.
     template <class Visit>
     void visit(const Box2& box, const Visit& visit) const {
-        const std::size_t x0 = column(box.low_x), x1 = column(box.high_x);
-        for (std::size_t y = row(box.low_y); y <= row(box.high_y); ++y) {
+        const std::size_t x0 = column(box.low.x), x1 = column(box.high.x);
+        for (std::size_t y = row(box.low.y); y <= row(box.high.y); ++y) {
             for (std::size_t x = x0; x <= x1; ++x) visit(y * columns_ + x);
         }
     }
+    /// Number of cells that the box overlaps.
     std::size_t covered_cell_count(const Box2& box) const {
-        return (column(box.high_x) - column(box.low_x) + 1) * (row(box.high_y) - row(box.low_y) + 1);
+        return (column(box.high.x) - column(box.low.x) + 1) * (row(box.high.y) - row(box.low.y) + 1);
     }
-    std::size_t cell_at(double x, double y) const { return row(y) * columns_ + column(x); }
+    /// Index of the cell that contains p.
+    std::size_t cell_at(const Point2& p) const { return row(p.y) * columns_ + column(p.x); }
+    /// Column of the cells that contain x.
     std::size_t column(double x) const {
-        return std::min(columns_ - 1, static_cast<std::size_t>((x - low_x_) * scale_));
+        return std::min(columns_ - 1, static_cast<std::size_t>((x - low_.x) * scale_));
     }
+    /// Row of the cells that contain y.
     std::size_t row(double y) const {
-        return std::min(rows_ - 1, static_cast<std::size_t>((y - low_y_) * scale_));
+        return std::min(rows_ - 1, static_cast<std::size_t>((y - low_.y) * scale_));
     }
 
-    double low_x_, low_y_, scale_;
+    Point2 low_;    ///< lower left corner of the grid
+    double scale_;  ///< cells per unit of length
     std::size_t columns_, rows_;
     std::vector<std::uint64_t> begin_;  ///< by cell: offset of its boxes in members_; one more at the end
     std::vector<Index> members_;        ///< indices of boxes, cell by cell

@@ -3,10 +3,10 @@
 /// Input triangles of the chart atlas, and the charts that are made from them.
 
 #include <array>
-#include <complex>
 #include <cstdint>
 #include <vector>
 
+#include "bake/atlas/point2.hpp"
 #include "bake/atlas/triangle_pairs.hpp"
 #include "faqem/mesh.hpp"
 
@@ -23,13 +23,11 @@ struct ChartFace {
     std::array<bool, 3> crease = {};
 };
 
-/// A point in the plane of a chart, in texels at the wanted density: x to the right, y up.
-using ChartPoint = std::complex<double>;
-
 /// A connected set of faces with an injective map to the plane. All triangles are counter-clockwise.
 struct Chart {
-    std::vector<Index> faces;                       ///< ascending
-    std::vector<std::array<ChartPoint, 3>> points;  ///< by face: its three corners
+    std::vector<Index> faces;  ///< ascending
+    /// By face: its three corners, in texels at the wanted density, x to the right, y up.
+    std::vector<Triangle2> points;
     /// Area-weighted mean over the faces of (s1^2 + s2^2 + 1/s1^2 + 1/s2^2) / 4, where s1 and s2 are the
     /// singular values of the face's map when the chart has the wanted area. 1 means no distortion.
     /// Symmetric Dirichlet energy (Smith and Schaefer 2015).
@@ -39,10 +37,5 @@ struct Chart {
 
 /// Wanted number of texels of a face: its area times its density squared.
 double wanted_texels(const ChartFace& face);
-
-/// Twice the signed area of the triangle (a, b, c); positive if it is counter-clockwise.
-inline double twice_signed_area(const ChartPoint& a, const ChartPoint& b, const ChartPoint& c) {
-    return (std::conj(b - a) * (c - a)).imag();
-}
 
 }  // namespace faqem::detail

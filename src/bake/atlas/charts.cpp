@@ -19,17 +19,13 @@ constexpr double max_stretch = 1.06;
 // Work limits, in flattenings of every face of the region or page.
 constexpr std::uint64_t work_per_region = 24, work_for_merging = 32;
 
+// Length of the diagonal of the chart's bounding box.
 double bounding_box_diagonal(const Chart& chart) {
-    double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
-    for (const auto& t : chart.points) {
-        for (const ChartPoint& p : t) {
-            low_x = std::min(low_x, p.real());
-            high_x = std::max(high_x, p.real());
-            low_y = std::min(low_y, p.imag());
-            high_y = std::max(high_y, p.imag());
-        }
+    Box2 box;
+    for (const Triangle2& t : chart.points) {
+        for (const Point2& p : t) box.add(p);
     }
-    return std::hypot(high_x - low_x, high_y - low_y);
+    return length(box.high - box.low);
 }
 
 bool is_acceptable(const Parametrization& parametrization, double max_diagonal) {

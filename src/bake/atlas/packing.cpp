@@ -17,28 +17,24 @@ constexpr double max_block_size_ratio = 1.0 / 8;
 // For this many of the largest charts all rows are searched, so that they can fill any hole.
 constexpr std::size_t exhaustively_searched_charts = 256;
 
-using FlatTriangle = std::array<ChartPoint, 3>;
-
 // A chart rotated so that its bounding box has minimum area and is wider than high. The box begins at the
 // origin.
 struct OrientedChart {
-    std::vector<FlatTriangle> points;
+    std::vector<Triangle2> points;
     double width = 0, height = 0, area = 0;
 };
 
 // Convex hull, counter-clockwise (Andrew's monotone chain).
-std::vector<ChartPoint> convex_hull(const Chart& chart, engine::CancellationCheck check_cancelled) {
-    std::vector<ChartPoint> points;
-    for (const FlatTriangle& t : chart.points) points.insert(points.end(), t.begin(), t.end());
-    const auto less = [](const ChartPoint& a, const ChartPoint& b) {
-        return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
-    };
+std::vector<Point2> convex_hull(const Chart& chart, engine::CancellationCheck check_cancelled) {
+    std::vector<Point2> points;
+    for (const Triangle2& t : chart.points) points.insert(points.end(), t.begin(), t.end());
+    const auto less = [](const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
     std::sort(points.begin(), points.end(), engine::cancellable_less(check_cancelled, less));
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    std::vector<ChartPoint> hull;
+    std::vector<Point2> hull;
     for (int side = 0; side < 2; ++side) {
         const std::size_t begin = hull.size();
-        for (const ChartPoint& p : points) {
+        for (const Point2& p : points) {
             while (hull.size() >= begin + 2 &&
                    !(twice_signed_area(hull[hull.size() - 2], hull.back(), p) > 0))
                 hull.pop_back();
@@ -50,52 +46,42 @@ std::vector<ChartPoint> convex_hull(const Chart& chart, engine::CancellationChec
     return hull;
 }
 
-struct Bounds {
-    double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
-
-    void add(const ChartPoint& p) {
-        low_x = std::min(low_x, p.real());
-        high_x = std::max(high_x, p.real());
-        low_y = std::min(low_y, p.imag());
-        high_y = std::max(high_y, p.imag());
-    }
-    double width() const { return high_x - low_x; }
-    double height() const { return high_y - low_y; }
-};
-
 // Products of larger numbers could overflow.
 constexpr double max_coordinate = 1e100;
 
+// Whether no coordinate is too large or NaN.
 bool has_valid_coordinates(const Chart& chart) {
-    return std::all_of(chart.points.begin(), chart.points.end(), [](const FlatTriangle& t) {
-        return std::all_of(t.begin(), t.end(), [](const ChartPoint& p) {
-            return std::abs(p.real()) <= max_coordinate && std::abs(p.imag()) <= max_coordinate;
+    return std::all_of(chart.points.begin(), chart.points.end(), [](const Triangle2& t) {
+        return std::all_of(t.begin(), t.end(), [](const Point2& p) {
+            return std::abs(p.x) <= max_coordinate && std::abs(p.y) <= max_coordinate;
         });
     });
 }
 
+// Rotates a chart; tries the directions of the edges of its convex hull.
 OrientedChart orient(const Chart& chart, engine::CancellationCheck check_cancelled) {
     if (!has_valid_coordinates(chart))
-        return {std::vector<FlatTriangle>(chart.points.size()), 0, 0, 0};  // one texel
-    const std::vector<ChartPoint> hull = convex_hull(chart, check_cancelled);
-    ChartPoint best = 1;
+        return {std::vector<Triangle2>(chart.points.size()), 0, 0, 0};  // one texel
+    const std::vector<Point2> hull = convex_hull(chart, check_cancelled);
+    Point2 best = {1, 0};
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < hull.size(); ++i) {
-        const ChartPoint edge = hull[(i + 1) % hull.size()] - hull[i];
-        if (!(std::abs(edge) > 0)) continue;
-        ChartPoint rotation = std::conj(edge) / std::abs(edge);
-        Bounds bounds;
-        for (const ChartPoint& p : hull) bounds.add(p * rotation);
+        const Point2 edge = hull[(i + 1) % hull.size()] - hull[i];
+        const double edge_length = length(edge);
+        if (!(edge_length > 0)) continue;
+        const Point2 rotation = {edge.x / edge_length, -edge.y / edge_length};  // maps the edge to the x axis
+        Box2 bounds;
+        for (const Point2& p : hull) bounds.add(rotated(p, rotation));
         if (!(bounds.width() * bounds.height() < least * (1 - 1e-9))) continue;
         least = bounds.width() * bounds.height();
-        best = bounds.width() < bounds.height() ? rotation * ChartPoint(0, 1) : rotation;
+        best = bounds.width() < bounds.height() ? rotated(rotation, {0, 1}) : rotation;
     }
     OrientedChart shape;
-    Bounds bounds;
-    for (const ChartPoint& p : hull) bounds.add(p * best);
-    const ChartPoint low = {bounds.low_x, bounds.low_y};
-    for (const FlatTriangle& t : chart.points) {
-        shape.points.push_back({t[0] * best - low, t[1] * best - low, t[2] * best - low});
+    Box2 bounds;
+    for (const Point2& p : hull) bounds.add(rotated(p, best));
+    for (const Triangle2& t : chart.points) {
+        shape.points.push_back({rotated(t[0], best) - bounds.low, rotated(t[1], best) - bounds.low,
+                                rotated(t[2], best) - bounds.low});
         shape.area += twice_signed_area(t[0], t[1], t[2]) / 2;
     }
     shape.width = bounds.width();
@@ -111,27 +97,28 @@ struct ChartRaster {
     BlockMask mask;
 
     // Position of a corner in texels from the top left of the mask: v down, inset by half a block.
-    ChartPoint texel_point(const ChartPoint& p) const {
-        return {block_size / 2.0 + p.real() * scale_x,
-                mask.rows * double(block_size) - block_size / 2.0 - p.imag() * scale_y};
+    Point2 texel_point(const Point2& p) const {
+        return {block_size / 2.0 + p.x * scale_x,
+                mask.rows * double(block_size) - block_size / 2.0 - p.y * scale_y};
     }
 };
 
-// Whether the interior of a triangle intersects that of the square with centre (x, y) and half side `half`.
-bool overlaps_square(const FlatTriangle& t, double x, double y, double half) {
+// Whether the interior of a triangle intersects that of the square with the given centre and half side.
+bool overlaps_square(const Triangle2& t, const Point2& centre, double half) {
     const double slack = 1e-9 * half;
     for (std::size_t i = 0; i < 3; ++i) {
-        const ChartPoint a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+        const Point2 a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
         // There is no overlap if the square is on the outer side of edge ab.
-        const ChartPoint d = b - a;
+        const Point2 d = b - a;
         const double sign = twice_signed_area(a, b, c) > 0 ? 1 : -1;
-        const double centre = sign * (std::conj(d) * (ChartPoint(x, y) - a)).imag();
-        const double reach = half * (std::abs(d.real()) + std::abs(d.imag()));
-        if (!(centre + reach > slack * std::abs(d))) return false;
+        const double inside = sign * cross(d, centre - a);
+        const double reach = half * (std::abs(d.x) + std::abs(d.y));
+        if (!(inside + reach > slack * length(d))) return false;
     }
     return true;
 }
 
+// The blocks that the triangles of a chart overlap.
 BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
                      engine::CancellationCheck check_cancelled) {
     const double block_size = raster.block_size;
@@ -140,20 +127,19 @@ BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
     const auto clamped = [](double i, std::uint32_t n) {
         return static_cast<std::uint32_t>(std::clamp(i, 0.0, double(n - 1)));
     };
-    for (const FlatTriangle& t : shape.points) {
+    for (const Triangle2& t : shape.points) {
         check_cancelled();
-        const FlatTriangle p = {raster.texel_point(t[0]), raster.texel_point(t[1]), raster.texel_point(t[2])};
-        Bounds bounds;
-        for (const ChartPoint& corner : p) bounds.add(corner);
-        const std::uint32_t x0 = clamped(std::floor(bounds.low_x / block_size - 0.5), mask.columns);
-        const std::uint32_t x1 = clamped(std::ceil(bounds.high_x / block_size - 0.5), mask.columns);
-        const std::uint32_t y0 = clamped(std::floor(bounds.low_y / block_size - 0.5), mask.rows);
-        const std::uint32_t y1 = clamped(std::ceil(bounds.high_y / block_size - 0.5), mask.rows);
+        const Triangle2 p = {raster.texel_point(t[0]), raster.texel_point(t[1]), raster.texel_point(t[2])};
+        const Box2 bounds = bounding_box(p);
+        const std::uint32_t x0 = clamped(std::floor(bounds.low.x / block_size - 0.5), mask.columns);
+        const std::uint32_t x1 = clamped(std::ceil(bounds.high.x / block_size - 0.5), mask.columns);
+        const std::uint32_t y0 = clamped(std::floor(bounds.low.y / block_size - 0.5), mask.rows);
+        const std::uint32_t y1 = clamped(std::ceil(bounds.high.y / block_size - 0.5), mask.rows);
         for (std::uint32_t y = y0; y <= y1; ++y) {
             for (std::uint32_t x = x0; x <= x1; ++x) {
                 std::uint8_t& block = mask.blocks[std::size_t{y} * mask.columns + x];
                 if (!block)
-                    block = overlaps_square(p, (x + 0.5) * block_size, (y + 0.5) * block_size, block_size);
+                    block = overlaps_square(p, {(x + 0.5) * block_size, (y + 0.5) * block_size}, block_size);
             }
         }
     }
@@ -274,23 +260,24 @@ private:
 };
 
 // Position on the page of a point of the mask, after the chart's rotation. Rotations preserve orientation.
-ChartPoint page_point(const ChartRaster& raster, const ChartPlacement& placement, const ChartPoint& p) {
+Point2 page_point(const ChartRaster& raster, const ChartPlacement& placement, const Point2& p) {
     const double width = double(raster.mask.columns) * raster.block_size,
                  height = double(raster.mask.rows) * raster.block_size;
-    const ChartPoint corner = {double(placement.position.x) * raster.block_size,
-                               double(placement.position.y) * raster.block_size};
+    const Point2 corner = {double(placement.position.x) * raster.block_size,
+                           double(placement.position.y) * raster.block_size};
     switch (placement.quarter_turns) {
         case 1:
-            return corner + ChartPoint(height - p.imag(), p.real());
+            return corner + Point2{height - p.y, p.x};
         case 2:
-            return corner + ChartPoint(width - p.real(), height - p.imag());
+            return corner + Point2{width - p.x, height - p.y};
         case 3:
-            return corner + ChartPoint(p.imag(), width - p.real());
+            return corner + Point2{p.y, width - p.x};
         default:
             return corner + p;
     }
 }
 
+// The page of a successful attempt.
 ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart> shapes,
                     const ChartPacking& packing, std::size_t faces, std::uint32_t width, std::uint32_t height,
                     double scale) {
@@ -309,13 +296,11 @@ ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart
                          charts[i].faces,
                          raster.is_single_texel};
         for (std::size_t k = 0; k < charts[i].faces.size(); ++k) {
-            auto& uv = page.atlas.placements[charts[i].faces[k]].uv;
+            Triangle2& uv = page.atlas.placements[charts[i].faces[k]].uv;
             for (std::size_t c = 0; c < 3; ++c) {
-                const ChartPoint p =
-                    raster.is_single_texel
-                        ? ChartPoint(chart.x + 0.5, chart.y + 0.5)
-                        : page_point(raster, placement, raster.texel_point(shapes[i].points[k][c]));
-                uv[c] = {p.real(), p.imag()};
+                uv[c] = raster.is_single_texel
+                            ? Point2{chart.x + 0.5, chart.y + 0.5}
+                            : page_point(raster, placement, raster.texel_point(shapes[i].points[k][c]));
             }
         }
         page.charts.push_back(std::move(chart));

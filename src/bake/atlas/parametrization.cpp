@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <utility>
 
@@ -15,12 +16,24 @@ namespace {
 
 using engine::to_eigen;
 using engine::Vector3;
-using ComplexPoint = ChartPoint;
+// Points of the plane as complex numbers: a least squares conformal map is the solution of a linear system over
+// them, and a rotation is a multiplication.
+using ComplexPoint = std::complex<double>;
 using RealMatrix = Eigen::SparseMatrix<double>;
 using HermitianMatrix = Eigen::SparseMatrix<ComplexPoint>;
 
 constexpr double min_height_ratio = 1e-3;
 constexpr int max_iterations = 10;
+
+// Twice the signed area of the triangle (a, b, c); positive if it is counter-clockwise.
+double twice_signed_area(const ComplexPoint& a, const ComplexPoint& b, const ComplexPoint& c) {
+    return (std::conj(b - a) * (c - a)).imag();
+}
+
+// The corners of a triangle as points of a chart.
+Triangle2 to_points(const std::array<ComplexPoint, 3>& t) {
+    return {Point2{t[0].real(), t[0].imag()}, {t[1].real(), t[1].imag()}, {t[2].real(), t[2].imag()}};
+}
 
 // A face mapped isometrically to the plane: corner 0 at the origin, corner 1 on the positive x axis, corner 2
 // above it.
@@ -315,7 +328,7 @@ Chart make_chart(ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z, doub
     for (std::size_t i = 0; i < chart_mesh.size(); ++i) {
         auto t = chart_mesh.triangle(z, i);
         for (ComplexPoint& corner : t) corner *= scale;
-        chart.points.push_back(t);
+        chart.points.push_back(to_points(t));
     }
     chart.faces = std::move(chart_mesh.faces());
     chart.stretch = stretch;
@@ -333,7 +346,7 @@ Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> f
     ChartMesh chart_mesh(all, std::move(faces));
     if (chart_mesh.size() == 1) {
         const LocalTriangle& local = chart_mesh.local(0);
-        result.chart = {chart_mesh.faces(), {local.at}, 1, local.area};
+        result.chart = {chart_mesh.faces(), {to_points(local.at)}, 1, local.area};
         result.outcome = Parametrization::Outcome::valid;
         return result;
     }

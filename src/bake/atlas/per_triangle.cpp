@@ -82,12 +82,12 @@ TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, 
                                  bool second) {
     TrianglePlacement placement;
     if (shape.is_single_texel) {
-        for (auto& uv : placement.uv) uv = {cell.x + 0.5, cell.y + 0.5};
+        for (Point2& uv : placement.uv) uv = {cell.x + 0.5, cell.y + 0.5};
         return placement;
     }
     const std::uint32_t along = shape.width - shape.margin, up = shape.height - shape.margin;
     const double inset = shape.block_size / 2.0;
-    std::array<std::array<double, 2>, 3> local;  // right-angle corner, end of the first leg, of the second
+    Triangle2 local;  // right-angle corner, end of the first leg, of the second
     if (shape.is_transposed) {
         local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
         placement.legs = {up, along};
@@ -97,8 +97,8 @@ TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, 
         placement.legs = {along, up};
     }
     for (std::size_t i = 0; i < 3; ++i) {
-        const double x = second ? shape.width - local[i][0] : local[i][0];
-        const double y = second ? shape.height - local[i][1] : local[i][1];
+        const double x = second ? shape.width - local[i].x : local[i].x;
+        const double y = second ? shape.height - local[i].y : local[i].y;
         placement.uv[(triangle.right_angle_corner + i) % 3] = {cell.x + x, cell.y + y};
     }
     return placement;
@@ -244,8 +244,6 @@ double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t wid
     return low;
 }
 
-double squared(double x) { return x * x; }
-
 }  // namespace
 
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
@@ -265,12 +263,12 @@ std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, st
 }
 
 BarycentricFrame::BarycentricFrame(const TrianglePlacement& placement) : placement_(placement) {
-    const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
-    const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - a[0], y2 = c[1] - a[1];
-    const double twice = x1 * y2 - x2 * y1;
+    const Point2& a = placement.uv[0];
+    const Point2 ab = placement.uv[1] - a, ac = placement.uv[2] - a;
+    const double twice = cross(ab, ac);
     if (twice == 0) return;
-    gradient_[0] = {y2 / twice, -x2 / twice, (x2 * a[1] - y2 * a[0]) / twice};
-    gradient_[1] = {-y1 / twice, x1 / twice, (y1 * a[0] - x1 * a[1]) / twice};
+    gradient_[0] = {ac.y / twice, -ac.x / twice, cross(ac, a) / twice};
+    gradient_[1] = {-ab.y / twice, ab.x / twice, cross(a, ab) / twice};
 }
 
 Vec3 BarycentricFrame::at(double x, double y) const {
@@ -286,10 +284,9 @@ Vec3 BarycentricFrame::closest(double x, double y) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        const auto &a = placement_.uv[i], &b = placement_.uv[j];
-        const double dx = b[0] - a[0], dy = b[1] - a[1], length = dx * dx + dy * dy;
-        const double t = length > 0 ? std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length, 0.0, 1.0) : 0;
-        const double d = squared(a[0] + t * dx - x) + squared(a[1] + t * dy - y);
+        const Point2 &a = placement_.uv[i], &b = placement_.uv[j];
+        const double t = closest_on_segment(a, b, {x, y});
+        const double d = squared_length(point_on_line(a, b, t) - Point2{x, y});
         if (!(d < least)) continue;
         least = d;
         best = {0, 0, 0};

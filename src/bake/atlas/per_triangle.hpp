@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bake/atlas/point2.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
@@ -30,7 +31,7 @@ struct AtlasTriangle {
 /// Position of a triangle on the page. The UVs of its corners are in texels; the centre of texel (i, j) is at
 /// (i + 0.5, j + 0.5), and v points down.
 struct TrianglePlacement {
-    std::array<std::array<double, 2>, 3> uv = {};
+    Triangle2 uv = {};
     /// Lengths in texels, in the order of AtlasTriangle::legs. 0, 0: the whole triangle is one texel.
     std::array<std::uint32_t, 2> legs = {0, 0};
 };

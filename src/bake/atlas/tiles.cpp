@@ -1,26 +1,13 @@
 #include "bake/atlas/tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace faqem::detail {
 namespace {
 
 constexpr std::uint32_t max_tile_size = 64;
-
-using Corner = std::array<double, 2>;
-
-double edge_function(const Corner& a, const Corner& b, double x, double y) {
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-}
-
-double distance_squared(const Corner& a, const Corner& b, double x, double y) {
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    const double length = dx * dx + dy * dy;
-    const double t = length > 0 ? std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length, 0.0, 1.0) : 0;
-    const double ex = a[0] + t * dx - x, ey = a[1] + t * dy - y;
-    return ex * ex + ey * ey;
-}
 
 // Samples of a tile inside a box of texel coordinates; x1 and y1 are exclusive.
 struct Range {
@@ -44,24 +31,27 @@ public:
         owner_.assign(std::size_t{columns_} * rows_, no_index);
     }
 
+    // Assigns samples inside a triangle to it, unless they are inside one that was visited before.
     void assign_covered(Index triangle) {
-        const auto& uv = atlas_.placements[triangle].uv;
-        for_each_sample(range_of(uv, 0), [&](std::size_t at, double x, double y) {
+        const Triangle2& uv = atlas_.placements[triangle].uv;
+        for_each_sample(range_of(bounding_box(uv)), [&](std::size_t at, const Point2& p) {
             if (owner_[at] != no_index) return;
             for (std::size_t c = 0; c < 3; ++c) {
-                if (edge_function(uv[c], uv[(c + 1) % 3], x, y) > 0) return;  // outside, as v points down
+                if (twice_signed_area(uv[c], uv[(c + 1) % 3], p) > 0) return;  // outside, as v points down
             }
             owner_[at] = triangle;
         });
     }
 
+    // Assigns samples outside all triangles to this one if its edge opposite corner c is the closest so far.
     void assign_nearest(Index triangle, std::size_t c, double reach) {
         if (squared_distance_.empty()) begin_distances();
-        const auto& uv = atlas_.placements[triangle].uv;
-        const Corner &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
-        for_each_sample(range_of({a, b, b}, reach), [&](std::size_t at, double x, double y) {
+        const Triangle2& uv = atlas_.placements[triangle].uv;
+        const Point2 &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
+        const Box2 box = bounding_box(std::array{a, b}).expanded(reach);
+        for_each_sample(range_of(box), [&](std::size_t at, const Point2& p) {
             if (!(squared_distance_[at] > 0)) return;
-            const double d = distance_squared(a, b, x, y);
+            const double d = squared_distance_to_segment(a, b, p);
             if (!(d < squared_distance_[at])) return;
             squared_distance_[at] = d;
             owner_[at] = triangle;
@@ -99,22 +89,22 @@ private:
             squared_distance_[i] = owner_[i] == no_index ? HUGE_VAL : 0;
     }
 
-    Range range_of(const std::array<Corner, 3>& corners, double reach) const {
-        const auto [x0, x1] = std::minmax({corners[0][0], corners[1][0], corners[2][0]});
-        const auto [y0, y1] = std::minmax({corners[0][1], corners[1][1], corners[2][1]});
+    // The samples of the tile inside a box, rounded outwards.
+    Range range_of(const Box2& box) const {
         const auto index = [&](double texel, std::uint32_t from, std::uint32_t count) {
             return static_cast<std::uint32_t>(std::clamp((texel - from) * samples_, 0.0, double(count)));
         };
-        return {index(x0 - reach, tile_.x, columns_), index(x1 + reach + 1, tile_.x, columns_),
-                index(y0 - reach, tile_.y, rows_), index(y1 + reach + 1, tile_.y, rows_)};
+        return {index(box.low.x, tile_.x, columns_), index(box.high.x + 1, tile_.x, columns_),
+                index(box.low.y, tile_.y, rows_), index(box.high.y + 1, tile_.y, rows_)};
     }
 
+    // Calls visit(sample, position on the page) for the samples of a range.
     template <class Visit>
     void for_each_sample(const Range& range, Visit&& visit) const {
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
             for (std::uint32_t i = range.x0; i < range.x1; ++i) {
-                visit(std::size_t{j} * columns_ + i, tile_.x + (i + 0.5) / samples_,
-                      tile_.y + (j + 0.5) / samples_);
+                visit(std::size_t{j} * columns_ + i,
+                      Point2{tile_.x + (i + 0.5) / samples_, tile_.y + (j + 0.5) / samples_});
             }
         }
     }

@@ -2,13 +2,12 @@
 /// \file
 /// Overlap test for triangles in the plane.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
 
-#include "bake/atlas/chart.hpp"
+#include "bake/atlas/point2.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
@@ -21,7 +20,7 @@ namespace faqem::detail {
 /// \return false also if `work` is used up before the result is known
 /// Complexity: O(n) expected.
 /// \throws whatever `check_cancelled` throws
-bool have_disjoint_interiors(std::span<const std::array<ChartPoint, 3>> triangles, std::uint64_t& work,
+bool have_disjoint_interiors(std::span<const Triangle2> triangles, std::uint64_t& work,
                              engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

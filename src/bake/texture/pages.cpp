@@ -5,6 +5,7 @@
 #include <optional>
 #include "asset/scene/messages.hpp"
 
+#include "bake/atlas/point2.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
 #include "bake/texture/page.hpp"
@@ -96,9 +97,9 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
             std::vector<Vec2f>& uvs = result[face.part];
             uvs.resize(3 * job.parts[face.part].faces(), Vec2f{0, 0});
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto& uv = atlas.placements[i].uv[c];
-                uvs[std::size_t{3} * face.face + c] = {static_cast<float>(uv[0] / atlas.width),
-                                                       static_cast<float>(uv[1] / atlas.height)};
+                const Point2& uv = atlas.placements[i].uv[c];
+                uvs[std::size_t{3} * face.face + c] = {static_cast<float>(uv.x / atlas.width),
+                                                       static_cast<float>(uv.y / atlas.height)};
             }
         }
     }
@@ -122,10 +123,9 @@ double relative_density(const BakeJob& job, const SourceSampler& sampler, const 
         const auto corner = [&](std::size_t k) {
             return engine::to_eigen(part.simplified->mesh.positions[t[k]]);
         };
-        const auto& uv = page.atlas->atlas.placements[i].uv;
+        const Triangle2& uv = page.atlas->atlas.placements[i].uv;
         const double area = engine::area_vector(corner(0), corner(1), corner(2)).norm();
-        const double texels = std::abs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
-                                       (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+        const double texels = std::abs(twice_signed_area(uv[0], uv[1], uv[2]));
         constexpr double third = 1.0 / 3;
         const double density =
             sampler.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);

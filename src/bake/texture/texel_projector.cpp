@@ -15,8 +15,8 @@ using engine::Vector3;
 // The right-angle corner has the same u as one of the other corners and the same v as the other one.
 std::size_t right_angle_corner(const TrianglePlacement& placement) {
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto &r = placement.uv[i], &a = placement.uv[(i + 1) % 3], &b = placement.uv[(i + 2) % 3];
-        if ((r[0] == a[0] && r[1] == b[1]) || (r[1] == a[1] && r[0] == b[0])) return i;
+        const Point2 &r = placement.uv[i], &a = placement.uv[(i + 1) % 3], &b = placement.uv[(i + 2) % 3];
+        if ((r.x == a.x && r.y == b.y) || (r.y == a.y && r.x == b.x)) return i;
     }
     return 0;
 }
@@ -58,8 +58,8 @@ double TexelProjector::texel_length() const {
     const auto at = [&](std::size_t i) { return corner(face_.face, i); };
     if (is_single_texel()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
     const auto side_length = [&](double x, double y) {
-        const auto& a = placement_.uv[0];
-        const Vec3 w = frame_.at(a[0] + x, a[1] + y);
+        const Point2& a = placement_.uv[0];
+        const Vec3 w = frame_.at(a.x + x, a.y + y);
         return (w[1] * (at(1) - at(0)) + w[2] * (at(2) - at(0))).norm();
     };
     return std::max(side_length(1, 0), side_length(0, 1));

@@ -15,7 +15,7 @@ using detail::Box2;
 using detail::BoxGrid;
 using detail::Chart;
 using detail::ChartFace;
-using detail::ChartPoint;
+using detail::Point2;
 
 namespace {
 
@@ -29,15 +29,17 @@ struct Fan {
 Fan fan(std::size_t count, double angle, double flat_angle, double legs) {
     Fan result;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto at = [&](std::size_t k, double a) { return std::polar(legs, a * double(k)); };
+        const auto at = [&](std::size_t k, double a) {
+            return Point2{legs * std::cos(a * double(k)), legs * std::sin(a * double(k))};
+        };
         ChartFace face;
-        const ChartPoint p = at(i, angle), q = at(i + 1, angle);
-        face.corners = {Vec3{0, 0, 0}, Vec3{p.real(), p.imag(), 0}, Vec3{q.real(), q.imag(), 0}};
+        const Point2 p = at(i, angle), q = at(i + 1, angle);
+        face.corners = {Vec3{0, 0, 0}, Vec3{p.x, p.y, 0}, Vec3{q.x, q.y, 0}};
         if (i + 1 < count) face.adjacent[1] = {static_cast<Index>(i + 1), 2};
         if (i > 0) face.adjacent[2] = {static_cast<Index>(i - 1), 1};
         result.faces.push_back(face);
         result.chart.faces.push_back(static_cast<Index>(i));
-        result.chart.points.push_back({ChartPoint{0, 0}, at(i, flat_angle), at(i + 1, flat_angle)});
+        result.chart.points.push_back({Point2{0, 0}, at(i, flat_angle), at(i + 1, flat_angle)});
     }
     return result;
 }
@@ -81,7 +83,7 @@ TEST_CASE("BoxGrid finds every pair of intersecting boxes once") {
     std::vector<Box2> boxes;
     for (int i = 0; i < 200; ++i) {
         const double x = place(random), y = place(random);
-        boxes.push_back({x, y, x + size(random), y + size(random)});
+        boxes.push_back({{x, y}, {x + size(random), y + size(random)}});
     }
     std::uint64_t work = 1000000;
     const auto grid = BoxGrid::build(boxes, work);
@@ -93,8 +95,8 @@ TEST_CASE("BoxGrid finds every pair of intersecting boxes once") {
     }));
     for (Index a = 0; a < 200; ++a) {
         for (Index b = a + 1; b < 200; ++b) {
-            const bool meet = boxes[a].low_x <= boxes[b].high_x && boxes[b].low_x <= boxes[a].high_x &&
-                              boxes[a].low_y <= boxes[b].high_y && boxes[b].low_y <= boxes[a].high_y;
+            const bool meet = boxes[a].low.x <= boxes[b].high.x && boxes[b].low.x <= boxes[a].high.x &&
+                              boxes[a].low.y <= boxes[b].high.y && boxes[b].low.y <= boxes[a].high.y;
             if (meet) CHECK(seen.count({a, b}) == 1);
         }
     }

@@ -11,7 +11,6 @@
 
 using namespace faqem;
 using namespace faqem::detail;
-using test::FlatTriangle;
 
 namespace {
 
@@ -32,7 +31,7 @@ void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
         CHECK(chart.stretch >= 1 - 1e-9);
         CHECK(chart.stretch <= 1.06);
         for (Index f : chart.faces) ++seen[f];
-        for (const FlatTriangle& t : chart.points) REQUIRE(twice_signed_area(t[0], t[1], t[2]) > 0);
+        for (const Triangle2& t : chart.points) REQUIRE(twice_signed_area(t[0], t[1], t[2]) > 0);
         CHECK(test::worst_overlap(chart.points) < 1e-6);
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
@@ -46,9 +45,9 @@ double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
             const ChartFace& face = faces[chart.faces[i]];
             for (std::size_t c = 0; c < 3; ++c) {
                 const Vec3 d = test::minus(face.corners[c], face.corners[(c + 1) % 3]);
-                const double length = face.density * std::hypot(d[0], d[1], d[2]);
-                const double flat = std::abs(chart.points[i][c] - chart.points[i][(c + 1) % 3]);
-                worst = std::max(worst, std::abs(flat / length - 1));
+                const double wanted = face.density * std::hypot(d[0], d[1], d[2]);
+                const double flat = length(chart.points[i][c] - chart.points[i][(c + 1) % 3]);
+                worst = std::max(worst, std::abs(flat / wanted - 1));
             }
         }
     }
@@ -172,7 +171,7 @@ TEST_CASE("charts have the wanted area") {
     const auto faces = test::chart_faces(test::globe(6, 1), 10);
     for (const Chart& chart : make_charts(faces, 1).charts) {
         double flat = 0, wanted = 0;
-        for (const FlatTriangle& t : chart.points) flat += twice_signed_area(t[0], t[1], t[2]) / 2;
+        for (const Triangle2& t : chart.points) flat += twice_signed_area(t[0], t[1], t[2]) / 2;
         for (Index f : chart.faces) wanted += wanted_texels(faces[f]);
         CHECK(chart.texels == Approx(wanted));
         if (chart.faces.size() > 1) CHECK(flat == Approx(wanted));
@@ -180,16 +179,13 @@ TEST_CASE("charts have the wanted area") {
 }
 
 TEST_CASE("overlapping triangles are detected and touching ones are accepted") {
-    const FlatTriangle a = {ChartPoint(0, 0), {4, 0}, {0, 4}};
+    const Triangle2 a = {Point2{0, 0}, {4, 0}, {0, 4}};
     std::uint64_t work = plenty;
-    CHECK(have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(4, 0), {4, 4}, {0, 4}}}, work));
-    CHECK_FALSE(have_disjoint_interiors(std::vector<FlatTriangle>{a, a}, work));
-    CHECK_FALSE(
-        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(1, 1), {1.1, 1}, {1, 1.1}}}, work));
-    CHECK_FALSE(
-        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(-1, 1), {9, 1}, {9, 1.1}}}, work));
-    CHECK_FALSE(
-        have_disjoint_interiors(std::vector<FlatTriangle>{a, {ChartPoint(NAN, 1), {9, 1}, {9, 1.1}}}, work));
+    CHECK(have_disjoint_interiors(std::vector<Triangle2>{a, {Point2{4, 0}, {4, 4}, {0, 4}}}, work));
+    CHECK_FALSE(have_disjoint_interiors(std::vector<Triangle2>{a, a}, work));
+    CHECK_FALSE(have_disjoint_interiors(std::vector<Triangle2>{a, {Point2{1, 1}, {1.1, 1}, {1, 1.1}}}, work));
+    CHECK_FALSE(have_disjoint_interiors(std::vector<Triangle2>{a, {Point2{-1, 1}, {9, 1}, {9, 1.1}}}, work));
+    CHECK_FALSE(have_disjoint_interiors(std::vector<Triangle2>{a, {Point2{NAN, 1}, {9, 1}, {9, 1.1}}}, work));
 }
 
 TEST_CASE("have_disjoint_interiors agrees with the intersection areas of random triangles") {
@@ -197,11 +193,10 @@ TEST_CASE("have_disjoint_interiors agrees with the intersection areas of random 
     const auto number = [&] { return (random() % 1000) / 100.0; };
     int overlapping = 0;
     for (int round = 0; round < 300; ++round) {
-        std::vector<FlatTriangle> triangles;
+        std::vector<Triangle2> triangles;
         while (triangles.size() < 3) {
-            const ChartPoint at = {3 * number(), 3 * number()};
-            const FlatTriangle t = {at, at + ChartPoint(number(), number()),
-                                    at + ChartPoint(-number(), number())};
+            const Point2 at = {3 * number(), 3 * number()};
+            const Triangle2 t = {at, at + Point2{number(), number()}, at + Point2{-number(), number()}};
             if (twice_signed_area(t[0], t[1], t[2]) > 1e-3) triangles.push_back(t);
         }
         std::uint64_t work = plenty;

@@ -66,8 +66,8 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
                 for (const Vec3& w : test::spread(5)) {
                     double x = -0.5, y = -0.5;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        x += w[c] * page.atlas.placements[t].uv[c][0] / size;
-                        y += w[c] * page.atlas.placements[t].uv[c][1] / size;
+                        x += w[c] * page.atlas.placements[t].uv[c].x / size;
+                        y += w[c] * page.atlas.placements[t].uv[c].y / size;
                     }
                     for (int column = int(std::floor(x)); column < std::floor(x) + 2; ++column) {
                         for (int row = int(std::floor(y)); row < std::floor(y) + 2; ++row) {
@@ -86,9 +86,9 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
     }
 }
 
+// Twice the signed area of a triangle on the page, with v as y axis.
 double page_orientation(const TrianglePlacement& placement) {
-    const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    return twice_signed_area(placement.uv[0], placement.uv[1], placement.uv[2]);
 }
 
 }  // namespace
@@ -105,11 +105,11 @@ TEST_CASE("bilinear reads of a chart use its own texels only up to the mip level
 
 TEST_CASE("triangles on a page are not mirrored and do not overlap") {
     const Made m = made(test::both(test::icosphere(2), test::moved(test::cylinder(16, 3, 2), {5, 0, 0})), 30);
-    std::vector<test::FlatTriangle> flat;
+    std::vector<Triangle2> flat;
     for (const TrianglePlacement& placement : m.page.atlas.placements) {
         REQUIRE(page_orientation(placement) < 0);  // v points down
-        test::FlatTriangle t;
-        for (std::size_t c = 0; c < 3; ++c) t[c] = {placement.uv[c][0], -placement.uv[c][1]};
+        Triangle2 t;
+        for (std::size_t c = 0; c < 3; ++c) t[c] = {placement.uv[c].x, -placement.uv[c].y};
         flat.push_back(t);
     }
     CHECK(test::worst_overlap(flat) < 1e-6);
@@ -123,10 +123,10 @@ TEST_CASE("charts keep their shape at the scale of the page") {
         for (std::size_t k = 0; k < m.page.charts[i].triangles.size(); ++k) {
             const auto& uv = m.page.atlas.placements[m.page.charts[i].triangles[k]].uv;
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto &a = uv[c], &b = uv[(c + 1) % 3];
+                const Point2 &a = uv[c], &b = uv[(c + 1) % 3];
                 const double wanted =
-                    std::abs(m.charts.charts[i].points[k][c] - m.charts.charts[i].points[k][(c + 1) % 3]);
-                CHECK(std::hypot(a[0] - b[0], a[1] - b[1]) == Approx(m.page.atlas.scale * wanted));
+                    length(m.charts.charts[i].points[k][c] - m.charts.charts[i].points[k][(c + 1) % 3]);
+                CHECK(length(a - b) == Approx(m.page.atlas.scale * wanted));
             }
         }
     }
@@ -150,7 +150,7 @@ TEST_CASE("a chart longer than the page is compressed") {
     owners(m.page);
     CHECK(m.page.atlas.scale > 0.5);
     for (const TrianglePlacement& placement : m.page.atlas.placements) {
-        for (const auto& uv : placement.uv) CHECK((uv[0] >= 0 && uv[0] <= 64 && uv[1] >= 0 && uv[1] <= 64));
+        for (const Point2& uv : placement.uv) CHECK((uv.x >= 0 && uv.x <= 64 && uv.y >= 0 && uv.y <= 64));
     }
 }
 
@@ -173,8 +173,8 @@ TEST_CASE("samples of a chart are assigned to the triangle that contains them or
                     const Vec3 w = frame.closest(x, y);
                     double dx = -x, dy = -y;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        dx += w[c] * m.page.atlas.placements[t].uv[c][0];
-                        dy += w[c] * m.page.atlas.placements[t].uv[c][1];
+                        dx += w[c] * m.page.atlas.placements[t].uv[c].x;
+                        dy += w[c] * m.page.atlas.placements[t].uv[c].y;
                     }
                     return std::hypot(dx, dy);
                 };
@@ -216,15 +216,15 @@ TEST_CASE("charts with coordinates out of range become one texel without affecti
     for (const double far : {std::nan(""), HUGE_VAL, 1e300, 1e101}) {
         std::vector<Chart> charts = ball.charts.charts;
         const auto faces = static_cast<Index>(ball.faces.size());
-        charts.push_back({{faces}, {{ChartPoint(0, 0), ChartPoint(far, 0), ChartPoint(0, far)}}, 1, far});
+        charts.push_back({{faces}, {{Point2{0, 0}, Point2{far, 0}, Point2{0, far}}}, 1, far});
         const auto page = pack_charts(charts, faces + 1u, 256);
         REQUIRE(page);
         CHECK(page->charts.size() == charts.size());
         owners(*page);
         for (const TrianglePlacement& placement : page->atlas.placements) {
-            for (const auto& uv : placement.uv) {
-                CHECK((uv[0] >= 0 && uv[0] <= page->atlas.width));
-                CHECK((uv[1] >= 0 && uv[1] <= page->atlas.height));
+            for (const Point2& uv : placement.uv) {
+                CHECK((uv.x >= 0 && uv.x <= page->atlas.width));
+                CHECK((uv.y >= 0 && uv.y <= page->atlas.height));
             }
         }
         CHECK(page->charts.back().is_single_texel);

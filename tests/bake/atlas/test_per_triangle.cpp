@@ -44,8 +44,8 @@ std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
     for (const Vec3& w : test::spread(n)) {
         double x = -0.5, y = -0.5;
         for (std::size_t i = 0; i < 3; ++i) {
-            x += w[i] * placement.uv[i][0];
-            y += w[i] * placement.uv[i][1];
+            x += w[i] * placement.uv[i].x;
+            y += w[i] * placement.uv[i].y;
         }
         for (double i : {std::floor(x), std::floor(x) + 1}) {
             for (double j : {std::floor(y), std::floor(y) + 1}) {
@@ -105,23 +105,18 @@ TEST_CASE("mip levels up to that of the block size read texels of their own cell
     std::map<std::uint32_t, int> seen;
     for (const AtlasCell& cell : atlas->cells) {
         if (!cell.has_shared_hypotenuse) continue;
-        double low_x = 1e9, low_y = 1e9, high_x = 0, high_y = 0;
+        Box2 box;
         for (Index t : {cell.first, cell.second}) {
-            for (const auto& uv : atlas->placements[t].uv) {
-                low_x = std::min(low_x, uv[0]);
-                low_y = std::min(low_y, uv[1]);
-                high_x = std::max(high_x, uv[0]);
-                high_y = std::max(high_y, uv[1]);
-            }
+            for (const Point2& uv : atlas->placements[t].uv) box.add(uv);
         }
-        const double inset = low_x - cell.x;
+        const double inset = box.low.x - cell.x;
         const auto block_size = static_cast<std::uint32_t>(2 * inset);
         CHECK(std::has_single_bit(block_size));
         for (std::uint32_t n : {cell.x, cell.y, cell.width, cell.height}) CHECK(n % block_size == 0);
-        CHECK(low_y == cell.y + inset);
-        CHECK(high_x == cell.x + cell.width - inset);
-        CHECK(high_y == cell.y + cell.height - inset);
-        CHECK((block_size >= 2 || std::min(high_x - low_x, high_y - low_y) < 8));
+        CHECK(box.low.y == cell.y + inset);
+        CHECK(box.high.x == cell.x + cell.width - inset);
+        CHECK(box.high.y == cell.y + cell.height - inset);
+        CHECK((block_size >= 2 || std::min(box.width(), box.height()) < 8));
         ++seen[block_size];
     }
     CHECK(seen.size() > 2);
@@ -154,16 +149,15 @@ TEST_CASE("triangles have about the wanted size and are not mirrored") {
     REQUIRE(atlas);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const TrianglePlacement& placement = atlas->placements[t];
-        const auto &a = placement.uv[0], &b = placement.uv[1], &c = placement.uv[2];
-        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        const double twice = twice_signed_area(placement.uv[0], placement.uv[1], placement.uv[2]);
         CHECK(twice == -double(placement.legs[0]) * placement.legs[1]);
         for (std::size_t i = 0; i < 2; ++i) {
             const double wanted = triangles[t].legs[i] * atlas->scale;
             CHECK(placement.legs[i] > 0.75 * wanted - 2.5);
             CHECK(placement.legs[i] < 1.35 * wanted + 2.5);
-            const auto& r = placement.uv[triangles[t].right_angle_corner];
-            const auto& end = placement.uv[(triangles[t].right_angle_corner + 1 + i) % 3];
-            CHECK(std::abs(end[0] - r[0]) + std::abs(end[1] - r[1]) == placement.legs[i]);
+            const Point2& r = placement.uv[triangles[t].right_angle_corner];
+            const Point2& end = placement.uv[(triangles[t].right_angle_corner + 1 + i) % 3];
+            CHECK(std::abs(end.x - r.x) + std::abs(end.y - r.y) == placement.legs[i]);
         }
     }
 }
@@ -179,7 +173,7 @@ TEST_CASE("triangles are scaled down to the largest page and need at least one t
     REQUIRE(densest);
     std::set<std::pair<double, double>> positions;
     for (const TrianglePlacement& placement : densest->placements)
-        positions.insert({placement.uv[0][0], placement.uv[0][1]});
+        positions.insert({placement.uv[0].x, placement.uv[0].y});
     CHECK(positions.size() == densest->placements.size());
     CHECK_FALSE(pack_triangles(random_triangles(64 * 64 + 1, 100), 64));
 }
@@ -188,7 +182,7 @@ TEST_CASE("barycentric coordinates are exact at corners and closest points are i
     TrianglePlacement placement{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
     const BarycentricFrame frame(placement);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 w = frame.at(placement.uv[i][0], placement.uv[i][1]);
+        const Vec3 w = frame.at(placement.uv[i].x, placement.uv[i].y);
         for (std::size_t k = 0; k < 3; ++k) CHECK(w[k] == Approx(k == i ? 1 : 0).margin(1e-12));
     }
     CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right-angle corner
