@@ -1,5 +1,7 @@
 #include "faqem/detail/simplify/preprocess.hpp"
 
+#include "faqem/detail/geometry/triangle.hpp"
+
 #include <catch2/catch.hpp>
 #include <limits>
 
