@@ -1,4 +1,4 @@
-// Compiles include/faqem/detail/simplify.
+// Compiles the rest of include/faqem/detail/simplify: the runs, their options and reports.
 #include "faqem/detail/simplify/block_decimation-inl.hpp"
 #include "faqem/detail/simplify/budget_by_cost-inl.hpp"
 #include "faqem/detail/simplify/build_result-inl.hpp"
@@ -6,14 +6,11 @@
 #include "faqem/detail/simplify/error_bound_search-inl.hpp"
 #include "faqem/detail/simplify/face_count_search-inl.hpp"
 #include "faqem/detail/simplify/options-inl.hpp"
-#include "faqem/detail/simplify/preprocess-inl.hpp"
 #include "faqem/detail/simplify/presets-inl.hpp"
-#include "faqem/detail/simplify/prune_components-inl.hpp"
 #include "faqem/detail/simplify/report-inl.hpp"
 #include "faqem/detail/simplify/report_json-inl.hpp"
 #include "faqem/detail/simplify/result_fitting-inl.hpp"
 #include "faqem/detail/simplify/run-inl.hpp"
 #include "faqem/detail/simplify/run_state-inl.hpp"
 #include "faqem/detail/simplify/simplify-inl.hpp"
-#include "faqem/detail/simplify/spatial_order-inl.hpp"
 #include "faqem/detail/simplify/virtual_edges-inl.hpp"
