@@ -12,6 +12,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/shell/command_tree.hpp"
+#include "cli/shell/deprecated_names.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 
@@ -37,7 +38,10 @@ int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
     build_command_line(app, action);
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    std::vector<std::string> warnings;
+    const std::vector<std::string> words =
+        replace_deprecated_names({argv + std::min(argc, 1), argv + argc}, warnings);
+    for (const std::string& warning : warnings) std::cerr << "faqem: warning: " << warning << "\n";
     try {
         std::vector<std::string> all = expand_profile(command_tree(app), words);
         std::reverse(all.begin(), all.end());  // CLI11 expects the arguments in reverse order
