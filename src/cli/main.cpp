@@ -41,9 +41,10 @@ int parse_and_run(int argc, char** argv) {
     std::vector<std::string> warnings;
     const std::vector<std::string> words =
         replace_deprecated_names({argv + std::min(argc, 1), argv + argc}, warnings);
-    for (const std::string& warning : warnings) std::cerr << "faqem: warning: " << warning << "\n";
     try {
-        std::vector<std::string> all = expand_profile(command_tree(app), words);
+        std::vector<std::string> all =
+            replace_deprecated_names(expand_profile(command_tree(app), words), warnings);
+        for (const std::string& warning : warnings) std::cerr << "faqem: warning: " << warning << "\n";
         std::reverse(all.begin(), all.end());  // CLI11 expects the arguments in reverse order
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {
