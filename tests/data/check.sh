@@ -7,11 +7,7 @@ rm -rf "$work"
 "$make_fixtures" "$work"
 count=0
 for file in "$work"/*; do
-    # The generator string in glTF files names the version, and the PNG encoder may change: geometry must not.
-    case $file in
-        *.glb) "$faqem" compare "$data/$(basename "$file")" "$file" --max-error 1e-9 ;;
-        *) cmp "$data/$(basename "$file")" "$file" ;;
-    esac
+    cmp "$data/$(basename "$file")" "$file"
     case $file in *.mtl) continue ;; esac
     "$faqem" simplify "$data/$(basename "$file")" "$work/simplified-$(basename "${file%.*}").glb" --ratio 0.5 --quiet
     count=$((count + 1))
