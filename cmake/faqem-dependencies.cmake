@@ -2,15 +2,15 @@
 # No include_guard: a second find_package(faqem) with more components must evaluate this file again.
 #
 # faqem_find_dependencies(COMPONENT...) finds the dependencies of components:
-#   core      header-only templates             Eigen
-#   faqem     compiled presets                  threads (Eigen while building)
+#   core                  engine templates                  Eigen
+#   faqem                 compiled presets                  threads (Eigen while building)
 #   header_only           presets as headers                Eigen, threads
+#   openmesh              OpenMesh entry point              OpenMesh
 #   openmesh_header_only  OpenMesh entry point as headers   OpenMesh, Eigen, threads
-#   openmesh  OpenMesh door                     OpenMesh
-#   asset     files                             tinygltf and OpenImageIO, hidden inside; Draco and meshoptimizer
-#                                               where FAQEM_HAS_DRACO and FAQEM_HAS_MESHOPT say so
-#   bake      baker                             as asset
-#   c         C door                            nothing: what it needs is inside it
+#   asset                 reading and writing of files      tinygltf and OpenImageIO, not in the headers; Draco and
+#                                                           meshoptimizer if FAQEM_HAS_DRACO, FAQEM_HAS_MESHOPT
+#   bake                  baker                             as asset
+#   c                     C interface                       nothing: its dependencies are linked into it
 
 # Components that a component links to.
 set(faqem_needs_openmesh faqem)
