@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "asset/image/image_codec.hpp"
 #include "cli/commands/command_line.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/shell/command_tree.hpp"
 #include "cli/shell/deprecated_names.hpp"
@@ -19,6 +21,14 @@
 namespace faqem::cli {
 
 namespace {
+
+detail::ImageCodecProvider default_image_codec_provider = nullptr;
+
+/// The default image codec. Loading it does not check for interrupts, so a signal ends the process.
+const detail::ImageCodec& load_image_codec() {
+    const ExitOnInterrupt exit_on_interrupt;
+    return default_image_codec_provider();
+}
 
 int fail(const std::exception& error) {
     std::cerr << "faqem: " << message_of(error) << "\n";
@@ -35,6 +45,7 @@ int run(const Action& action) try {
 }
 
 int parse_and_run(int argc, char** argv) {
+    default_image_codec_provider = detail::set_image_codec_provider(load_image_codec);
     CLI::App app;
     Action action;
     build_command_line(app, action);

@@ -46,7 +46,7 @@ constexpr double visibility_bytes_per_face = 400;  // per face of all instances,
 constexpr double search_factor = 1.3;  // --max-error: best mesh so far and the distance measurement
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes =
-    140e6;  // libraries loaded with the first image that is decoded or encoded (image_plugin/load.hpp)
+    140e6;  // libraries loaded with the first image that is decoded or encoded (src/image_plugin)
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
 constexpr double bake_bytes_per_layer_texel = 9;  // per texel of each texture of material extensions
 

@@ -4,5 +4,5 @@
 #include "faqem/export.hpp"
 
 extern "C" FAQEM_EXPORT const faqem::detail::ImageCodec* faqem_image_codec() {
-    return &faqem::detail::image_codec();
+    return &faqem::detail::oiio_image_codec();
 }

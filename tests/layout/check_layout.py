@@ -78,8 +78,6 @@ SMALL = {
     # Compiled in one build only.
     "src/asset/gltf/read/meshopt",
     "src/image_plugin/module",
-    "src/capi/image_codec",
-    "src/cli/image_codec",
 }
 
 

@@ -50,9 +50,7 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
 
 bool can_decode_image(const std::string& mime_type) {
     if (mime_type == "image/png" || mime_type == "image/jpeg") return true;
-    if (mime_type != "image/webp") return false;
-    static const bool has_webp = image_codec().reads_webp();
-    return has_webp;
+    return mime_type == "image/webp" && image_codec().reads_webp();
 }
 
 std::string decodable_format_names() {

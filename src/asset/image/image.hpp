@@ -24,7 +24,8 @@ FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, st
 /// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
-/// Whether decode() supports the media type: PNG and JPEG, and WebP if OpenImageIO can read it from memory.
+/// Whether decode() supports the media type: PNG and JPEG, for which the image codec is not loaded, and WebP
+/// if the codec can read it.
 bool can_decode_image(const std::string& mime_type);
 
 /// Names of the formats that decode() supports, for error messages: "PNG, JPEG and WebP" or "PNG and JPEG".

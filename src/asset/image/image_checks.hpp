@@ -1,27 +1,51 @@
 #pragma once
 /// \file
-/// Errors of encoded images, and checks of the image size.
+/// Errors of encoded images, and checks of the image size. Inline, because both the asset library and the
+/// codec libraries, which the asset library links to, use them.
 
+#include <cstdint>
 #include <string>
 
 #include "asset/image/image_size.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 
+/// Maximum size of the RGBA pixels of an image, in bytes.
+inline constexpr std::uint64_t max_decoded_bytes = std::uint64_t{1} << 30;
+
 /// Designation of an image in error messages, for example "image 'wood'".
-std::string image_title(const Image& image);
+inline std::string image_title(const Image& image) {
+    return image.name.empty() ? "image" : "image '" + image.name + "'";
+}
+
+/// The image size in error messages, for example "640 x 480".
+inline std::string image_size_text(const ImageSize& size) {
+    return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 /// Reports an error of an image.
 /// \throws InputError  always, with the file and the image
-[[noreturn]] void fail_image(const Image& image, const std::string& what);
+[[noreturn]] inline void fail_image(const Image& image, const std::string& what) {
+    throw InputError(image.uri, image_title(image), what);
+}
 
 /// Reports that the bytes of an image cannot hold its pixels.
 /// \throws InputError  always, with the file and the image
-[[noreturn]] void fail_truncated_image(const Image& image, const ImageSize& size);
+[[noreturn]] inline void fail_truncated_image(const Image& image, const ImageSize& size) {
+    fail_image(image, "is damaged: " + std::to_string(image.encoded.size()) + " bytes cannot hold " +
+                          image_size_text(size) + " pixels");
+}
 
 /// Checks the size of an image against the limits.
-/// \throws InputError  if a side is 0 or above max_image_side, or the RGBA pixels take more than 1 GiB
-void check_image_size(const Image& image, const ImageSize& size);
+/// \throws InputError  if a side is 0 or above max_image_side, or the RGBA pixels take more than
+///                     max_decoded_bytes
+inline void check_image_size(const Image& image, const ImageSize& size) {
+    if (size.width == 0 || size.height == 0 || size.width > max_image_side || size.height > max_image_side ||
+        size.pixels() * 4 > max_decoded_bytes)
+        fail_image(image, "is " + image_size_text(size) + " pixels, at most " +
+                              image_size_text({max_image_side, max_image_side}) + " are supported");
+}
 
 }  // namespace faqem::detail

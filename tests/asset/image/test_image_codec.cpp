@@ -1,0 +1,161 @@
+// The choice of the image codec.
+
+#include "asset/image/image_codec.hpp"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "asset/image/image.hpp"
+#include "faqem/error.hpp"
+#include "support/format_support.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+int provider_calls = 0;
+int decode_calls = 0;
+bool has_webp = false;
+bool provider_fails = false;
+
+bool reads_webp() { return has_webp; }
+
+Pixels decode_to_nothing(const Image&, const std::string& format, engine::CancellationCheck) {
+    ++decode_calls;
+    return {static_cast<std::uint32_t>(format.size()), 0, {}, false};
+}
+
+Image encode_png_to_name(const Pixels&, const std::string& name, engine::CancellationCheck) {
+    Image image;
+    image.name = "PNG " + name;
+    return image;
+}
+
+Image encode_jpeg_to_name(const Pixels&, const std::string& name, std::uint32_t quality, Content,
+                          engine::CancellationCheck) {
+    Image image;
+    image.name = "JPEG " + name + " " + std::to_string(quality);
+    return image;
+}
+
+constexpr detail::ImageCodec fake_codec = {"test", reads_webp, decode_to_nothing, encode_png_to_name,
+                                           encode_jpeg_to_name};
+
+const detail::ImageCodec& provide_fake() {
+    ++provider_calls;
+    if (provider_fails) throw Error("no codec");
+    return fake_codec;
+}
+
+/// Sets an image codec provider; restores the previous one at the end of the scope.
+class WithProvider {
+public:
+    explicit WithProvider(detail::ImageCodecProvider provider)
+        : previous_(detail::set_image_codec_provider(provider)) {
+        provider_calls = 0;
+        decode_calls = 0;
+        has_webp = false;
+        provider_fails = false;
+    }
+    ~WithProvider() { detail::set_image_codec_provider(previous_); }
+    WithProvider(const WithProvider&) = delete;
+    WithProvider& operator=(const WithProvider&) = delete;
+
+    detail::ImageCodecProvider previous() const { return previous_; }
+
+private:
+    detail::ImageCodecProvider previous_;
+};
+
+Image image_of(const std::string& bytes) {
+    Image image;
+    image.encoded.assign(bytes.begin(), bytes.end());
+    return image;
+}
+
+/// The bytes of a PNG of 1 x 1 pixels up to the end of its header.
+Image png_header() {
+    using namespace std::string_literals;
+    return image_of("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\2\0\0\0\x90\x77\x53\xde"s);
+}
+
+/// The bytes of a lossy WebP of 1 x 1 pixels up to the end of its header.
+Image webp_header() {
+    using namespace std::string_literals;
+    return image_of("RIFF\x16\0\0\0WEBPVP8 \x0a\0\0\0\x10\0\0\x9d\x01\x2a\1\0\1\0"s);
+}
+
+}  // namespace
+
+TEST_CASE("the default image codec of faqem::asset uses OpenImageIO") {
+    const WithProvider fake(provide_fake);
+    CHECK(fake.previous() == &detail::oiio_image_codec);
+}
+
+TEST_CASE("the image codec provider is called once, when the codec is needed") {
+    const WithProvider fake(provide_fake);
+    CHECK(provider_calls == 0);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) threads.emplace_back([] { encode_png({}, "a"); });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(encode_png({}, "a").name == "PNG a");
+    CHECK(encode_jpeg({}, "b", 90, Content::data).name == "JPEG b 90");
+    CHECK(decode(png_header()).width == 3);  // "png"
+    CHECK(decode_calls == 1);
+    CHECK(provider_calls == 1);
+}
+
+TEST_CASE("setting the image codec provider switches the codec") {
+    const Pixels pixels{1, 1, {1, 2, 3, 255}, false};
+    const Image before = encode_png(pixels, "a");
+    {
+        const WithProvider fake(provide_fake);
+        CHECK(encode_png(pixels, "a").name == "PNG a");
+        CHECK(detail::set_image_codec_provider(detail::oiio_image_codec) == &provide_fake);
+        CHECK(encode_png(pixels, "a").encoded == before.encoded);
+        CHECK(detail::set_image_codec_provider(provide_fake) == &detail::oiio_image_codec);
+        CHECK(encode_png(pixels, "a").name == "PNG a");
+        CHECK(provider_calls == 2);
+    }
+    CHECK(encode_png(pixels, "a").encoded == before.encoded);
+}
+
+TEST_CASE("an image codec provider that throws is called again") {
+    const WithProvider fake(provide_fake);
+    provider_fails = true;
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_WITH(encode_png({}, "a"), "no codec");
+    CHECK_THROWS_WITH(decode(png_header()), "no codec");
+    CHECK(provider_calls == 3);
+    provider_fails = false;
+    CHECK(encode_png({}, "a").name == "PNG a");
+    CHECK(encode_png({}, "a").name == "PNG a");
+    CHECK(provider_calls == 4);
+}
+
+TEST_CASE("PNG and JPEG are known to be supported without the image codec, WebP is not") {
+    const WithProvider fake(provide_fake);
+    CHECK(detail::can_decode_image("image/png"));
+    CHECK(detail::can_decode_image("image/jpeg"));
+    CHECK_FALSE(detail::can_decode_image("image/ktx2"));
+    CHECK(provider_calls == 0);
+    CHECK_FALSE(detail::can_decode_image("image/webp"));
+    CHECK(provider_calls == 1);
+    CHECK_THROWS_WITH(decode(webp_header()),
+                      Catch::Contains("image/webp is not supported; only PNG and JPEG are supported"));
+    CHECK(decode_calls == 0);
+    has_webp = true;
+    CHECK(detail::can_decode_image("image/webp"));
+    CHECK(detail::decodable_format_names() == "PNG, JPEG and WebP");
+    CHECK(decode(webp_header()).width == 4);  // "webp"
+    CHECK(provider_calls == 1);
+}
+
+TEST_CASE("the header of an image is checked before the image codec is needed") {
+    const WithProvider fake(provide_fake);
+    CHECK_THROWS_AS(decode(image_of("\x89PNG\r\n\x1a\n")), InputError);
+    CHECK(provider_calls == 0);
+}
