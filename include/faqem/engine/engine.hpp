@@ -307,6 +307,7 @@ private:
         if (curves_) curves_->before_collapse(survivor, removed);
         if (boundary_loops_) boundary_loops_->before_collapse(pairs_, survivor, removed, pair);
         mesh_.collapse(survivor, removed, p);
+        legality_.after_collapse(mesh_, survivor);
         locked_[survivor] |= locked_[removed];
         killed_.clear();
         pairs_.merge(mesh_, survivor, removed, killed_, changes_);

@@ -155,15 +155,3 @@ TEST_CASE("face normals and areas are correct after collapses and removals") {
         CHECK((collapse_mesh.normal(face) * area_vector.norm() - area_vector).norm() < 1e-12);
     }
 }
-
-TEST_CASE("a vertex has a narrow normal cone if its normals are at most 120 degrees apart") {
-    // Two faces at a ridge, with an increasing angle between their normals.
-    for (const double half : {10.0, 40.0, 59.0, 61.0, 80.0}) {
-        const double x = std::sin(half * test::pi / 180), z = std::cos(half * test::pi / 180);
-        // The face normals are (x, 0, z) and (-x, 0, z).
-        const CollapseMesh roof({{0, 0, 0}, {0, 1, 0}, {z, 0.5, -x}, {-z, 0.5, -x}}, {{0, 2, 1}, {0, 1, 3}});
-        CHECK(roof.normal(0).dot(roof.normal(1)) == Approx(std::cos(2 * half * test::pi / 180)));
-        CHECK(roof.has_narrow_normal_cone(0) == (half < 60));
-    }
-    CHECK(test::collapse_mesh_of(test::grid(2)).has_narrow_normal_cone(4));
-}

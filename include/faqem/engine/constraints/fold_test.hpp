@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/mesh/normal_cones.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -20,8 +21,7 @@ struct MovedFace {
     double normal_cosine;  ///< cosine between the old and the new normal
 };
 
-/// Compares the number of folds before and after a collapse. Contains only temporary memory. Not
-/// thread-safe.
+/// Compares the number of folds before and after a collapse. Belongs to one mesh. Not thread-safe.
 class FoldTest {
 public:
     /// \param mesh  used for its number of vertex slots
@@ -43,7 +43,7 @@ public:
         for (const MovedFace& moved : moved_faces) {
             const auto [lower, higher] = mesh.lower_degree_first(moved.a, moved.b);
             if (moved.normal_cosine > safe_cosine &&
-                (mesh.has_narrow_normal_cone(lower) || mesh.has_narrow_normal_cone(higher)))
+                (cones_.is_narrow(mesh, lower) || cones_.is_narrow(mesh, higher)))
                 continue;
             if (const Index g = opposite_face(mesh, moved); g != no_index) {
                 const Vector3 other = (mesh.has_directed_edge(g, moved.a, moved.b) ? -1 : 1) * mesh.normal(g);
@@ -56,6 +56,10 @@ public:
         return after > before + count_folds_at(mesh, u, no_index, min_cosine) +
                            count_folds_at(mesh, v, u, min_cosine);
     }
+
+    /// To be called after each collapse.
+    /// \param survivor  the vertex that remains
+    void after_collapse(const CollapseMesh& mesh, Index survivor) { cones_.after_collapse(mesh, survivor); }
 
 private:
     // The other face of edge (a, b); no_index unless there is exactly one.
@@ -134,6 +138,7 @@ private:
     std::vector<MovedFace> current_faces_;
     std::vector<EdgeNormals> edges_;
     std::vector<std::uint32_t> mark_;  // scratch: 1 + index in edges_, else 0
+    NormalCones cones_;
 };
 
 }  // namespace engine

@@ -30,11 +30,10 @@ struct Rules {
     double min_fold_cosine = -1;
 };
 
-/// Tests whether a collapse is legal. Contains only temporary memory: 8 bytes per vertex slot. Not
-/// thread-safe.
+/// Tests whether a collapse is legal. Belongs to one mesh; 8 bytes per vertex slot. Not thread-safe.
 class Legality {
 public:
-    /// \param mesh  used for its number of vertex slots; any mesh with the same slots can be tested
+    /// \param mesh  used for its number of vertex slots; the mesh of all later calls
     explicit Legality(const CollapseMesh& mesh) : folds_(mesh), mark_(mesh.vertex_slots(), 0) {}
 
     /// Tests whether (u, v) may be collapsed to a point. O(valence of u and v), except for duplicate faces
@@ -57,6 +56,10 @@ public:
             return Refusal::fold;
         return std::nullopt;
     }
+
+    /// To be called after each collapse.
+    /// \param survivor  the vertex that remains
+    void after_collapse(const CollapseMesh& mesh, Index survivor) { folds_.after_collapse(mesh, survivor); }
 
 private:
     // Tests the faces of `moved` that do not contain `partner`: none may flip or lose its area (Sec. 3.3 of

@@ -26,8 +26,7 @@ inline constexpr std::size_t max_faces = 715'827'880;
 ///
 /// Lists are cleaned up lazily: the corner of a removed face stays in the list of a vertex until that
 /// vertex survives a collapse, so that removing a face at a vertex of valence n takes O(1), not O(n).
-///
-/// Not thread-safe: has_narrow_normal_cone() is const but updates a cache.
+/// Const functions may run on several threads at once.
 class CollapseMesh {
 public:
     /// Builds the mesh. O(vertices + faces)
@@ -39,7 +38,7 @@ public:
     CollapseMesh(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles,
                  CancellationCheck check_cancelled = {}) {
         vertices_.reserve(positions.size());
-        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), {}, 0, no_index});
+        for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), {}, 0});
         faces_.resize(triangles.size());
         for (Index f = 0; f < faces_.size(); ++f) {
             check_cancelled();
@@ -140,18 +139,8 @@ public:
     /// Area of f.
     double area(Index f) const { return faces_[f].area; }
 
-    /// Whether no two face normals at v are more than 120 degrees apart. The test is conservative: it may
-    /// return false although none are. O(1) if all normals are within about 30 degrees, otherwise
-    /// O(valence); the result is cached for high-valence vertices.
-    bool has_narrow_normal_cone(Index v) const {
-        const Vertex& vertex = vertices_[v];
-        // The sum of two unit normals more than 120 degrees apart is shorter than 1, so that the sum of all
-        // normals is shorter than their number minus 1.
-        const double square = vertex.normals.squaredNorm();
-        const double max_length = static_cast<double>(vertex.degree) - 1 + 1e-6;
-        if (vertex.degree > 0 && square > max_length * max_length) return true;
-        return is_high_valence(v) ? has_narrow_cached_cone(v) : has_normals_within_one_cone(v);
-    }
+    /// Sum of the unit normals of the faces at v.
+    const Vector3& normal_sum(Index v) const { return vertices_[v].normals; }
 
     /// Number of faces with the vertices a, b and c, in any winding. O(smallest valence of the three)
     std::uint32_t count_faces_with(Index a, Index b, Index c) const {
@@ -194,7 +183,6 @@ public:
         for_each_face(survivor, keep);
         for_each_face(removed, keep);
         corners_.assign(to.corners, kept_);
-        if (to.cone != no_index) normal_cones_[to.cone] = {};
         to.position = p;
         to.normals = Vector3::Zero();
         to.degree += from.degree;
@@ -213,52 +201,12 @@ public:
     }
 
 private:
-    // Cached normal cone of a high-valence vertex.
-    struct NormalCone {
-        bool is_narrow = false;  ///< all normals are within 60 degrees of `axis`
-        Vector3 axis = Vector3::Zero();
-        Index outside_face = no_index;  ///< a face whose normal was outside the cone
-    };
-    // Normals within 60 degrees of one direction are at most 120 degrees apart.
-    bool has_normals_within_one_cone(Index v) const {
-        const Vector3& axis = vertices_[v].normals;
-        return all_of_faces(v, [&](Index f, unsigned) { return is_within_60_degrees(axis, normal(f)); });
-    }
-
-    static bool is_within_60_degrees(const Vector3& direction, const Vector3& normal) {
-        const double along = normal.dot(direction);
-        return along > 0 && along * along > 0.25 * direction.squaredNorm();
-    }
-
-    // set_normal() compares new normals with the axis cached here, so that the others need not be visited
-    // while all of them are inside the cone. A face that was outside is tested first.
-    bool has_narrow_cached_cone(Index v) const {
-        const Vertex& vertex = vertices_[v];
-        if (vertex.cone == no_index) {
-            vertex.cone = static_cast<Index>(normal_cones_.size());
-            normal_cones_.emplace_back();
-        }
-        NormalCone& cone = normal_cones_[vertex.cone];
-        if (cone.is_narrow) return true;
-        const Index f = cone.outside_face;
-        if (f != no_index && has_corner(f, v) && !is_within_60_degrees(vertex.normals, normal(f)))
-            return false;
-        cone = {true, vertex.normals, no_index};
-        all_of_faces(v, [&](Index g, unsigned) {
-            cone.is_narrow = is_within_60_degrees(vertex.normals, normal(g));
-            if (!cone.is_narrow) cone.outside_face = g;
-            return cone.is_narrow;
-        });
-        return cone.is_narrow;
-    }
-
     // Data that is used together, in one cache line.
     struct alignas(64) Vertex {
         Vector3 position;
         Vector3 normals;    ///< sum of the unit normals of the faces
         IndexList corners;  ///< 4 * face + (0, 1 or 2); includes removed faces
         std::uint32_t degree;
-        mutable Index cone = no_index;  ///< index into normal_cones_, or no_index
     };
     struct Face {
         Triangle corners;
@@ -273,11 +221,6 @@ private:
         face.area = length > 0 ? 0.5 * length : 0;
         face.normal = length > 0 ? Vector3(face.normal / length) : Vector3::Zero();
         add_normal(f, 1);
-        for (const Index v : face.corners) {
-            if (vertices_[v].cone == no_index) continue;
-            NormalCone& cone = normal_cones_[vertices_[v].cone];
-            if (cone.is_narrow) cone.is_narrow = is_within_60_degrees(cone.axis, face.normal);
-        }
     }
 
     void add_normal(Index f, double sign) {
@@ -286,7 +229,6 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Face> faces_;
-    mutable std::vector<NormalCone> normal_cones_;  // computed on demand
     std::size_t face_count_ = 0;
     IndexLists corners_;
     std::vector<Index> kept_;  // scratch: corners of the survivor

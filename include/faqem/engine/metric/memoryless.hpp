@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/mesh/normal_cones.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/export.hpp"
 
@@ -98,6 +99,7 @@ public:
 
     void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
                         std::span<const PairTable::Change> around) {
+        cones_.after_collapse(mesh, survivor);
         vertex_planes_[survivor] = {};
         mesh.for_each_face(survivor, [&](Index f, unsigned) { add_face(mesh, f, no_index, no_index, 1); });
         update_edge_planes(mesh, pairs, survivor);
@@ -176,10 +178,10 @@ private:
         edge_planes_[v] = q;
     }
 
-    bool has_regular_edges_only(const CollapseMesh& mesh, const PairTable& pairs, Index v) const {
+    bool has_regular_edges_only(const CollapseMesh& mesh, const PairTable& pairs, Index v) {
         if (pairs.boundary_degree(v) + pairs.nonmanifold_degree(v) > 0) return false;
         if (curves_ && curves_->has_vertex(v)) return false;
-        return !(weights_.fold_edge > 0) || mesh.has_narrow_normal_cone(v);
+        return !(weights_.fold_edge > 0) || cones_.is_narrow(mesh, v);
     }
 
     // As update_edge_planes(), if only the faces shared by v and u have changed.
@@ -314,6 +316,7 @@ private:
     std::vector<Planes> edge_planes_;  // per vertex: sum of the planes along its edges
     // Per high-valence vertex with such edges: their other ends, ascending.
     std::map<Index, std::vector<Index>> high_valence_edges_;
+    NormalCones cones_;
 };
 
 static_assert(CollapseMetric<MemorylessMetric>);
