@@ -9,7 +9,8 @@ docs/architecture.md describes the order. The checks:
   * the engine includes no public header but plain data, and no library but Eigen;
   * a folder has at most 20 subjects (x.hpp, x.cpp and x-inl.hpp are one);
   * a file has at most 450 lines, and a subject of src or detail at least 40, unless it is in SMALL;
-  * every folder in ORDER exists, and every folder with sources is in ORDER.
+  * every folder in ORDER exists, and every folder with sources is in ORDER;
+  * no two types at namespace scope have the same name.
 """
 import collections
 import pathlib
@@ -80,6 +81,9 @@ SMALL = {
     "src/image_plugin/module",
 }
 
+# Definition of a type at namespace scope, which is not indented. Nested types ("struct Bvh::Range") do not count.
+TYPE = re.compile(r"^(?:struct|class|enum class) (?:FAQEM_\w+ )?(?:alignas\(\d+\) )?(\w+)(?: final)?(?: :(?!:)[^;]*)? \{", re.M)
+
 
 def include_lines(path):
     """Yields (text in the brackets, True if it is one of the bodies at the end of a header)."""
@@ -97,6 +101,7 @@ def main():
     rank = {folder: number for number, folders in enumerate(ORDER) for folder in folders}
     problems = []
     subjects = collections.defaultdict(lambda: collections.defaultdict(int))
+    types = collections.defaultdict(set)
     files = [path for root in ("include", "src") for path in sorted((source / root).rglob("*"))
              if path.suffix in (".hpp", ".cpp", ".h")]
     for path in files:
@@ -105,7 +110,10 @@ def main():
         if folder not in rank:
             problems.append(f"{name}: the folder {folder} is not in the order of tests/layout/check_layout.py")
             continue
-        lines = len(path.read_text(encoding="utf-8").splitlines())
+        text = path.read_text(encoding="utf-8")
+        for type_name in TYPE.findall(text):
+            types[type_name].add(name)
+        lines = len(text.splitlines())
         subjects[folder][re.sub(r"(-inl)?\.[a-z]+$", "", path.name)] += lines
         if lines > MAX_LINES:
             problems.append(f"{name}: {lines} lines, more than {MAX_LINES}")
@@ -131,6 +139,9 @@ def main():
                 continue
             if below in rank and not rank[below] < rank[folder]:
                 problems.append(f"{name} includes {included}: {below} does not come before {folder}")
+    for type_name, names in types.items():
+        if len(names) > 1:
+            problems.append(f"the type {type_name} is defined in {' and '.join(sorted(names))}")
     for folder in rank:
         if folder not in subjects:
             problems.append(f"{folder} is in the order and has no sources")

@@ -13,20 +13,20 @@ namespace faqem {
 namespace detail {
 namespace {
 
-struct ImageFormat {
+struct FileSignature {
     std::string_view magic;
     std::size_t magic_offset;
     const char* mime_type;
     const char* extension;
 };
 
-constexpr std::array<ImageFormat, 7> image_formats = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
-                                                       {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
-                                                       {{"WEBP", 4}, 8, "image/webp", ".webp"},
-                                                       {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
-                                                       {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
-                                                       {{"GIF8", 4}, 0, "image/gif", ".gif"},
-                                                       {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
+constexpr std::array<FileSignature, 7> file_signatures = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+                                                           {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
+                                                           {{"WEBP", 4}, 8, "image/webp", ".webp"},
+                                                           {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+                                                           {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
+                                                           {{"GIF8", 4}, 0, "image/gif", ".gif"},
+                                                           {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
 /// Checks the size in the header before a decoder is called: decoders allocate memory according to the
 /// header, some of them as soon as they open an image.
@@ -41,7 +41,7 @@ void check_header(const Image& image) {
 
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (const ImageFormat& kind : image_formats)
+    for (const FileSignature& kind : file_signatures)
         if (text.size() >= kind.magic_offset &&
             text.substr(kind.magic_offset, kind.magic.size()) == kind.magic)
             return kind.mime_type;
@@ -58,7 +58,7 @@ std::string decodable_format_names() {
 }
 
 std::string file_extension(const std::string& mime_type) {
-    for (const ImageFormat& kind : image_formats)
+    for (const FileSignature& kind : file_signatures)
         if (mime_type == kind.mime_type) return kind.extension;
     return ".bin";
 }

@@ -16,7 +16,7 @@ using engine::Vector3;
 constexpr double max_distance = 1.5;  // texels
 
 // A boundary edge of the chart, on the page and on the surface.
-struct BoundaryEdge {
+struct ChartBoundaryEdge {
     Point2 a, b;  // texels
     Vector3 surface_a, surface_b;
     double density;  // texels per unit of length
@@ -30,9 +30,9 @@ struct BoundaryEdge {
 };
 
 // The boundary edges of a chart, face by face.
-std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart,
-                                         engine::CancellationCheck check_cancelled) {
-    std::vector<BoundaryEdge> edges;
+std::vector<ChartBoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart,
+                                              engine::CancellationCheck check_cancelled) {
+    std::vector<ChartBoundaryEdge> edges;
     for (std::size_t i = 0; i < chart.faces.size(); ++i) {
         check_cancelled();
         const ChartFace& face = all[chart.faces[i]];
@@ -50,7 +50,7 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const ChartFace> all, const C
 
 // Whether points of s are about as far from t on the surface as on the page. Tests the ends of s and, if only
 // one of them is closer to t than max_distance, the point in between where the distance reaches max_distance.
-bool has_clearance(const BoundaryEdge& s, const BoundaryEdge& t) {
+bool has_clearance(const ChartBoundaryEdge& s, const ChartBoundaryEdge& t) {
     const auto distance = [&](double at) {
         const Point2 p = s.page_point(at);
         return length(t.page_point(t.closest(p)) - p);
@@ -71,10 +71,10 @@ bool has_clearance(const BoundaryEdge& s, const BoundaryEdge& t) {
 
 bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
                             engine::CancellationCheck check_cancelled) {
-    const std::vector<BoundaryEdge> edges = boundary_edges(all, chart, check_cancelled);
+    const std::vector<ChartBoundaryEdge> edges = boundary_edges(all, chart, check_cancelled);
     std::vector<Box2> boxes;
     boxes.reserve(edges.size());
-    for (const BoundaryEdge& s : edges) {
+    for (const ChartBoundaryEdge& s : edges) {
         check_cancelled();
         boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_distance / 2));
     }

@@ -25,7 +25,7 @@ struct SharedBoundary {
     double length;  // total length of the shared edges that are not creases
 };
 
-struct Region {
+struct FaceRegion {
     double area = 0, perimeter = 0;
     Vector3 normal = Vector3::Zero();  // sum of the area vectors
     double min_density = 0, max_density = 0;
@@ -64,7 +64,7 @@ public:
             check_cancelled_();
             const Merge m = queue_.top();
             queue_.pop();
-            const Region &a = regions_[m.a], &b = regions_[m.b];
+            const FaceRegion &a = regions_[m.a], &b = regions_[m.b];
             if (a.is_merged || b.is_merged || a.version != m.version_a || b.version != m.version_b) continue;
             merge(m.a, m.b);
         }
@@ -90,7 +90,7 @@ private:
         const ChartFace& face = faces[f];
         std::array<Vector3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
-        Region& region = regions_[f];
+        FaceRegion& region = regions_[f];
         region.normal = engine::area_vector(p[0], p[1], p[2]) / 2;
         region.area = region.normal.norm();
         region.min_density = region.max_density = face.density;
@@ -118,7 +118,7 @@ private:
         neighbours.resize(kept);
     }
 
-    static double shared_length(const Region& region, Index other) {
+    static double shared_length(const FaceRegion& region, Index other) {
         const auto found = std::lower_bound(region.neighbours.begin(), region.neighbours.end(), other,
                                             [](const SharedBoundary& s, Index r) { return s.region < r; });
         return found->length;
@@ -127,7 +127,7 @@ private:
     void enqueue_merge(Index i, Index j) {
         check_cancelled_();
         if (i > j) std::swap(i, j);
-        const Region &a = regions_[i], &b = regions_[j];
+        const FaceRegion &a = regions_[i], &b = regions_[j];
         const double shared = shared_length(a, j);
         if (!(shared > 0)) return;
         const double area = a.area + b.area;
@@ -144,7 +144,7 @@ private:
     void merge(Index i, Index j) {
         // The region with more neighbours is kept, so that fewer neighbour lists have to be updated.
         if (regions_[i].neighbours.size() < regions_[j].neighbours.size()) std::swap(i, j);
-        Region &a = regions_[i], &b = regions_[j];
+        FaceRegion &a = regions_[i], &b = regions_[j];
         a.perimeter += b.perimeter - 2 * shared_length(a, j);
         a.area += b.area;
         a.normal += b.normal;
@@ -177,7 +177,7 @@ private:
         return f;
     }
 
-    std::vector<Region> regions_;
+    std::vector<FaceRegion> regions_;
     std::vector<Index> parent_;
     std::priority_queue<Merge> queue_;
     engine::CancellationCheck check_cancelled_;

@@ -80,12 +80,12 @@ std::array<double, 3> srgb(const detail::LinearColor& premultiplied) {
     return c;
 }
 
-struct Sums {
+struct ColorErrorSums {
     double squared = 0;
     std::uint64_t seen = 0, outliers = 0, unmatched = 0;
 };
 
-void add_sample(Sums& sums, const Model& from, const Model& to, const detail::RandomSample& s) {
+void add_sample(ColorErrorSums& sums, const Model& from, const Model& to, const detail::RandomSample& s) {
     const detail::LinearColor here = from.color(s.face, s.barycentric);
     if (from.masked_out(s.face, here[3])) return;
     const Vector3& normal = from.face_normals[s.face];
@@ -104,14 +104,14 @@ void add_sample(Sums& sums, const Model& from, const Model& to, const detail::Ra
 
 OneSidedColors one_sided(const Model& from, const Model& to, const CompareOptions& options,
                          std::uint64_t seed) {
-    std::vector<Sums> sums((options.samples + block - 1) / block);
+    std::vector<ColorErrorSums> sums((options.samples + block - 1) / block);
     detail::parallel_blocks(options.samples, block, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             add_sample(sums[begin / block], from, to, sample(from.surface, i, options.samples, seed));
         }
     });
-    Sums total;
-    for (const Sums& s : sums) {
+    ColorErrorSums total;
+    for (const ColorErrorSums& s : sums) {
         total.squared += s.squared;
         total.seen += s.seen;
         total.outliers += s.outliers;

@@ -20,14 +20,14 @@ namespace faqem::cli {
 
 namespace {
 
-struct Arguments : SimplifyArguments {
+struct BatchArguments : SimplifyArguments {
     std::string in, out, format = "glb";
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
     bool resume = false, force = false;
 };
 
-int run(const Arguments& arguments) {
+int run(const BatchArguments& arguments) {
     Options options = make_options(arguments);
     const std::string extension = extension_of_format(arguments.format);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
@@ -68,7 +68,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_batch_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BatchArguments>();
     CLI::App* command = app.add_subcommand(
         "batch", "Simplify all models of a directory, several at a time; prints one line of JSON per model");
     command->add_option("DIR", arguments->in, "Directory of the models; subdirectories are included")

@@ -14,7 +14,7 @@ namespace faqem::cli {
 
 namespace {
 
-struct Arguments {
+struct CompareArguments {
     std::string a, b;
     CompareOptions options;
 };
@@ -42,7 +42,7 @@ Json colors_json(const std::optional<ColorComparison>& colors) {
             {"b_to_a", one_sided_json(colors->b_to_a)}};
 }
 
-int run(const Arguments& arguments) {
+int run(const CompareArguments& arguments) {
     const FlattenedModel a = load_flattened(arguments.a), b = load_flattened(arguments.b);
     const ModelComparison comparison = compare_models(a, b, arguments.options);
     if (!comparison.colors_warning.empty())
@@ -73,7 +73,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = app.add_subcommand(
         "compare", "Print two-sided distances and colour differences between two models as JSON");
     command->add_option("A", arguments->a, "The original; *_rel values are relative to its diagonal")

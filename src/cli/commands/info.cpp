@@ -148,11 +148,11 @@ void print_text(const std::string& file, const AssetInfo& asset) {
 }  // namespace
 
 void add_info_command(CLI::App& app, Action& action) {
-    struct Arguments {
+    struct InfoArguments {
         std::string file;
         bool json = false;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Count and measure the contents of a file");
     command->add_option("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
     command->add_flag("--json", arguments->json, "Print JSON instead of text");

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : SimplifyArguments {
+struct LodArguments : SimplifyArguments {
     std::string in, out, history, format = "glb", textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
@@ -44,7 +44,7 @@ struct Arguments : SimplifyArguments {
 /// Paths of the output files: a model for each level, the original first unless --without-original is given,
 /// and the manifest. With --one-file the paths of all levels are equal.
 struct Outputs {
-    explicit Outputs(const Arguments& a) {
+    explicit Outputs(const LodArguments& a) {
         const std::string extension = extension_of_format(a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
         if (a.one_file && extension != ".glb" && extension != ".gltf")
@@ -61,7 +61,7 @@ struct Outputs {
 
 /// Checks the options of --textures shared. The library checks them too; these messages name the command's
 /// options.
-void check_shared_textures(const Arguments& a, const Options& options) {
+void check_shared_textures(const LodArguments& a, const Options& options) {
     if (a.level_textures() != LevelTextures::shared) return;
     if (!a.history.empty())
         throw OptionError(
@@ -75,7 +75,7 @@ void check_shared_textures(const Arguments& a, const Options& options) {
             "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
 }
 
-void check_outputs(const Arguments& a, const Outputs& outputs) {
+void check_outputs(const LodArguments& a, const Outputs& outputs) {
     for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
     check_output(outputs.manifest, {a.in}, a.overwrite());
     if (a.history.empty()) return;
@@ -89,7 +89,7 @@ void check_outputs(const Arguments& a, const Outputs& outputs) {
 }
 
 /// Writes the histories of all parts one after the other, each with all levels.
-void write_histories(const Arguments& a, const std::vector<SimplifiedPartsLevel>& levels) {
+void write_histories(const LodArguments& a, const std::vector<SimplifiedPartsLevel>& levels) {
     std::ostringstream out;
     for (std::size_t p = 0; p < levels.front().result.parts.size(); ++p) {
         std::vector<CollapseHistory> histories;
@@ -100,7 +100,7 @@ void write_histories(const Arguments& a, const std::vector<SimplifiedPartsLevel>
     write_output(a.history, out.view(), a.overwrite());
 }
 
-void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) {
+void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& levels) {
     std::ostringstream out;
     out << a.in << " -> " << a.out << "\n";
     for (const WrittenLevel& level : levels) {
@@ -113,7 +113,7 @@ void print_summary(const Arguments& a, const std::vector<WrittenLevel>& levels) 
 /// Creates the levels and saves each one when it is ready; with --one-file, saves all levels at the end.
 class LodWriter {
 public:
-    LodWriter(const Arguments& arguments, const Outputs& outputs, const Asset& source,
+    LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
               const std::vector<Level>& levels, const Options& options)
         : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
 
@@ -224,7 +224,7 @@ private:
                                       view_settings.pixel_error / view_settings.screen_height);
     }
 
-    const Arguments& arguments_;
+    const LodArguments& arguments_;
     const Outputs& outputs_;
     const Asset& source_;
     const std::vector<Level>& levels_;
@@ -236,7 +236,7 @@ private:
     detail::SceneSize size_;
 };
 
-int run(const Arguments& arguments) {
+int run(const LodArguments& arguments) {
     Options options = make_options(arguments);
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels)
@@ -283,7 +283,7 @@ void add_view_options(CLI::App& command, ViewSettings& view_settings) {
 }  // namespace
 
 void add_lod_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<LodArguments>();
     CLI::App* command =
         app.add_subcommand("lod", "Create a chain of levels of detail with textures and measured errors");
     command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();

@@ -15,13 +15,13 @@ namespace faqem::cli {
 
 namespace {
 
-struct Arguments {
+struct RenderArguments {
     std::vector<std::string> files;  ///< the models, then the output image
     std::uint32_t size = 480, views = 4;
     bool unlit = false, wireframe = false, force = false;
 };
 
-int run(const Arguments& arguments) {
+int run(const RenderArguments& arguments) {
     const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
     const std::string& out = arguments.files.back();
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
@@ -49,7 +49,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_render_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "Render models below each other with the same cameras");
     command->add_option("FILES", arguments->files, "Models, then the output image: A [B ...] OUT.png")
         ->required()

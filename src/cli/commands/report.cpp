@@ -30,7 +30,7 @@ constexpr double color_limit_quantile = 0.995;
 /// Limit for both models together. Browsers fail to load larger pages.
 constexpr std::uint64_t max_viewer_bytes = 256'000'000;
 
-struct Arguments {
+struct ReportArguments {
     std::string a, b, out;
     std::uint32_t size = 320, views = 4;
     CompareOptions options;
@@ -51,7 +51,7 @@ Image contact_sheet_png(std::vector<render::ContactSheetRow> rows,
 }
 
 /// Renders three images as `faqem render` does: the models, the models with edges, and the heat maps.
-std::vector<Picture> draw_pictures(const Arguments& arguments, const FlattenedModel& a,
+std::vector<Picture> draw_pictures(const ReportArguments& arguments, const FlattenedModel& a,
                                    const FlattenedModel& b, const ErrorSurface& error_a,
                                    const ErrorSurface& error_b, double limit) {
     std::vector<render::Scene> scenes, errors;
@@ -76,7 +76,7 @@ std::vector<Picture> draw_pictures(const Arguments& arguments, const FlattenedMo
 }
 
 /// Returns the data of the 3D view. Returns nothing and adds a note to the page if the view is not available.
-std::optional<ViewerData> make_viewer_data(const Arguments& arguments, const FlattenedModel& a,
+std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, const FlattenedModel& a,
                                            const FlattenedModel& b, const ErrorSurface& error_a,
                                            const ErrorSurface& error_b, ReportPage& page, double limit,
                                            double max_distance) {
@@ -99,7 +99,7 @@ std::optional<ViewerData> make_viewer_data(const Arguments& arguments, const Fla
     return view;
 }
 
-int run(const Arguments& arguments) {
+int run(const ReportArguments& arguments) {
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     check_extension(arguments.out, {".html", ".htm"});
     check_output(arguments.out, {arguments.a, arguments.b}, overwrite);
@@ -132,7 +132,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_report_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand(
         "report", "Compare two models on an HTML page with a 3D view, figures, pictures and a heat map");
     command->add_option("A", arguments->a, "The original")->required();

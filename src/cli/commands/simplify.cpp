@@ -32,7 +32,7 @@ namespace {
 using detail::Stopwatch;
 
 /// The parsed command line.
-struct Arguments : SimplifyArguments {
+struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
     std::uint64_t max_bytes = 0;   ///< 0: unlimited
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
@@ -42,7 +42,7 @@ struct Arguments : SimplifyArguments {
 };
 
 /// Checks all output files before the work starts, which may take hours.
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const SimplifyCommandArguments& arguments) {
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
     std::vector<std::filesystem::path> taken = {arguments.in};
     for (const std::string& file :
@@ -58,13 +58,14 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-void write_histories(const Arguments& arguments, const std::vector<CollapseHistory>& histories) {
+void write_histories(const SimplifyCommandArguments& arguments,
+                     const std::vector<CollapseHistory>& histories) {
     std::ostringstream out;
     for (const CollapseHistory& history : histories) write(history, out);
     write_output(arguments.history, out.view(), arguments.overwrite());
 }
 
-void write_correspondence(const Arguments& arguments, const std::vector<PageOrigins>& pages) {
+void write_correspondence(const SimplifyCommandArguments& arguments, const std::vector<PageOrigins>& pages) {
     std::ostringstream out;
     write(pages, out);
     write_output(arguments.correspondence, out.view(), arguments.overwrite());
@@ -87,7 +88,7 @@ void print_counts(std::ostream& out, const Report& report) {
     if (separator == ", ") out << "\n";
 }
 
-void print_summary(const Arguments& arguments, const Report& report) {
+void print_summary(const SimplifyCommandArguments& arguments, const Report& report) {
     std::ostringstream out;
     out << arguments.in << " -> " << arguments.out << "\n"
         << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
@@ -106,7 +107,7 @@ void print_summary(const Arguments& arguments, const Report& report) {
     std::cout << out.str();
 }
 
-Asset load_input(const Arguments& arguments, PhaseSeconds& seconds) {
+Asset load_input(const SimplifyCommandArguments& arguments, PhaseSeconds& seconds) {
     const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
     Asset asset = load_model(arguments.in, arguments.strictness());
@@ -121,7 +122,7 @@ int cancelled() {
 
 /// Writes the history, the correspondence and then the model. The report is written later, because it has the
 /// time that saving took.
-void save_result(const Arguments& arguments, SimplifiedAsset& simplified) {
+void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified) {
     const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
@@ -133,14 +134,14 @@ void save_result(const Arguments& arguments, SimplifiedAsset& simplified) {
     simplified.report.seconds.save = watch.seconds();
 }
 
-std::optional<ByteBudget> byte_budget(const Arguments& arguments) {
+std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments) {
     if (arguments.max_bytes == 0) return std::nullopt;
     return ByteBudget{arguments.max_bytes, arguments.out,
                       arguments.image_format.empty() ? ImageEncodingChoice::automatic
                                                      : ImageEncodingChoice::user_specified};
 }
 
-int run(const Arguments& arguments) {
+int run(const SimplifyCommandArguments& arguments) {
     Options options = make_options(arguments);
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
@@ -184,7 +185,7 @@ int run(const Arguments& arguments) {
     return rejection;
 }
 
-void add_run_options(CLI::App& command, Arguments& a) {
+void add_run_options(CLI::App& command, SimplifyCommandArguments& a) {
     command
         .add_option(
             "--max-bytes", a.max_bytes,
@@ -214,7 +215,7 @@ void add_run_options(CLI::App& command, Arguments& a) {
 }  // namespace
 
 void add_simplify_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SimplifyCommandArguments>();
     CLI::App* command =
         app.add_subcommand("simplify", "Simplify a model and bake its appearance into a new texture");
     command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();

@@ -20,7 +20,7 @@ namespace faqem::cli {
 
 namespace {
 
-struct Arguments : SimplifyArguments {
+struct TruncateArguments : SimplifyArguments {
     std::string history, out, source;
     bool force = false, quiet = false;
 
@@ -58,7 +58,7 @@ Asset geometry_only(const SimplifiedParts& simplified_parts) {
     return bake(original, simplified_parts, geometry_options).asset;
 }
 
-Asset baked_model(const Arguments& arguments, const SimplifiedParts& simplified_parts,
+Asset baked_model(const TruncateArguments& arguments, const SimplifiedParts& simplified_parts,
                   const Options& options) {
     const Asset source = load_model(arguments.source, arguments.strictness());
     Options bake_options = options;
@@ -69,7 +69,7 @@ Asset baked_model(const Arguments& arguments, const SimplifiedParts& simplified_
     });
 }
 
-int run(const Arguments& arguments) {
+int run(const TruncateArguments& arguments) {
     const Options options = make_options(arguments);
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
@@ -99,7 +99,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_truncate_command(CLI::App& app, Action& action) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<TruncateArguments>();
     CLI::App* command =
         app.add_subcommand("truncate", "Extract a level of detail from a stored history without another run");
     command->add_option("HISTORY", arguments->history, "File written by simplify --history or lod --history")

@@ -25,16 +25,16 @@ inline constexpr double degrees_per_radian = 57.295779513082320877;
 /// Faces whose distances differ by less than this fraction of the diagonal count as equally close.
 inline constexpr double normal_tie_tolerance = 1e-9;
 
-/// Sums over samples; `max_squared` is a maximum.
-struct Sums {
+/// DistanceSums over samples; `max_squared` is a maximum.
+struct DistanceSums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
 };
 
 /// Calls work(sums, begin, end) for each block of [0, size), in parallel.
 /// \return the sums of the blocks, in block order, so that totals do not depend on the number of threads
 template <class Work>
-std::vector<Sums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
-    std::vector<Sums> sums((size + comparison_block - 1) / comparison_block);
+std::vector<DistanceSums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
+    std::vector<DistanceSums> sums((size + comparison_block - 1) / comparison_block);
     detail::parallel_blocks(size, comparison_block, threads, [&](std::size_t begin, std::size_t end) {
         work(sums[begin / comparison_block], begin, end);
     });
@@ -52,8 +52,8 @@ inline detail::SearchLimits search_limits(double tolerance, double diagonal, std
 inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree,
                           const CompareOptions& options, std::uint64_t seed, double tie,
                           const detail::SearchLimits& limits) {
-    const std::vector<Sums> sums =
-        sum_blocks(options.samples, options.threads, [&](Sums& sum, std::size_t begin, std::size_t end) {
+    const std::vector<DistanceSums> sums = sum_blocks(
+        options.samples, options.threads, [&](DistanceSums& sum, std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
                 const detail::RandomSample s = sample(from, i, options.samples, seed);
@@ -66,8 +66,8 @@ inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tre
                 sum.degrees += std::acos(std::max(cosine, -1.0)) * degrees_per_radian;
             }
         });
-    Sums total;
-    for (const Sums& s : sums) {
+    DistanceSums total;
+    for (const DistanceSums& s : sums) {
         total.max_squared = std::max(total.max_squared, s.max_squared);
         total.distance += s.distance;
         total.squared += s.squared;
