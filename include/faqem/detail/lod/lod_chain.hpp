@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -40,6 +41,140 @@ struct Attempt : Result {
     std::uint64_t target = 0;
 };
 
+/// The steps of run_lod_chain(), which documents the template parameters.
+template <class Out, class Run, class Measure>
+class LodChain {
+public:
+    LodChain(std::span<const LevelTarget> level_targets, const Options& options, std::uint64_t faces,
+             Run& run, Measure& measure)
+        : level_targets_(level_targets),
+          options_(options),
+          faces_(faces),
+          run_(run),
+          measure_(measure),
+          steps_(1 +
+                 static_cast<double>(std::count_if(level_targets.begin(), level_targets.end(), is_distance))),
+          out_(level_targets.size()) {
+        if (!options.progress) return;
+        options_.progress = [this, report = options.progress](Phase phase, double fraction) {
+            const double done = phase == Phase::simplify ? fraction : 0;
+            return report(Phase::simplify, (steps_done_ + done) / steps_);
+        };
+    }
+
+    std::vector<Out> simplify() {
+        for (std::size_t i = 0; i < level_targets_.size(); ++i) {
+            const std::uint64_t most = targets_.empty() ? faces_ : targets_.back();
+            if (level_targets_[i].faces) {
+                targets_.push_back(std::min(*level_targets_[i].faces, most));
+            } else if (!search(i, most)) {
+                std::vector<Out> cancelled;
+                cancelled.push_back(std::move(out_[i]));
+                return cancelled;
+            }
+        }
+        simplify_to_face_counts();
+        measure_levels();
+        return std::move(out_);
+    }
+
+private:
+    using Result = decltype(Out::result);
+
+    static bool is_distance(const LevelTarget& target) { return !target.faces; }
+
+    // Finds the face count of level i, whose target is a distance. Returns false if cancelled.
+    bool search(std::size_t i, std::uint64_t most) {
+        Options search = options_;
+        search.max_error = model_units(level_targets_[i].allowed);
+        auto found = search_within_error<Attempt<Result>>(
+            search, most, level_targets_[i].allowed,
+            [&](const Options& tried) {
+                const std::uint64_t target = target_face_count(tried.target, static_cast<double>(most));
+                targets_.push_back(target);
+                Attempt<Result> attempt{std::move(run_(targets_, tried).back()), target};
+                targets_.pop_back();
+                return attempt;
+            },
+            [&](const Result& result, MeasureMode mode, CancellationCheck check_cancelled) {
+                return measure_(result, level_targets_[i].allowed, mode, check_cancelled);
+            });
+        targets_.push_back(found.target);
+        out_[i].result = std::move(found);
+        if (out_[i].result.report.stop == StopReason::cancelled) return false;
+        const MeasuredError& error = *out_[i].result.report.max_error;
+        out_[i].distance = error.value;
+        out_[i].error = error.bound;
+        ++steps_done_;
+        return true;
+    }
+
+    // Produces the levels whose targets are face counts. If cancelled, out_ has fewer levels afterwards.
+    void simplify_to_face_counts() {
+        if (std::all_of(level_targets_.begin(), level_targets_.end(), is_distance)) return;
+        Options half = options_;
+        if (options_.progress)
+            half.progress = [&](Phase phase, double fraction) {
+                return options_.progress(phase, fraction / 2);
+            };
+        std::vector<Result> results = run_(targets_, half);
+        is_cancelled_ = !results.empty() && results.back().report.stop == StopReason::cancelled;
+        out_.resize(results.size());
+        for (std::size_t i = 0; i < out_.size(); ++i) {
+            if (level_targets_[i].faces) out_[i].result = std::move(results[i]);
+        }
+    }
+
+    // Measures the levels whose targets are face counts, and makes the errors ascend.
+    void measure_levels() {
+        double largest = 0;
+        for (std::size_t i = 0; i < out_.size(); ++i) {
+            if (is_cancelled_ && i + 1 == out_.size()) {
+                out_[i].result.report.stop = StopReason::cancelled;
+                break;
+            }
+            const bool is_measured = !level_targets_[i].faces || measure(i);
+            largest = out_[i].error = std::max(out_[i].error, largest);
+            if (!is_measured ||
+                (options_.progress &&
+                 options_.progress(Phase::simplify, progress_at(i + 1)) == Continue::cancel)) {
+                out_[i].result.report.stop = StopReason::cancelled;
+                out_.resize(i + 1);
+            }
+        }
+    }
+
+    // Measures level i. Returns false if cancelled.
+    bool measure(std::size_t i) {
+        try {
+            const MeasurementMonitor monitor(options_, progress_at(i));
+            const MeasuredDistance found = measure_(out_[i].result, level_targets_[i].allowed,
+                                                    MeasureMode::full, monitor.cancellation_check());
+            out_[i].distance = found.value;
+            out_[i].error = found.bound;
+            return true;
+        } catch (const engine::Cancelled&) {
+            return false;
+        }
+    }
+
+    // Progress of the last step once this number of levels is measured.
+    double progress_at(std::size_t levels) const {
+        return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out_.size());
+    }
+
+    std::span<const LevelTarget> level_targets_;
+    Options options_;
+    std::uint64_t faces_;
+    Run& run_;
+    Measure& measure_;
+    double steps_;  // one per search, and one for the levels that need none
+    double steps_done_ = 0;
+    std::vector<std::uint64_t> targets_;  // face counts of the levels so far
+    std::vector<Out> out_;
+    bool is_cancelled_ = false;
+};
+
 /// Runs the simplification for all levels and measures each level against the original. Distances are first
 /// converted to face counts by a search each; then one run produces all levels.
 /// \tparam Out           a type with the members of SimplifiedLevel
@@ -53,94 +188,9 @@ struct Attempt : Result {
 template <class Out, class Run, class Measure>
 std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
                                std::uint64_t faces, Run&& run, Measure&& measure) {
-    using Result = decltype(Out::result);
-    const auto searches = std::count_if(level_targets.begin(), level_targets.end(),
-                                        [](const LevelTarget& g) { return !g.faces; });
-    double steps_done = 0;  // of searches + 1 steps; the last step is the run
-    Options own = options;
-    if (options.progress) {
-        own.progress = [&](Phase phase, double fraction) {
-            const double done = phase == Phase::simplify ? fraction : 0;
-            return options.progress(Phase::simplify, (steps_done + done) / static_cast<double>(searches + 1));
-        };
-    }
-
-    std::vector<Out> out(level_targets.size());
-    std::vector<std::uint64_t> targets;
-    for (std::size_t i = 0; i < level_targets.size(); ++i) {
-        const std::uint64_t most = targets.empty() ? faces : targets.back();
-        if (level_targets[i].faces) {
-            targets.push_back(std::min(*level_targets[i].faces, most));
-            continue;
-        }
-        Options search = own;
-        search.max_error = model_units(level_targets[i].allowed);
-        auto found = search_within_error<Attempt<Result>>(
-            search, most, level_targets[i].allowed,
-            [&](const Options& tried) {
-                const std::uint64_t target = target_face_count(tried.target, static_cast<double>(most));
-                targets.push_back(target);
-                Attempt<Result> attempt{std::move(run(targets, tried).back()), target};
-                targets.pop_back();
-                return attempt;
-            },
-            [&](const Result& result, MeasureMode mode, CancellationCheck check_cancelled) {
-                return measure(result, level_targets[i].allowed, mode, check_cancelled);
-            });
-        targets.push_back(found.target);
-        out[i].result = std::move(found);
-        if (out[i].result.report.stop == StopReason::cancelled) {
-            out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i));
-            out.resize(1);
-            return out;
-        }
-        const MeasuredError& error = *out[i].result.report.max_error;
-        out[i].distance = error.value;
-        out[i].error = error.bound;
-        ++steps_done;
-    }
-
-    std::vector<Result> results;
-    if (static_cast<std::size_t>(searches) < level_targets.size()) {
-        Options half = own;
-        if (own.progress)
-            half.progress = [&](Phase phase, double fraction) { return own.progress(phase, fraction / 2); };
-        results = run(targets, half);
-        out.resize(results.size());
-    }
-    const bool is_cancelled = !results.empty() && results.back().report.stop == StopReason::cancelled;
-    double largest = 0;
-    const auto done = [&](std::size_t levels) {
-        return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out.size());
-    };
-    // Measures level i. Returns false if cancelled.
-    const auto try_measure = [&](std::size_t i) {
-        try {
-            const MeasurementMonitor monitor(own, done(i));
-            const MeasuredDistance found = measure(out[i].result, level_targets[i].allowed, MeasureMode::full,
-                                                   monitor.cancellation_check());
-            out[i].distance = found.value;
-            out[i].error = found.bound;
-            return true;
-        } catch (const engine::Cancelled&) {
-            return false;
-        }
-    };
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        if (level_targets[i].faces) out[i].result = std::move(results[i]);
-        if (is_cancelled && i + 1 == out.size()) {
-            out[i].result.report.stop = StopReason::cancelled;
-            break;
-        }
-        const bool is_measured = !level_targets[i].faces || try_measure(i);
-        largest = out[i].error = std::max(out[i].error, largest);
-        if (!is_measured ||
-            (own.progress && own.progress(Phase::simplify, done(i + 1)) == Continue::cancel)) {
-            out[i].result.report.stop = StopReason::cancelled;
-            out.resize(i + 1);
-        }
-    }
-    return out;
+    LodChain<Out, std::remove_reference_t<Run>, std::remove_reference_t<Measure>> chain(
+        level_targets, options, faces, run, measure);
+    return chain.simplify();
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "faqem/detail/base/parallel.hpp"
@@ -122,6 +123,109 @@ SimplifyResult simplify_within_error(const MeshView& mesh, const Options& option
 /// \param undecided_count  number of results that could not be decided within the limit on the work
 FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 
+/// The steps of search_within_error(), which documents the parameters.
+template <class Result, class Run, class Measure>
+class ErrorBoundSearch {
+public:
+    ErrorBoundSearch(const Options& options, std::uint64_t faces, double allowed, Run& run, Measure& measure)
+        : options_(options), run_options_(options), faces_(faces), run_(run), measure_(measure) {
+        error_.allowed = allowed;
+        run_options_.max_error.reset();
+        if (!options.progress) return;
+        // A measurement takes about as long as a run. All of them are reported as a single phase.
+        run_options_.progress = [this](Phase phase, double fraction) {
+            return options_.progress(Phase::simplify,
+                                     progress_at(phase == Phase::simplify ? fraction / 2 : 0));
+        };
+    }
+
+    Result simplify() {
+        const Stopwatch watch;
+        std::optional<Result> best;
+        if (is_searching_) best = search();
+        if (best && is_cancelled(*best)) return std::move(*best);
+        if (best) {
+            if (!measure(*best, MeasureMode::full)) return std::move(*best);
+        } else {
+            best = attempt(is_searching_ ? faqem::faces(std::max<std::uint64_t>(faces_, 1)) : options_.target,
+                           MeasureMode::full);
+            if (is_cancelled(*best)) return std::move(*best);
+        }
+        if (is_searching_) {
+            cancel_if_requested(*best, 1);
+            if (is_cancelled(*best)) return std::move(*best);
+        }
+        error_.value = distance_.value;
+        error_.bound = distance_.bound;
+        best->report.max_error = error_;
+        if (is_searching_) report_search(best->report, undecided_count_);
+        best->report.seconds.simplify = best->report.seconds.total = watch.seconds();
+        return std::move(*best);
+    }
+
+private:
+    static bool is_cancelled(const Result& result) { return result.report.stop == StopReason::cancelled; }
+
+    // The smallest result within the error; nothing if there is none, or the result that was cancelled.
+    std::optional<Result> search() {
+        std::optional<Result> best;
+        FaceCountSearch search(faces_, error_.allowed);
+        while (const auto target = search.next()) {
+            Result result = attempt(faqem::faces(*target), MeasureMode::decide_only);
+            if (is_cancelled(result)) return result;
+            const std::uint64_t count = result.report.faces_out;
+            const bool within = distance_.within(error_.allowed);
+            search.add_result(count, distance_.value, within);
+            if (within && count < (best ? best->report.faces_out : faces_)) best = std::move(result);
+        }
+        return best;
+    }
+
+    // One run and its measurement.
+    Result attempt(const Target& target, MeasureMode mode) {
+        run_options_.target = target;
+        Result result = run_(std::as_const(run_options_));
+        if (is_cancelled(result) || !measure(result, mode)) return result;
+        undecided_count_ += distance_.undecided_count;
+        cancel_if_requested(result, progress_at(1));
+        ++error_.runs;
+        return result;
+    }
+
+    // Returns false if the measurement was cancelled.
+    bool measure(Result& result, MeasureMode mode) {
+        try {
+            const MeasurementMonitor monitor(options_, progress_at(0.5));
+            distance_ = measure_(std::as_const(result), mode, monitor.cancellation_check());
+            return true;
+        } catch (const engine::Cancelled&) {
+            result.report.stop = StopReason::cancelled;
+            return false;
+        }
+    }
+
+    void cancel_if_requested(Result& result, double progress) const {
+        if (options_.progress && options_.progress(Phase::simplify, progress) == Continue::cancel)
+            result.report.stop = StopReason::cancelled;
+    }
+
+    double progress_at(double of_run) const {
+        // If no result is within the error, there is one more run with all faces as the target.
+        const double planned = is_searching_ ? static_cast<double>(FaceCountSearch::max_runs + 1) : 1;
+        return (static_cast<double>(error_.runs) + of_run) / planned;
+    }
+
+    const Options& options_;  // of the caller
+    Options run_options_;
+    std::uint64_t faces_;
+    Run& run_;
+    Measure& measure_;
+    bool is_searching_ = options_.target.kind == Target::Kind::unset;
+    MeasuredError error_;
+    MeasuredDistance distance_;  // of the last result that was measured
+    std::uint64_t undecided_count_ = 0;
+};
+
 /// Simplifies and measures: once if the options have a target, otherwise with the targets of FaceCountSearch.
 /// Used by every entry point, which passes its own simplification and measurement.
 /// \param options  of the caller, with max_error
@@ -136,75 +240,9 @@ FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 template <class Result, class Run, class Measure>
 Result search_within_error(const Options& options, std::uint64_t faces, double allowed, Run&& run,
                            Measure&& measure) {
-    const Stopwatch watch;
-    const bool searching = options.target.kind == Target::Kind::unset;
-    MeasuredError error{.allowed = allowed};
-    // If no result is within the error, there is one more run with all faces as the target.
-    const double planned = searching ? static_cast<double>(FaceCountSearch::max_runs + 1) : 1;
-    const auto done = [&](double of_run) { return (static_cast<double>(error.runs) + of_run) / planned; };
-    Options own = options;
-    own.max_error.reset();
-    if (options.progress) {
-        // A measurement takes about as long as a run. All of them are reported as a single phase.
-        own.progress = [&](Phase phase, double fraction) {
-            return options.progress(Phase::simplify, done(phase == Phase::simplify ? fraction / 2 : 0));
-        };
-    }
-    MeasuredDistance distance;
-    std::uint64_t undecided_count = 0;
-    // Returns false if the measurement was cancelled.
-    const auto try_measure = [&](Result& result, MeasureMode mode) {
-        try {
-            const MeasurementMonitor monitor(options, done(0.5));
-            distance = measure(std::as_const(result), mode, monitor.cancellation_check());
-            return true;
-        } catch (const engine::Cancelled&) {
-            result.report.stop = StopReason::cancelled;
-            return false;
-        }
-    };
-    const auto attempt = [&](const Target& target, MeasureMode mode) {
-        own.target = target;
-        Result result = run(std::as_const(own));
-        if (result.report.stop == StopReason::cancelled) return result;
-        if (!try_measure(result, mode)) return result;
-        undecided_count += distance.undecided_count;
-        if (options.progress && options.progress(Phase::simplify, done(1)) == Continue::cancel) {
-            result.report.stop = StopReason::cancelled;
-        }
-        ++error.runs;
-        return result;
-    };
-
-    std::optional<Result> best;
-    if (searching) {
-        FaceCountSearch search(faces, allowed);
-        while (const auto target = search.next()) {
-            Result result = attempt(faqem::faces(*target), MeasureMode::decide_only);
-            if (result.report.stop == StopReason::cancelled) return result;
-            const std::uint64_t count = result.report.faces_out;
-            const bool within = distance.within(allowed);
-            search.add_result(count, distance.value, within);
-            if (within && count < (best ? best->report.faces_out : faces)) best = std::move(result);
-        }
-    }
-    if (best) {
-        if (!try_measure(*best, MeasureMode::full)) return std::move(*best);
-    } else {
-        best = attempt(searching ? faqem::faces(std::max<std::uint64_t>(faces, 1)) : options.target,
-                       MeasureMode::full);
-        if (best->report.stop == StopReason::cancelled) return std::move(*best);
-    }
-    if (options.progress && searching && options.progress(Phase::simplify, 1) == Continue::cancel) {
-        best->report.stop = StopReason::cancelled;
-        return std::move(*best);
-    }
-    error.value = distance.value;
-    error.bound = distance.bound;
-    best->report.max_error = error;
-    if (searching) report_search(best->report, undecided_count);
-    best->report.seconds.simplify = best->report.seconds.total = watch.seconds();
-    return std::move(*best);
+    return ErrorBoundSearch<Result, std::remove_reference_t<Run>, std::remove_reference_t<Measure>>(
+               options, faces, allowed, run, measure)
+        .simplify();
 }
 
 }  // namespace detail
