@@ -123,11 +123,21 @@ TEST_CASE("ladder: a strict link condition is never lifted") {
 }
 
 TEST_CASE("ladder: pairs below the minimum length are not collapsed until all flips are allowed") {
+    // The hinge with its apexes 1e-9 away from each other.
+    const TriangleMesh narrow =
+        test::make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1 + 1e-9, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+    Play<Script> play(narrow, Script({{{2, 3}, {1, 1, 0}}}));
+    const LoopResult& result = play.run(1, {LinkCondition::off, 0, 1e-8});
+    CHECK(taken(result, Rung::flip_any) == 1);
+    CHECK(refused(result, Refusal::zero_length) == 3);  // one pair, evaluated three times
+    CHECK(result.stop == StopReason::reached_target);
+}
+
+TEST_CASE("ladder: pairs below the minimum length are collapsed if all faces around them are as small") {
     Play<Script> play(hinge, turn_hinge(10));
     const LoopResult& result = play.run(1, {LinkCondition::off, 0, 100});
-    CHECK(taken(result, Rung::flip_any) == 1);
-    CHECK(refused(result, Refusal::zero_length) == 15);  // five pairs, evaluated three times
-    CHECK(result.stop == StopReason::reached_target);
+    CHECK(result.rungs == decltype(LoopResult::rungs){});
+    CHECK(refused(result, Refusal::zero_length) == 0);
 }
 
 TEST_CASE("ladder: tiny components are deleted early, larger ones last and the largest never") {
@@ -156,6 +166,15 @@ TEST_CASE("ladder: tiny components are deleted early, larger ones last and the l
     Play<Script> some(mesh, {});
     CHECK(some.run(4, {LinkCondition::on, 0, 0}).components_deleted == 2);
     CHECK(some.collapse_mesh.is_alive(0));
+}
+
+TEST_CASE("ladder: a component with more than 2% of the area is not tiny") {
+    const TriangleMesh mesh = test::both(test::quad(), test::moved(test::scaled(test::quad(), 3), {5, 0, 0}));
+    Play<Script> play(mesh, {});
+    const LoopResult& result = play.run(2, {LinkCondition::off, 0, 0}, 2);
+    CHECK(taken(result, Rung::tiny_components) == 0);
+    CHECK(taken(result, Rung::any_component) == 1);
+    CHECK(result.components_deleted == 1);
 }
 
 TEST_CASE("ladder: components with locked vertices are not deleted, and none if attributes are preserved") {

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -205,8 +204,7 @@ private:
 
     std::optional<Candidate> candidate(Index pair) {
         const Index u = pairs_.first(pair), v = pairs_.second(pair);
-        const double square = (mesh_.position(u) - mesh_.position(v)).squaredNorm();
-        if (!(square >= rules_.min_pair_length * rules_.min_pair_length))
+        if (is_short_pair(mesh_, u, v, rules_.min_pair_length))
             return count_refusal(Refusal::zero_length), std::nullopt;
         return metric_.evaluate(mesh_, pairs_, pair, allowed_position(u, v));
     }
@@ -351,12 +349,14 @@ private:
     bool apply_rung(Rung rung, const LoopOptions& options) {
         switch (rung) {
             case Rung::tiny_components:
-                return delete_components(options, options.tiny_component_diagonal);
+                // A component that is far smaller than the mesh may be all that is visible of it, if the mesh
+                // has a face far away.
+                return delete_components(
+                    options, {options.tiny_component_diagonal, visible_area_share * mesh_.area()});
             case Rung::any_component:
                 // Preserved seams and groups are a request of the user, like locks. If they prevent the
                 // target from being reached, only tiny components are deleted to compensate.
-                return wedges_.empty() && !keeps_groups() &&
-                       delete_components(options, std::numeric_limits<double>::infinity());
+                return wedges_.empty() && !keeps_groups() && delete_components(options, {});
             default:
                 return relax_rule(rules_, rung, keeps_groups() ? CurvePolicy::kept : CurvePolicy::free);
         }
@@ -384,10 +384,9 @@ private:
 
     // Deletes removable components, smallest first, until the target is reached. The largest component is
     // never deleted.
-    bool delete_components(const LoopOptions& options, double largest_diagonal) {
+    bool delete_components(const LoopOptions& options, const ComponentSize& largest) {
         bool any = false;
-        for (const Component& component :
-             removable_components(mesh_, locked_, largest_diagonal, check_cancelled_)) {
+        for (const Component& component : removable_components(mesh_, locked_, largest, check_cancelled_)) {
             if (mesh_.face_count() <= options.target_faces) break;
             delete_component(component);
             any = true;
@@ -412,6 +411,9 @@ private:
     // Cost of one collapse with its tests in units of pair evaluations, without the re-evaluation of
     // adjacent pairs. An estimate for the cancellation check.
     static constexpr std::uint64_t evaluations_per_collapse = 8;
+
+    // Components with a larger share of the area are not tiny.
+    static constexpr double visible_area_share = 0.02;
 
     CollapseMesh& mesh_;
     PairTable& pairs_;

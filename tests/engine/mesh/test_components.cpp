@@ -48,17 +48,19 @@ TEST_CASE("removable components are sorted by size, without the largest and thos
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::both(test::both(quad_of(3, 0), quad_of(1, 10)), test::both(quad_of(4, 20), quad_of(2, 30))));
     std::vector<std::uint8_t> locked(collapse_mesh.vertex_slots(), 0);
-    const auto first_faces = [&](double largest_diagonal) {
+    const auto first_faces = [&](const ComponentSize& largest) {
         std::vector<Index> faces;
-        for (const Component& c : removable_components(collapse_mesh, locked, largest_diagonal))
+        for (const Component& c : removable_components(collapse_mesh, locked, largest))
             faces.push_back(c.faces[0]);
         return faces;
     };
-    CHECK(first_faces(100) == std::vector<Index>{2, 6, 0});
-    CHECK(first_faces(3) == std::vector<Index>{2, 6});  // the diagonals are 1.4, 2.8, 4.2
-    CHECK(first_faces(std::numeric_limits<double>::quiet_NaN()).empty());
+    CHECK(first_faces({}) == std::vector<Index>{2, 6, 0});
+    CHECK(first_faces({.diagonal = 3}) == std::vector<Index>{2, 6});  // the diagonals are 1.4, 2.8, 4.2
+    CHECK(first_faces({.area = 4.5}) == std::vector<Index>{2, 6});    // the areas are 1, 4, 9
+    CHECK(first_faces({.diagonal = std::numeric_limits<double>::quiet_NaN()}).empty());
+    CHECK(first_faces({.area = std::numeric_limits<double>::quiet_NaN()}).empty());
     locked[14] = 1;
-    CHECK(first_faces(100) == std::vector<Index>{2, 0});
+    CHECK(first_faces({}) == std::vector<Index>{2, 0});
 }
 
 TEST_CASE("a component of zero area is the first removable one regardless of its length") {
@@ -69,7 +71,7 @@ TEST_CASE("a component of zero area is the first removable one regardless of its
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::both(test::both(test::quad(), line), test::moved(test::scaled(test::quad(), 2), {0, 5, 0})));
     const std::vector<std::uint8_t> locked(collapse_mesh.vertex_slots(), 0);
-    const auto found = removable_components(collapse_mesh, locked, 100);
+    const auto found = removable_components(collapse_mesh, locked, {});
     REQUIRE(found.size() == 2);
     CHECK(found[0].faces == std::vector<Index>{2});
     CHECK(found[1].faces == std::vector<Index>{0, 1});

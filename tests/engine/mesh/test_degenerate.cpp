@@ -65,3 +65,13 @@ TEST_CASE("degenerate: removed faces and faces that gain an area no longer count
     CHECK_FALSE(degenerate.are_last_faces(collapse_mesh, pairs, test::pair_of(pairs, 1, 2)));
     CHECK(degenerate.are_last_faces(collapse_mesh, pairs, test::pair_of(pairs, 0, 1)));
 }
+
+TEST_CASE("a pair is short if it is below the limit and below 1e-8 of the edges around it") {
+    // The vertices 2 and 3 are 1e-9 apart, the others about 1.
+    const CollapseMesh mesh = test::collapse_mesh_of(
+        test::make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1 + 1e-9, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}));
+    CHECK(is_short_pair(mesh, 2, 3, 1e-8));
+    CHECK_FALSE(is_short_pair(mesh, 2, 3, 1e-10));
+    CHECK_FALSE(is_short_pair(mesh, 2, 3, 0));
+    CHECK_FALSE(is_short_pair(mesh, 0, 2, 100));
+}

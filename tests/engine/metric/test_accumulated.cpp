@@ -156,3 +156,36 @@ TEST_CASE("accumulated: only the area term changes costs of pairs without the su
     CHECK(AccumulatedMetric(w).reevaluation(open) == Reevaluation::immediate);
     CHECK(AccumulatedMetric(w).reevaluation(inner) == Reevaluation::none);
 }
+
+TEST_CASE("accumulated: a tiny mesh far from the centre has the costs of the same mesh at the origin") {
+    // A bumpy grid of size 2^-20 with a stray face, which makes the bounding box 2^6 or 2^20 times as large.
+    const double size = 0x1p-20;
+    const TriangleMesh grid = test::scaled(test::shaken(test::grid(6), 0.1, 5), size);
+    const Vec3 far = {0.5, 0.25, -0.5};
+    const TriangleMesh stray = test::make({{-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}}, {{0, 1, 2}});
+    for (const BaseWeight base : {BaseWeight::unit, BaseWeight::area}) {
+        CompositeWeights weights;
+        weights.base = base;
+        weights.area = weights.normal = weights.boundary = 1;
+        Bench near(test::both(grid, test::scaled(stray, 64 * size)), weights);
+        Bench together(test::both(test::moved(grid, far), stray), weights);
+        const auto check = [&] {
+            for (Index pair = 0; pair < near.pairs.size(); ++pair) {
+                if (!near.pairs.is_alive(pair) || near.pairs.first(pair) >= grid.positions.size()) continue;
+                const Index u = near.pairs.first(pair), v = near.pairs.second(pair);
+                const auto a = near.evaluate(u, v), b = together.evaluate(u, v);
+                REQUIRE(a.has_value() == b.has_value());
+                CAPTURE(u, v);
+                CHECK(b->cost == Approx(a->cost).epsilon(1e-4).margin(1e-12 * size * size));
+                CHECK((b->point - to_eigen(far) - a->point).norm() < 1e-4 * size);
+            }
+        };
+        check();
+        for (const auto& [u, v] : {std::pair<Index, Index>{8, 9}, {16, 17}, {8, 16}}) {
+            const auto a = near.evaluate(u, v);
+            near.collapse(u, v, a->point);
+            together.collapse(u, v, together.evaluate(u, v)->point);
+        }
+        check();
+    }
+}

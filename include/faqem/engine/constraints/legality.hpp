@@ -22,8 +22,8 @@ struct Rules {
     LinkCondition link = LinkCondition::off;  ///< not `as_preset`; `by_size` is treated as `on`
     /// Smallest allowed cosine between the old and the new normal of a face, in [-1, 1]; -1: not tested.
     double min_normal_cosine = 0;
-    /// Shorter pairs are not collapsed (paper, supplementary: 1e-8 of the diagonal). Engine units. Tested
-    /// by the engine, not by Legality.
+    /// Pairs shorter than this are not collapsed (paper, supplementary: 1e-8 of the diagonal), unless the
+    /// faces around them are as small: see is_short_pair(). Engine units. Tested by the engine, not by Legality.
     double min_pair_length = 0;
     /// An edge is a fold if the cosine between the normals of its two faces is below this. A collapse must
     /// not increase the number of folds. -1: not tested.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -54,17 +55,23 @@ inline std::vector<Component> components(const CollapseMesh& mesh, CancellationC
     return found;
 }
 
+/// Upper bounds of the size of a component.
+struct ComponentSize {
+    double diagonal = std::numeric_limits<double>::infinity();  ///< of the bounding box, engine units
+    double area = std::numeric_limits<double>::infinity();      ///< of all faces, engine units squared
+};
+
 /// Finds the components that the ladder may delete: those without locked vertices and up to a given size,
 /// except for the largest component of the mesh. A component whose faces are all degenerate counts as
 /// having size 0. O(faces + vertices), plus sorting
-/// \param locked            one per vertex slot; components with a nonzero entry stay
-/// \param largest_diagonal  upper bound of the bounding box diagonal, engine units
-/// \param check_cancelled   called for each face and each comparison
+/// \param locked           one per vertex slot; components with a nonzero entry stay
+/// \param largest          components that exceed one of both bounds stay
+/// \param check_cancelled  called for each face and each comparison
 /// \return the components, smallest bounding box diagonal first
 /// \throws whatever `check_cancelled` throws
 inline std::vector<Component> removable_components(const CollapseMesh& mesh,
                                                    std::span<const std::uint8_t> locked,
-                                                   double largest_diagonal,
+                                                   const ComponentSize& largest,
                                                    CancellationCheck check_cancelled = {}) {
     std::vector<Component> all = components(mesh, check_cancelled);
     for (Component& c : all) {
@@ -80,8 +87,14 @@ inline std::vector<Component> removable_components(const CollapseMesh& mesh,
         const Triangle& t = mesh.triangle(f);
         return locked[t[0]] || locked[t[1]] || locked[t[2]];
     };
+    const auto area = [&](const Component& c) {
+        double sum = 0;
+        for (const Index f : c.faces) sum += mesh.area(f);
+        return sum;
+    };
     std::erase_if(all, [&](const Component& c) {
-        return !(diagonal(c) <= largest_diagonal) || std::any_of(c.faces.begin(), c.faces.end(), has_locked);
+        return !(diagonal(c) <= largest.diagonal) || !(area(c) <= largest.area) ||
+               std::any_of(c.faces.begin(), c.faces.end(), has_locked);
     });
     return all;
 }

@@ -35,6 +35,23 @@ inline bool is_degenerate(const CollapseMesh& mesh, Index f) {
     return is_degenerate(2 * mesh.area(f), mesh.position(b) - p, mesh.position(c) - p);
 }
 
+/// Whether a pair is shorter than a limit, and also shorter than 1e-8 of the longest edge at its vertex of
+/// lower degree. A limit alone would fail where the surface is tiny compared with the model, because of a
+/// vertex far away: all of its pairs would be too short. O(1), O(smaller valence) below the limit
+/// \param u, v    vertex slots
+/// \param length  the limit, engine units
+inline bool is_short_pair(const CollapseMesh& mesh, Index u, Index v, double length) {
+    const double square = (mesh.position(u) - mesh.position(v)).squaredNorm();
+    if (square >= length * length) return false;
+    double longest = 0;
+    const Index center = mesh.lower_degree_first(u, v).first;
+    mesh.for_each_face(center, [&](Index f, unsigned) {
+        for (const Index w : mesh.triangle(f))
+            longest = std::max(longest, (mesh.position(w) - mesh.position(center)).squaredNorm());
+    });
+    return !(square > 1e-16 * longest);
+}
+
 /// An upper bound of the number of degenerate faces. Legal collapses do not create any (see Legality), so
 /// the number only decreases. Faces are counted again only if the bound is too large to decide.
 class DegenerateFaces {

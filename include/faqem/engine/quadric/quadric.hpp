@@ -77,6 +77,15 @@ struct Quadric {
         return *this;
     }
 
+    /// The same quadric in coordinates with the given origin: q.relative_to(o)(p) = q(p + o).
+    Quadric relative_to(const Vector3& o) const {
+        Quadric q = *this;
+        const Vector3 at = apply(o);
+        q.b += at;
+        q.c += 2 * b.dot(o) + o.dot(at);
+        return q;
+    }
+
     /// The product A p.
     Vector3 apply(const Vector3& p) const {
         return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),

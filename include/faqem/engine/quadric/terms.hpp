@@ -80,25 +80,28 @@ inline Quadric boundary_term(const Vector3& v1, const Vector3& v2, const Vector3
 
 /// Normal term (paper eq. 10): the tangent plane at v, whose normal is the area-weighted mean of the face
 /// normals. O(valence)
+/// \param origin  origin of the coordinates of the result
 /// \return zero if the normals cancel
-inline Quadric normal_term(const CollapseMesh& mesh, Index v) {
+inline Quadric normal_term(const CollapseMesh& mesh, Index v, const Vector3& origin = Vector3::Zero()) {
     Vector3 sum = Vector3::Zero();
     mesh.for_each_face(v, [&](Index f, unsigned) { sum += mesh.area_vector(f); });
     const double length = sum.norm();
     if (!(length > 0)) return {};
-    return Quadric::plane_through(sum / length, mesh.position(v), 1);
+    return Quadric::plane_through(sum / length, mesh.position(v) - origin, 1);
 }
 
 /// Area term of the pair (u, v) (paper eq. 11): half of the squared doubled area of the triangles between
 /// the new vertex and each boundary edge at u or v. A boundary edge between u and v counts once. The term
 /// is not accumulated, since it refers to the current boundary. O(valence)
-inline Quadric area_term(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {
+/// \param origin  origin of the coordinates of the result
+inline Quadric area_term(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                         const Vector3& origin = Vector3::Zero()) {
     Quadric q;
     for (const Index end : {u, v}) {
         if (pairs.boundary_degree(end) == 0) continue;
         pairs.for_each_pair(end, [&](Neighbour n) {
             if (pairs.face_count(n.pair) != 1 || (end == v && n.vertex == u)) return;
-            q += Quadric::edge_area(mesh.position(end), mesh.position(n.vertex), 1);
+            q += Quadric::edge_area(mesh.position(end) - origin, mesh.position(n.vertex) - origin, 1);
         });
     }
     return q;

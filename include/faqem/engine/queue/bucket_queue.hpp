@@ -16,6 +16,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
+/// A cost as the queues store it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of 1,
+/// those of a surface with edges of 1e-11 would be zero in single precision.
+inline float scaled_cost(double cost) {
+    constexpr double scale = 0x1p64, max_cost = std::numeric_limits<float>::max();
+    return static_cast<float>(std::min(scale * cost, max_cost));
+}
+
 /// A queue of buckets for metrics whose costs are estimates; several times as fast as the heap. Costs in
 /// the same bucket differ by at most 1/64 of a power of two and are popped in the order of insertion. All
 /// functions take amortised O(1).
@@ -32,9 +39,12 @@ public:
 
     bool empty() const { return size_ == 0; }
     bool contains(Index pair) const { return bucket_of_[pair] != no_bucket; }
-    bool has_cheaper(double cost) const { return lowest_ < bucket_for(cost); }
+    bool has_cheaper(double cost) const { return lowest_ < bucket_for(scaled_cost(cost)); }
 
-    void set(Index pair, double cost) {
+    void set(Index pair, double cost) { set_scaled(pair, scaled_cost(cost)); }
+
+    /// As set(), with a result of scaled_cost().
+    void set_scaled(Index pair, float cost) {
         const std::uint16_t bucket = bucket_for(cost);
         if (bucket_of_[pair] == bucket) return;
         size_ += bucket_of_[pair] == no_bucket;
@@ -66,11 +76,9 @@ private:
     };
     /// A bucket is given by the exponent and the upper six bits of the fraction of a float.
     static constexpr std::uint16_t bucket_count = 1 << 14, no_bucket = 1 << 15;
-    static constexpr double max_cost = std::numeric_limits<float>::max();
 
-    static std::uint16_t bucket_for(double cost) {
-        return static_cast<std::uint16_t>(
-            std::bit_cast<std::uint32_t>(static_cast<float>(std::min(cost, max_cost))) >> 17);
+    static std::uint16_t bucket_for(float cost) {
+        return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(cost) >> 17);
     }
 
     /// Moves lowest_ and the bucket's `first` to the first pair that is still in its bucket.

@@ -57,13 +57,13 @@ public:
     bool empty() const { return is_over_ ? buckets_.empty() : size_ == 0; }
     bool contains(Index pair) const { return is_over_ ? buckets_.contains(pair) : costs_[pair] != absent; }
     bool has_cheaper(double cost) const {
-        return is_over_ ? buckets_.has_cheaper(cost) : size_ > 0 && as_float(cost) > limit_;
+        return is_over_ ? buckets_.has_cheaper(cost) : size_ > 0 && scaled_cost(cost) > limit_;
     }
 
     void set(Index pair, double cost) {
         if (is_over_) return buckets_.set(pair, cost);
         size_ += costs_[pair] == absent;
-        costs_[pair] = as_float(cost);
+        costs_[pair] = scaled_cost(cost);
     }
 
     void erase(Index pair) {
@@ -107,8 +107,6 @@ private:
     /// Below this ratio of the number of pairs to that at the target, the bucket queue is used.
     static constexpr double near = 1.25;
 
-    static float as_float(double cost) { return static_cast<float>(std::min<double>(cost, max_cost)); }
-
     double left() const {
         return end_ > 0 ? static_cast<double>(size_) / end_ : std::numeric_limits<double>::infinity();
     }
@@ -138,7 +136,8 @@ private:
 
     float next_limit(double times) const {
         const double growth = std::clamp(times, min_growth, max_growth);
-        return as_float(std::max(growth * static_cast<double>(limit_), static_cast<double>(lowest_)));
+        const double next = std::max(growth * static_cast<double>(limit_), static_cast<double>(lowest_));
+        return static_cast<float>(std::min<double>(next, max_cost));
     }
 
     void fill_buckets() {
@@ -146,7 +145,7 @@ private:
         buckets_.reserve(costs_.size());
         for (std::size_t i = 0; i < costs_.size(); ++i) {
             check_cancelled_();
-            if (costs_[i] != absent) buckets_.set(static_cast<Index>(i), static_cast<double>(costs_[i]));
+            if (costs_[i] != absent) buckets_.set_scaled(static_cast<Index>(i), costs_[i]);
         }
         std::vector<float>().swap(costs_);
         std::vector<std::uint8_t>().swap(rounds_);
@@ -156,7 +155,7 @@ private:
     // Cancellation is checked every 64 pairs. 16 visited pairs count as one operation.
     static constexpr std::size_t check_interval = 64, operations = 4;
 
-    std::vector<float> costs_;          // per pair; `absent` if it is not in the queue
+    std::vector<float> costs_;          // per pair: its scaled_cost(); `absent` if it is not in the queue
     std::vector<std::uint8_t> rounds_;  // per pair: the last round in which it was marked as stale
     std::size_t few_, size_ = 0;
     std::size_t at_ = 0;  // current position in the round
