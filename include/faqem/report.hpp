@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "faqem/export.hpp"
+#include "faqem/mesh.hpp"
 #include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -32,7 +33,7 @@ enum class Refusal {
     locked,       ///< both vertices are locked, or a locked one would move
     seam,         ///< a preserved UV seam would be torn
     group,        ///< a preserved boundary between groups would be damaged
-    zero_length,  ///< the pair is shorter than 1e-8 of the diagonal
+    zero_length,  ///< the pair is shorter than 1e-8 of the diagonal and of the edges around it
     last_faces,   ///< no face, or none with a non-zero area, would be left
 };
 inline constexpr std::size_t refusal_kinds = 9;
@@ -43,13 +44,13 @@ inline constexpr std::size_t refusal_kinds = 9;
 enum class Rung {
     reseed,           ///< all pairs are re-evaluated
     duplicate_faces,  ///< faces with the corners and winding of another face are deleted
-    tiny_components,  ///< connected components below 2% of the diagonal are deleted, smallest first
-    without_link,     ///< the link condition is lifted
-    fold,             ///< folds are allowed
-    flip_zero,        ///< the cosine between old and new face normal may be as low as 0
-    flip_half,        ///< the cosine between old and new face normal may be as low as -0.5
-    flip_any,         ///< faces may flip
-    any_component,    ///< connected components are deleted, smallest first, never the largest
+    tiny_components,  ///< connected components below 2% of the diagonal and of the area are deleted, smallest first
+    without_link,   ///< the link condition is lifted
+    fold,           ///< folds are allowed
+    flip_zero,      ///< the cosine between old and new face normal may be as low as 0
+    flip_half,      ///< the cosine between old and new face normal may be as low as -0.5
+    flip_any,       ///< faces may flip
+    any_component,  ///< connected components are deleted, smallest first, never the largest
 };
 inline constexpr std::size_t rung_kinds = 9;
 
@@ -68,6 +69,19 @@ struct MeasuredError {
     std::uint64_t runs = 0;  ///< number of runs from the original
 
     bool within() const { return bound <= allowed; }
+};
+
+/// A connected component of the input that has no face in the result, although it was visible.
+struct RemovedComponent {
+    /// Components with at most this share of the area and of all silhouettes are not listed.
+    static constexpr double min_share = 0.02;
+
+    std::string part;         ///< of an asset: name of its part, as in warnings; empty for a mesh
+    std::uint64_t faces = 0;  ///< in the input, over all instances
+    double area_share = 0;    ///< share of the area of the input, in [0, 1]
+    /// Largest share of the pixels of the input's silhouette, seen along one of the coordinate axes, in [0, 1].
+    double silhouette_share = 0;
+    Vec3 box_min = {}, box_max = {};  ///< axis-aligned bounding box, model units; for an asset, scene units
 };
 
 /// One page of a new atlas: the images of one material of the result.
@@ -98,13 +112,15 @@ struct Report {
     std::array<std::uint64_t, rung_kinds> rungs = {};        ///< how often each rung was taken, by Rung
     /// Faces with two equal corners after welding, duplicates, and faces of zero area in the result.
     std::uint64_t faces_dropped = 0;
-    std::uint64_t components_deleted = 0;  ///< connected components deleted by the ladder
-    std::uint64_t components_pruned = 0;   ///< connected components deleted by Topology::prune
-    std::uint64_t faces_pruned = 0;        ///< faces of the pruned components
-    std::uint64_t vertices_hidden = 0;     ///< input vertices not visible from outside (Visibility::weighted)
-    std::uint64_t vertices_fitted = 0;     ///< vertices moved by the final fitting of Preset::best
-    std::uint64_t edges_flipped = 0;       ///< edges flipped by the final fitting of Preset::best
-    std::uint64_t virtual_edges = 0;       ///< virtual edges added
+    std::uint64_t components_collapsed = 0;  ///< connected components whose last faces were collapsed
+    std::uint64_t components_deleted = 0;    ///< connected components deleted by the ladder
+    std::uint64_t components_pruned = 0;     ///< connected components deleted by Topology::prune
+    std::uint64_t faces_pruned = 0;          ///< faces of the pruned components
+    std::uint64_t vertices_hidden = 0;  ///< input vertices not visible from outside (Visibility::weighted)
+    std::uint64_t vertices_fitted = 0;  ///< vertices moved by the final fitting of Preset::best
+    std::uint64_t edges_flipped = 0;    ///< edges flipped by the final fitting of Preset::best
+    std::uint64_t virtual_edges = 0;    ///< virtual edges added
+    std::vector<RemovedComponent> removed_components;  ///< visible ones, the largest first
     std::optional<MeasuredError> max_error = {};  ///< if Options::max_error is set and the run was completed
     std::vector<BakedPage> pages;                 ///< pages of a new atlas; only of materials with images
     std::vector<std::string> warnings;

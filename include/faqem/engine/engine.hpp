@@ -313,6 +313,7 @@ private:
         if (boundary_loops_) boundary_loops_->after_collapse(mesh_, pairs_, survivor);
         metric_.after_collapse(mesh_, pairs_, survivor, changes_);
         ++result_.collapses;
+        result_.components_collapsed += mesh_.degree(survivor) == 0;
         for (const PairTable::Change& change : changes_) {
             if (change.neighbour.pair != no_index) reevaluate(change.neighbour.pair);
         }

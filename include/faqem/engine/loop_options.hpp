@@ -49,7 +49,8 @@ struct LoopResult {
     std::uint64_t collapses = 0;                             ///< number of collapses
     std::array<std::uint64_t, refusal_kinds> refusals = {};  ///< by Refusal: how often a collapse was refused
     std::array<std::uint64_t, rung_kinds> rungs = {};        ///< by Rung: how often the rung was taken
-    std::uint64_t components_deleted = 0;                    ///< connected components deleted by the ladder
+    std::uint64_t components_collapsed = 0;  ///< connected components whose last faces were collapsed
+    std::uint64_t components_deleted = 0;    ///< connected components deleted by the ladder
 };
 
 }  // namespace engine

@@ -35,6 +35,7 @@ void add_counts_of_finest(Report& report, const Report& before) {
     for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += before.refusals[i];
     for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += before.rungs[i];
     report.faces_dropped += before.faces_dropped;
+    report.components_collapsed += before.components_collapsed;
     report.components_deleted += before.components_deleted;
     report.components_pruned += before.components_pruned;
     report.faces_pruned += before.faces_pruned;

@@ -9,6 +9,7 @@
 #include "bake/scene/coincident_faces.hpp"
 #include "bake/scene/face_budget.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
+#include "bake/scene/removed_components.hpp"
 #include "bake/scene/scene_size.hpp"
 #include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/visibility.hpp"
@@ -63,6 +64,7 @@ void add(Report& sum, const Report& part, const std::string& title) {
     sum.faces_dropped += part.faces_dropped;
     sum.components_pruned += part.components_pruned;
     sum.faces_pruned += part.faces_pruned;
+    sum.components_collapsed += part.components_collapsed;
     sum.components_deleted += part.components_deleted;
     sum.vertices_fitted += part.vertices_fitted;
     sum.edges_flipped += part.edges_flipped;
@@ -126,6 +128,8 @@ public:
         if (is_cancelled_) {
             results_.resize(1);
             results_.front().report.stop = StopReason::cancelled;
+        } else {
+            for (SimplifiedParts& level : results_) detail::report_removed_components(source_, level);
         }
         for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(results_);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "faqem/detail/lod/lod_chain.hpp"
+#include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 
@@ -82,7 +83,7 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
         levels, options, static_cast<double>(faces),
         detail::unpruned_diagonal(mesh, options, original, monitor.cancellation_check()));
     if (level_targets.empty()) return {};
-    return detail::run_lod_chain<SimplifiedLevel>(
+    std::vector<SimplifiedLevel> chain = detail::run_lod_chain<SimplifiedLevel>(
         level_targets, options, faces,
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
             return detail::run_to_targets(mesh, targets, own);
@@ -91,6 +92,8 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
             detail::CancellationCheck check_cancelled) {
             return detail::distance(original, result, allowed, mode, options, check_cancelled);
         });
+    for (SimplifiedLevel& level : chain) detail::report_removed_components(mesh, level.result);
+    return chain;
 } catch (const engine::Cancelled&) {
     std::vector<SimplifiedLevel> none(1);
     none.front().result.report.stop = StopReason::cancelled;

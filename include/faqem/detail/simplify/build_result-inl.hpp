@@ -134,6 +134,7 @@ FAQEM_INLINE void add_counts(const engine::LoopResult& loop_result, Report& repo
     report.collapses += loop_result.collapses;
     for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += loop_result.refusals[i];
     for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += loop_result.rungs[i];
+    report.components_collapsed += loop_result.components_collapsed;
     report.components_deleted += loop_result.components_deleted;
 }
 

@@ -48,7 +48,9 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
     out.vertex_map.reserve(number.size());
     for (Index v = 0; v < number.size(); ++v) {
         check_cancelled();
-        out.vertex_map.push_back(number[trace.root(v)]);
+        const Index root = trace.root(v);
+        out.vertex_map.push_back(number[root]);
+        out.isolated_slots += root == v && number[v] == no_index;
     }
     return out;
 }

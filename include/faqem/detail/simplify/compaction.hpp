@@ -2,6 +2,7 @@
 /// \file
 /// Removes the unused slots of a simplified surface, for use by the next engine.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct CompactedMesh {
     std::vector<Index> source_slots;         ///< one per new vertex: old slot with its position, or no_index
     std::vector<engine::Vector3> positions;  ///< one per new vertex
     std::vector<Triangle> triangles;         ///< one per new face, of new vertices
+    std::uint64_t isolated_slots = 0;  ///< old slots that were not merged into others and have no face left
 };
 
 /// Tracks into which slot each vertex slot is merged by collapses, and which slots keep an original position.

@@ -37,6 +37,15 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["vertices_out"] = report.vertices_out;
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
+    json["removed_components"] = nlohmann::ordered_json::array();
+    for (const RemovedComponent& removed : report.removed_components) {
+        json["removed_components"].push_back({{"part", removed.part},
+                                              {"faces", removed.faces},
+                                              {"area_share", removed.area_share},
+                                              {"silhouette_share", removed.silhouette_share},
+                                              {"box_min", removed.box_min},
+                                              {"box_max", removed.box_max}});
+    }
     if (report.max_error) {
         const MeasuredError& e = *report.max_error;
         json["max_error"] = {{"allowed", e.allowed},
@@ -49,6 +58,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["refusals"] = detail::counts(report.refusals, detail::refusal_names);
     json["rungs"] = detail::counts(report.rungs, detail::rung_names);
     json["faces_dropped"] = report.faces_dropped;
+    json["components_collapsed"] = report.components_collapsed;
     json["components_deleted"] = report.components_deleted;
     json["components_pruned"] = report.components_pruned;
     json["faces_pruned"] = report.faces_pruned;

@@ -171,6 +171,7 @@ private:
         for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += blocks.refusals[i];
         for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += blocks.rungs[i];
         CompactedMesh compacted = apply_steps(input, blocks.steps, check_cancelled_);
+        totals_.components_collapsed += compacted.isolated_slots;  // blocks do not delete components
         if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
             record_blocks(blocks, compacted, recorder);
         state_.advance_to(std::move(compacted));

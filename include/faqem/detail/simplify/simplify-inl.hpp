@@ -2,6 +2,7 @@
 
 #include "faqem/simplify.hpp"
 
+#include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/run.hpp"
 
@@ -14,7 +15,10 @@ FAQEM_INLINE SimplifyResult simplify(const MeshView& mesh, const Options& option
             detail::target_face_count(with_target.target, static_cast<double>(mesh.triangles.size()));
         return std::move(detail::run_to_targets(mesh, {&target, 1}, with_target).front());
     };
-    return options.max_error ? detail::simplify_within_error(mesh, options, run) : run(options);
+    SimplifyResult result =
+        options.max_error ? detail::simplify_within_error(mesh, options, run) : run(options);
+    detail::report_removed_components(mesh, result);
+    return result;
 }
 
 FAQEM_NAMESPACE_END

@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Finds the connected components that a simplification has removed although they were visible.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/export.hpp"
+#include "faqem/mesh.hpp"
+#include "faqem/report.hpp"
+#include "faqem/simplify.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// Faces of a model, each of them in one component. Components have numbers below a common count; several
+/// placements (instances) may have faces of the same component.
+struct PlacedFaces {
+    std::vector<Vec3> positions;       ///< finite
+    TriangleView triangles;            ///< indices into `positions`; borrowed
+    std::span<const Index> component;  ///< one per face; borrowed
+};
+
+/// Connected components, with vertices at equal positions joined.
+struct FaceComponents {
+    std::vector<Index> component;  ///< one per face
+    Index count = 0;
+};
+
+/// A component that was removed.
+struct FoundComponent {
+    Index component = no_index;
+    RemovedComponent removed;  ///< without the name of the part
+};
+
+/// Finds the components of a mesh.
+/// \param positions  one per vertex; read where faces refer to them
+/// \param triangles  indices into `positions`
+/// \return components in the order of their first face
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(vertices log vertices + faces)
+FAQEM_EXPORT FaceComponents face_components(const PositionView& positions, TriangleView triangles,
+                                            engine::CancellationCheck check_cancelled = {});
+
+/// Finds the components without a face in the result that had more than RemovedComponent::min_share of the area,
+/// or of the silhouette seen along one of the coordinate axes. Views in which the model covers less than 5% of the
+/// pixels of another view do not count. Silhouettes are drawn with 256 pixels along the
+/// longest side of the bounding box; a pixel counts if the face touches it, so that shares of small components
+/// are rather too large.
+/// \param model    all faces of the source
+/// \param is_left  one per component: nonzero if the result has a face of it
+/// \return in descending order of the larger share
+/// \throws whatever `check_cancelled` throws
+/// Complexity: O(faces), times at most 256
+FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::span<const PlacedFaces> model,
+                                                            std::span<const std::uint8_t> is_left,
+                                                            engine::CancellationCheck check_cancelled = {});
+
+/// Adds the components without a face in the result to its report, with a warning. Does nothing unless the report
+/// counts components that were collapsed, deleted or pruned.
+/// \param mesh    the input of the simplification
+/// \param result  of the simplification
+/// Complexity: O(1), or O(vertices log vertices + faces) if there are such components
+FAQEM_EXPORT void report_removed_components(const MeshView& mesh, SimplifyResult& result);
+
+/// Adds a warning that names the largest of Report::removed_components. Does nothing if there are none.
+FAQEM_EXPORT void warn_of_removed_components(Report& report);
+
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/measure/removed_components-inl.hpp"
+#endif

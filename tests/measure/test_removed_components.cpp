@@ -1,0 +1,108 @@
+#include "faqem/detail/measure/removed_components.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <vector>
+
+#include "support/meshes.hpp"
+
+using namespace faqem;
+
+namespace {
+
+// removed_components() of a mesh of which the given components are left.
+std::vector<detail::FoundComponent> removed_of(const TriangleMesh& mesh, std::vector<std::uint8_t> is_left) {
+    const detail::FaceComponents components = detail::face_components(mesh.positions, mesh.triangles);
+    REQUIRE(components.count == is_left.size());
+    const detail::PlacedFaces all{mesh.positions, mesh.triangles, components.component};
+    return detail::removed_components({&all, 1}, is_left);
+}
+
+// A square of side 1 at z = 0 and one of the given side beside it.
+TriangleMesh two_squares(double side) {
+    return test::both(test::quad(), test::moved(test::scaled(test::quad(), side), {1.5, 0, 0}));
+}
+
+}  // namespace
+
+TEST_CASE("removed components: faces at equal positions are one component, also without common vertices") {
+    const TriangleMesh split = test::make(
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {6, 1, 0}},
+        {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+    const detail::FaceComponents found = detail::face_components(split.positions, split.triangles);
+    CHECK(found.count == 2);
+    CHECK(found.component == std::vector<Index>{0, 0, 1});
+}
+
+TEST_CASE("removed components: nothing is listed if every component is left") {
+    CHECK(removed_of(two_squares(1), {1, 1}).empty());
+}
+
+TEST_CASE("removed components: the shares of area and silhouette are those of the removed squares") {
+    const auto found = removed_of(two_squares(1), {1, 0});
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].component == 1);
+    CHECK(found[0].removed.faces == 2);
+    CHECK(found[0].removed.area_share == Approx(0.5));
+    CHECK(found[0].removed.silhouette_share == Approx(0.5).margin(0.02));
+    CHECK(found[0].removed.box_min == Vec3{1.5, 0, 0});
+    CHECK(found[0].removed.box_max == Vec3{2.5, 1, 0});
+}
+
+TEST_CASE("removed components: components up to 2% of the area and of the silhouettes are not listed") {
+    CHECK(removed_of(two_squares(0.1), {1, 0}).empty());
+    CHECK(removed_of(two_squares(0.2), {1, 0}).size() == 1);
+}
+
+TEST_CASE("removed components: a component with a small area counts if it dominates the silhouette") {
+    // Many layers of a small square, and a large thin ring around them that is seen from one side only.
+    TriangleMesh mesh = test::scaled(test::quad(), 3);
+    for (int layer = 0; layer < 400; ++layer)
+        mesh = test::both(mesh, test::moved(test::quad(), {1, 1, 0.001 * layer}));
+    std::vector<std::uint8_t> is_left(401, 1);
+    is_left[0] = 0;
+    const auto found = removed_of(mesh, is_left);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].removed.area_share == Approx(9.0 / 409));
+    CHECK(found[0].removed.silhouette_share > 0.9);
+}
+
+TEST_CASE("removed components: the largest share comes first, and shares do not depend on the scale") {
+    for (const double scale : {1e-300, 1.0, 1e300}) {
+        const TriangleMesh mesh =
+            test::both(two_squares(0.5), test::moved(test::scaled(test::quad(), 0.8), {0, 2, 0}));
+        const auto found = removed_of(test::scaled(mesh, scale), {1, 0, 0});
+        REQUIRE(found.size() == 2);
+        CHECK(found[0].component == 2);
+        CHECK(found[1].component == 1);
+        CHECK(found[0].removed.area_share == Approx(0.64 / 1.89));
+    }
+}
+
+TEST_CASE("removed components: a visible component that is collapsed is named in the report") {
+    // Five separate triangles. At four faces, one of them has vanished.
+    const TriangleMesh triangle = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    TriangleMesh mesh = triangle;
+    for (int i = 1; i < 5; ++i) mesh = test::both(mesh, test::moved(triangle, {1.5 * i, 0, 0}));
+    Options options;
+    options.preset = Preset::fast;
+    options.target = faces(4);
+    const SimplifyResult result = simplify(mesh.view(), options);
+    REQUIRE(result.mesh.triangles.size() == 4);
+    CHECK(result.report.components_collapsed + result.report.components_deleted == 1);
+    REQUIRE(result.report.removed_components.size() == 1);
+    CHECK(result.report.removed_components[0].faces == 1);
+    CHECK(result.report.removed_components[0].area_share == Approx(0.2));
+    REQUIRE_FALSE(result.report.warnings.empty());
+    CHECK(result.report.warnings.back().starts_with(
+        "a visible component was removed: 1 face, 20% of the area"));
+}
+
+TEST_CASE("removed components: a run that removes none reports none") {
+    Options options;
+    options.target = ratio(0.5);
+    const SimplifyResult result = simplify(test::icosphere(2).view(), options);
+    CHECK(result.report.components_collapsed == 0);
+    CHECK(result.report.removed_components.empty());
+    CHECK(result.report.warnings.empty());
+}
