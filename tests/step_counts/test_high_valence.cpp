@@ -90,3 +90,16 @@ TEST_CASE("high valence: four times the faces around one vertex need at most 1.5
         CHECK(steps_tracked(shape(8000)) < 1.5 * steps_tracked(shape(2000)));
     }
 }
+
+TEST_CASE("high valence: collapses at a vertex with many faces wait until its valence has decreased") {
+    // In a flat fan all pairs at the hub have the cost 0 and most of them are illegal.
+    const auto steps_accumulated = [](Index faces) {
+        CollapseMesh mesh = test::collapse_mesh_of(test::fan(faces));
+        const std::uint64_t before = test::steps();
+        CHECK(run(mesh, AccumulatedMetric({})).stop == StopReason::reached_target);
+        return static_cast<double>(test::steps() - before) / faces;
+    };
+    CHECK(steps_accumulated(8000) < 1.5 * steps_accumulated(2000));
+    CHECK(steps_without_memory(test::fan(8000)) < 1.5 * steps_without_memory(test::fan(2000)));
+    CHECK(steps_tracked(test::fan(8000)) < 1.5 * steps_tracked(test::fan(2000)));
+}

@@ -156,6 +156,7 @@ private:
         const bool worth_it = 10 * removed_faces >= excess && removed_faces > 0;
         if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0)) return take_next_rung(options);
         ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
+        defers_high_valence_ = false;
         return true;
     }
 
@@ -212,7 +213,7 @@ private:
     void evaluate(Index pair) {
         check_cancelled_();
         exceptions_.clear(pair);
-        if (const auto found = candidate(pair)) {
+        if (const auto found = is_deferred(pair) ? std::nullopt : candidate(pair)) {
             queue_.set(pair, found->cost);
         } else {
             queue_.erase(pair);
@@ -228,6 +229,14 @@ private:
         evaluate(pair);
     }
 
+    // Whether the pair has a high-valence vertex and is therefore not collapsed yet. Its tests visit all faces of
+    // that vertex, and it would be tested again whenever one of them changes. Other collapses around the vertex
+    // reduce its valence. If they do not reach the target, all pairs are evaluated again without this rule.
+    bool is_deferred(Index pair) const {
+        return defers_high_valence_ &&
+               (mesh_.is_high_valence(pairs_.first(pair)) || mesh_.is_high_valence(pairs_.second(pair)));
+    }
+
     // Marks both vertices of a pair that has left the queue, or was requeued at a higher cost, so that the
     // pair is evaluated again when the one-ring of one of them changes.
     void mark_rejected(Index pair) {
@@ -237,6 +246,7 @@ private:
     // Returns false if the pair must not be collapsed and has left the queue. True means that it was
     // collapsed or requeued.
     bool try_collapse(Index pair) {
+        if (is_deferred(pair)) return false;
         Index u = pairs_.first(pair), v = pairs_.second(pair);
         auto found = candidate(pair);
         if (!found) return false;
@@ -320,6 +330,7 @@ private:
         for (const PairTable::Change& change : changes_) {
             const Reevaluation reevaluation = metric_.reevaluation(change);
             if (reevaluation == Reevaluation::none) continue;
+            if (defers_high_valence_ && mesh_.is_high_valence(change.neighbour.vertex)) continue;
             std::uint8_t& has_rejected = has_rejected_[change.neighbour.vertex];
             if (reevaluation == Reevaluation::deferred && !std::exchange(has_rejected, std::uint8_t{0}))
                 continue;
@@ -389,24 +400,14 @@ private:
         bool any = false;
         for (const Component& component : removable_components(mesh_, locked_, largest, check_cancelled_)) {
             if (mesh_.face_count() <= options.target_faces) break;
-            delete_component(component);
+            for (const Index f : component.faces) recorder_.before_deletion(f);
+            killed_.clear();
+            remove_component(mesh_, pairs_, component, killed_);
+            for (const Index pair : killed_) queue_.erase(pair);
+            ++result_.components_deleted;
             any = true;
         }
         return any;
-    }
-
-    void delete_component(const Component& component) {
-        killed_.clear();
-        for (const Index f : component.faces) {
-            const Triangle t = mesh_.triangle(f);
-            recorder_.before_deletion(f);
-            mesh_.remove_face(f);
-            for (const Index v : t) {
-                if (mesh_.degree(v) == 0) pairs_.kill_all(v, killed_);
-            }
-        }
-        for (const Index pair : killed_) queue_.erase(pair);
-        ++result_.components_deleted;
     }
 
     // Cost of one collapse with its tests in units of pair evaluations, without the re-evaluation of
@@ -429,6 +430,7 @@ private:
     double distance_weight_ = 0;
     Queue queue_;
     std::vector<std::uint8_t> has_rejected_;  // per vertex: its pairs may have been rejected
+    bool defers_high_valence_ = true;         // see is_deferred()
     RuleExceptions exceptions_;
     Rules rules_;
     LoopResult result_;

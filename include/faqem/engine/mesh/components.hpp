@@ -12,6 +12,7 @@
 
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -97,6 +98,19 @@ inline std::vector<Component> removable_components(const CollapseMesh& mesh,
                std::any_of(c.faces.begin(), c.faces.end(), has_locked);
     });
     return all;
+}
+
+/// Removes the faces of a component and the pairs of its vertices. O(faces)
+/// \param killed  receives the removed pairs
+inline void remove_component(CollapseMesh& mesh, PairTable& pairs, const Component& component,
+                             std::vector<Index>& killed) {
+    for (const Index f : component.faces) {
+        const Triangle t = mesh.triangle(f);
+        mesh.remove_face(f);
+        for (const Index v : t) {
+            if (mesh.degree(v) == 0) pairs.kill_all(v, killed);
+        }
+    }
 }
 
 }  // namespace engine
