@@ -5,7 +5,8 @@
 /// Without FAQEM_HEADER_ONLY the headers contain declarations, and the library faqem::faqem the definitions.
 /// With FAQEM_HEADER_ONLY, which the target faqem::header_only defines, each header includes its definitions
 /// (`-inl.hpp`). Code that exchanges faqem's types within one program must use the same mode: in header-only
-/// mode all names are in an inline namespace, so mixing the modes is a link error.
+/// mode all names but those of the exceptions are in an inline namespace, so mixing the modes is a link
+/// error. The namespace is named after the major and minor version of version.hpp.
 
 /// FAQEM_EXPORT marks functions and classes that other libraries may use; every other symbol of a shared
 /// library is hidden. It precedes the declaration of a function, and stands between `class` and its name.

@@ -86,13 +86,14 @@ struct RemovedComponent {
 
 /// One page of a new atlas: the images of one material of the result.
 struct BakedPage {
-    std::string material;                    ///< name of the material; may be empty
-    Bake kind = Bake::atlas;                 ///< `atlas` or `per_triangle`
-    std::uint32_t width = 0, height = 0;     ///< texels
-    std::uint64_t faces = 0;                 ///< triangles on the page
-    std::uint64_t charts = 0;                ///< number of charts, or of cells for `per_triangle`
-    std::uint64_t faces_outside_charts = 0;  ///< triangles that no chart holds, due to the work limit
-    double fill = 0;                         ///< share of the texels that show a triangle, gutters included
+    std::string material;                 ///< name of the material; may be empty
+    Bake kind = Bake::atlas;              ///< `atlas` or `per_triangle`
+    std::uint32_t width = 0, height = 0;  ///< texels
+    std::uint64_t faces = 0;              ///< triangles on the page
+    std::uint64_t charts = 0;             ///< number of charts, or of cells for `per_triangle`
+    /// Triangles that became charts of their own because the work limit of their region was reached.
+    std::uint64_t faces_outside_charts = 0;
+    double fill = 0;     ///< share of the texels that show a triangle, gutters included
     double density = 0;  ///< texels per length relative to the source, as root mean squares over the surface
     double stretch = 1;  ///< area-weighted mean; 1: none
     std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep

@@ -24,7 +24,8 @@ FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, Mapping
 
 /// How a point was mapped; see docs/baking.md for the tests.
 enum class MapStep {
-    history,      ///< by the walk through the history, with all tests passed
+    /// By the walk through the history with all tests passed, or a face that the walk could not change.
+    history,
     approximate,  ///< by the walk, which took a face of the wrong side or of another surface patch
     /// The walk was abandoned or ended on a wrong face, and the closest face that passes the tests was taken.
     /// Always with Mapping::closest.

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The version number. It is defined here only; CMake reads this file.
+/// The version number. CMake reads it from this file. The name of the inline namespace in export.hpp repeats
+/// the major and minor number.
 
 #include <string_view>
 

@@ -21,7 +21,7 @@ const Value* data_or_null(const std::vector<Value>& values) {
 }  // namespace
 
 const char* faqem_version(void) {
-    return version().data();  // view of a string literal, so it is zero-terminated
+    return version().data();  // view of a static std::string, which is zero-terminated
 }
 
 faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options, faqem_result** result,

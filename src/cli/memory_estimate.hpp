@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Estimates of the memory that `faqem simplify` needs, made before the work starts.
+/// Estimates of the memory that `faqem simplify` needs, made before the work starts. `faqem batch` uses
+/// batch/memory_semaphore.hpp instead, which needs the file sizes only.
 
 #include <cstdint>
 #include <filesystem>

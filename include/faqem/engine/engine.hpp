@@ -291,7 +291,8 @@ private:
         mark_rejected(pair);
     }
 
-    // Requeues the pair with the given cost and returns true if the queue contains a cheaper pair.
+    // If the queue has a pair to pop before one of this cost, requeues this pair at the cost and returns
+    // true.
     bool requeue_if_costlier(Index pair, double cost) {
         if constexpr (!Queue::is_exact) {
             // Testing a pair at a high-valence vertex is expensive. Such a queue returns pairs only

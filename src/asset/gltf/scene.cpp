@@ -59,6 +59,7 @@ Matrix local_transform(const Json& node) {
             1};
 }
 
+/// The nodes of the default scene, or of the first one; without scenes, all nodes without a parent.
 std::vector<Index> root_nodes(const Json& document) {
     std::vector<Index> roots;
     const Json& scenes = member(document, "scenes");

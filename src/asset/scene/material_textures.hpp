@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The textures of a material: those of glTF itself, and those of material extensions with what their channels hold
-/// (Khronos, glTF 2.0 extension registry).
+/// The textures of a material: those of glTF itself, and those of material extensions with what their
+/// channels hold (Khronos, glTF 2.0 extension registry).
 
 #include <algorithm>
 #include <array>
@@ -62,7 +62,8 @@ inline const KnownTexture* find_known_texture(std::string_view extension, std::s
     return found == known_textures.end() ? nullptr : &*found;
 }
 
-/// Calls visit(texture) for the five textures of glTF's material, in a fixed order, whether they are set or not.
+/// Calls visit(texture) for the five textures of glTF's material, in a fixed order, whether they are set or
+/// not.
 /// \param material  Material or const Material
 template <class M, class Visit>
 void for_each_core_texture(M& material, const Visit& visit) {

@@ -68,11 +68,9 @@ private:
     }
     /// Index of the cell that contains p.
     std::size_t cell_at(const Point2& p) const { return row(p.y) * columns_ + column(p.x); }
-    /// Column of the cells that contain x.
     std::size_t column(double x) const {
         return std::min(columns_ - 1, static_cast<std::size_t>((x - low_.x) * scale_));
     }
-    /// Row of the cells that contain y.
     std::size_t row(double y) const {
         return std::min(rows_ - 1, static_cast<std::size_t>((y - low_.y) * scale_));
     }

@@ -28,8 +28,8 @@ struct TileOwners {
     static constexpr std::uint32_t none = 0xffffffff;
 };
 
-/// Assigns every sample in the chart's blocks to the triangle that contains it, otherwise to the triangle
-/// with the closest edge on the chart's boundary. Ties are resolved by the smallest index.
+/// Assigns every sample in the chart's blocks to the triangle that contains it, otherwise (the gutter) to the
+/// triangle with the closest edge on the chart's boundary. Ties are resolved by the smallest index.
 /// \param atlas     placements of the triangles
 /// \param chart     the chart that the tile is part of
 /// \param adjacent  neighbours of every triangle of the atlas, by corner opposite the edge

@@ -60,13 +60,20 @@ void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
     }
 }
 
+// What an atlas places on the page. An automatic one is of charts or, if these are small, by triangle.
+std::string layout_unit(Bake kind) {
+    if (kind == Bake::per_triangle) return "triangles";
+    return kind == Bake::atlas ? "charts" : "charts or triangles";
+}
+
 void bake_by_kind(BakeJob& job) {
     switch (job.options.bake.kind) {
         case Bake::automatic:
         case Bake::atlas:
         case Bake::per_triangle:
             if (bake_pages(job)) return;
-            job.warn("more triangles than texels: the base colour was baked into vertex colours instead");
+            job.warn("more " + layout_unit(job.options.bake.kind) +
+                     " than texels: the base colour was baked into vertex colours instead");
             return bake_vertex(job);
         case Bake::vertex:
             return bake_vertex(job);
@@ -77,8 +84,9 @@ void bake_by_kind(BakeJob& job) {
     }
 }
 
-SimplifiedAsset bake_without_histories(const Asset& source, const SimplifiedParts& simplified,
-                                       const Options& options) {
+// Bakes the parts with their histories. The callers add the histories to the result: one copies them, the
+// other moves them.
+SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
     validate(options);
     check_asset(source);
     check_parts_match(source, simplified);
@@ -113,7 +121,7 @@ SimplifiedAsset bake_without_histories(const Asset& source, const SimplifiedPart
 }  // namespace detail
 
 SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
-    SimplifiedAsset result = detail::bake_without_histories(source, simplified, options);
+    SimplifiedAsset result = detail::bake_parts(source, simplified, options);
     if (options.history == Recording::on) {
         for (const SimplifyResult& part : simplified.parts) result.histories.push_back(part.history);
     }
@@ -122,7 +130,7 @@ SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, con
 
 SimplifiedAsset simplify(const Asset& source, const Options& options) {
     SimplifiedParts simplified = simplify_parts(source, options);
-    SimplifiedAsset result = detail::bake_without_histories(source, simplified, options);
+    SimplifiedAsset result = detail::bake_parts(source, simplified, options);
     if (options.history == Recording::on) {
         for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
     }

@@ -71,7 +71,8 @@ void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t 
 }
 
 /// Bakes new images with a new atlas.
-/// \return false, without changing anything, if there are more triangles than texels
+/// \return false, without changing anything, if a page has more charts than texels or, for an atlas by
+///     triangle, more triangles
 bool bake_pages(BakeJob& job);
 
 /// Bakes the base colour into vertex colours. The result has no textures.

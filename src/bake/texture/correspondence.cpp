@@ -14,7 +14,7 @@ constexpr char magic[8] = {'F', 'A', 'Q', 'E', 'M', 'C', '0', '1'};
 // Layout of one texel in the file.
 struct Record {
     std::uint32_t part, face;
-    float second, third;
+    float second, third;  // barycentric weights of these corners; that of the first is 1 minus both
     std::uint32_t step;
 };
 static_assert(sizeof(Record) == 20);

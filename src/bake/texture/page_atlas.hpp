@@ -42,7 +42,7 @@ std::vector<std::array<AdjacentTriangle, 3>> face_adjacency(const BakeJob& job,
 /// Makes the atlas of a page, of the kind given by options.bake.kind, with texel densities taken from the
 /// source. Bake::automatic uses charts unless they have fewer than 3 faces on average.
 /// \param faces  the faces of the page; those of one part must be consecutive
-/// \return nothing if there are more pieces than texels
+/// \return nothing if there are more charts than texels or, for an atlas by triangle, more triangles
 std::optional<PageAtlas> make_page_atlas(const BakeJob& job, const SourceSampler& sampler,
                                          std::span<const PageFace> faces);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Push-pull interpolation: texels that were not baked get the colours of the texels around them.
+/// Push-pull interpolation: texels that were not baked get the colours of the texels around them. The gutter
+/// is not among them: it is baked with its chart, see tile_owners().
 
 #include <cstdint>
 #include <vector>

@@ -41,8 +41,8 @@ public:
     /// \param samples   samples per texel along each axis
     TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle, std::uint32_t samples);
 
-    /// The sample at position (s, t), from 0 to 1, in texel (x, y): on the triangle, or across an edge on its
-    /// neighbour, unfolded into the triangle's plane.
+    /// The sample at position (s, t), from 0 to 1, in texel (x, y): on the triangle, or across an edge (the
+    /// gutter) on its neighbour, unfolded into the triangle's plane.
     TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
 
     /// The point of the source that corresponds to a sample in texel (x, y). Uses and updates the warm

@@ -35,6 +35,7 @@ private:
 
         bool is_near(std::uint32_t to_x, std::uint32_t to_y) const {
             constexpr std::uint32_t steps = 4;  // largest offset in texels between the starts of two rows
+            // Unsigned differences wrap around: above, or too far to the left, they are large.
             return to_y - y <= 1 && to_x + steps - x <= 2 * steps;
         }
     };

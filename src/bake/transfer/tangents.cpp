@@ -194,6 +194,8 @@ private:
         return group_[3 * f] == none && group_[3 * f + 1] == none && group_[3 * f + 2] == none;
     }
 
+    // The direction of u on the face of corner c, in the tangent plane of the corner's normal, weighted by
+    // the angle of the corner in this plane.
     Vector3f weighted_tangent(std::size_t c) const {
         const Vector3f n = normal(c);
         const Vector3f a = project_and_normalize(position(previous(c)) - position(c), n);

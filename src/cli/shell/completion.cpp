@@ -61,6 +61,9 @@ std::string zsh_escaped(const std::string& text) {
     return result;
 }
 
+// The specifications of an option for zsh's _arguments, one per name: 'NAME[DESCRIPTION]:MESSAGE:ACTION'.
+// ACTION gives the completions of the value: a list in parentheses, a function, or nothing. That of a flag
+// ends with the description.
 std::string zsh_option(const OptionInfo& option) {
     std::ostringstream text;
     for (const std::string& name : option.names) {

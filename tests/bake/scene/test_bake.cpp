@@ -276,7 +276,7 @@ TEST_CASE("minified textures are averaged") {
     }
 }
 
-TEST_CASE("with more triangles than texels vertex colours are baked with a warning") {
+TEST_CASE("with more charts or triangles than texels vertex colours are baked with a warning") {
     Asset asset = textured_square(ramp(16));
     Part& part = asset.parts[0];
     for (int i = 0; i < 70 * 70; ++i) part.triangles.push_back(part.triangles[i % 2]);
@@ -286,7 +286,11 @@ TEST_CASE("with more triangles than texels vertex colours are baked with a warni
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(simplified.asset.images.empty());
     CHECK(simplified.asset.parts[0].colors.size() == simplified.asset.parts[0].positions.size());
-    CHECK(mentions(simplified.report.warnings, "more triangles than texels"));
+    CHECK(mentions(simplified.report.warnings, "more charts or triangles than texels"));
+    options.bake.kind = Bake::per_triangle;
+    CHECK(mentions(bake(asset, unchanged(asset), options).report.warnings, "more triangles than texels"));
+    options.bake.kind = Bake::atlas;
+    CHECK(mentions(bake(asset, unchanged(asset), options).report.warnings, "more charts than texels"));
 }
 
 TEST_CASE("the progress callback can cancel bake") {

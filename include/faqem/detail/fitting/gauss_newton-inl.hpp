@@ -22,7 +22,8 @@ inline constexpr double point_to_plane_weight = 0.9;
 inline constexpr double min_distance_share = 0.1;
 /// Damping of a vertex, as a fraction of its own diagonal block.
 inline constexpr double damping = 0.02;
-/// Additional damping as a fraction of the mean diagonal block, for vertices with few correspondences.
+/// Additional damping as a fraction of the mean diagonal block, for vertices with few correspondences. In the
+/// mean, the blocks of fixed vertices count as zero.
 inline constexpr double mean_damping = 2e-4;
 /// Conjugate gradients end after this many iterations, or when the residual is below this fraction of the
 /// right-hand side.

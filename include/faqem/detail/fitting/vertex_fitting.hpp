@@ -15,7 +15,8 @@ namespace detail {
 /// Moves the vertices of a simplified mesh closer to the original surface; the connectivity is kept. Takes
 /// Gauss-Newton steps on sample points of both surfaces, each with its closest point on the other. A vertex
 /// is not moved, or moved back to its initial position, if
-/// * the normal of a face would deviate by more than `min_normal_cosine`, or a face would fold or shrink,
+/// * the cosine between the initial and the new normal of a face would fall below `min_normal_cosine`, or a
+///   face would fold or shrink,
 /// * a point near it would become almost as distant as the most distant point was initially, or
 /// * the normal deviation around it would increase by more than the distances decrease.
 /// If the maximum distance has increased after these steps, all vertices keep their initial positions.

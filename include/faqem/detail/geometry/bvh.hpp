@@ -58,7 +58,6 @@ public:
         double distance_squared = std::numeric_limits<double>::infinity();
     };
 
-    /// True if the tree has no triangles.
     bool empty() const { return triangles_.empty(); }
 
     /// Finds the point of the mesh that is closest to p. If several faces are at the same distance, the
@@ -99,8 +98,9 @@ public:
     template <class Visit>
     void visit_within(const Vec3& p, double distance_squared, Visit&& visit) const;
 
-    /// Calls visit(face) for the faces whose bounding box is at most sqrt(limit()) from p, nearer boxes first, in an
-    /// order that is always the same. The limit is read again after each call, so that it may shrink.
+    /// Calls visit(face) for the faces whose bounding box is at most sqrt(limit()) from p, nearer boxes
+    /// first, in an order that is always the same. The limit is read again after each call, so that it may
+    /// shrink.
     /// \param limit  () -> double, a squared distance, rounded outwards
     template <class Limit, class Visit>
     void visit_near(const Vec3& p, Limit&& limit, Visit&& visit) const {

@@ -12,7 +12,9 @@ namespace detail {
 
 using engine::Vector3;
 
-/// The k-th point of a low-discrepancy sequence in the triangle, as barycentric coordinates.
+/// The k-th point of a low-discrepancy sequence in the triangle, as barycentric coordinates: the R2 sequence
+/// of the unit square (Roberts 2018), whose upper half is folded to the lower one. Its steps are 1/g and
+/// 1/g^2, where g is the real root of g^3 = g + 1.
 inline Vec3 even_barycentric(std::size_t k) {
     const auto fraction = [&](double step) {
         const double x = 0.5 + step * static_cast<double>(k);

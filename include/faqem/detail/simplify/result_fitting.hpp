@@ -11,9 +11,9 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Moves the vertices of a result closer to the original and flips edges where that reduces the distance. Locked
-/// vertices, seams and group curves stay; with attributes no edge is flipped, since that would change the attributes
-/// of the corners. Fills the report's and the history's records of it.
+/// Moves the vertices of a result closer to the original and flips edges where that reduces the distance.
+/// Locked vertices, seams and group curves stay; with attributes no edge is flipped, since that would change
+/// the attributes of the corners. Fills the report's and the history's records of it.
 /// \param state              has the initial surface
 /// \param prepared           converts to model units
 /// \param min_normal_cosine  between a face's normal before and after

@@ -29,9 +29,9 @@ public:
     /// \param refusal          is_liftable()
     /// \param squared_length   of the pair
     /// \param distance_weight  cost of a squared distance
-    /// \return the cost of breaking the rule. The feature that the rule preserves is about as large as the pair:
-    ///     removing it moves the surface by the length l over an area of l^2, which costs l^4. The area of a fold
-    ///     is at least twice `distance_weight`, because a fold is visible beyond that area.
+    /// \return the cost of breaking the rule. The feature that the rule preserves is about as large as the
+    ///     pair: removing it moves the surface by the length l over an area of l^2, which costs l^4. The area
+    ///     of a fold is at least twice `distance_weight`, because a fold is visible beyond that area.
     double lift(Index pair, Refusal refusal, double squared_length, double distance_weight) {
         lifted_[pair] |= refusal == Refusal::link ? link_bit : fold_bit;
         double area = squared_length;

@@ -43,7 +43,6 @@ public:
         }
     }
 
-    /// Whether there are no attributes.
     bool empty() const { return width_ == 0; }
     /// Number of floats per corner.
     std::uint32_t width() const { return width_; }

@@ -16,8 +16,8 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A cost as the queues store it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of 1,
-/// those of a surface with edges of 1e-11 would be zero in single precision.
+/// A cost as the queues store it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of
+/// 1, those of a surface with edges of 1e-11 would be zero in single precision.
 inline float scaled_cost(double cost) {
     constexpr double scale = 0x1p64, max_cost = std::numeric_limits<float>::max();
     return static_cast<float>(std::min(scale * cost, max_cost));
