@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 namespace faqem::render {
 

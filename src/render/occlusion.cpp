@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 namespace faqem::render {
 

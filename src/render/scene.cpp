@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "faqem/error.hpp"
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 namespace faqem::render {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Textures of the rasteriser: mipmaps with trilinear sampling.
+/// Textures of the rasterizer: mipmaps with trilinear sampling.
 
 #include <Eigen/Core>
 #include <cstdint>

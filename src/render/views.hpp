@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/contact_sheet.hpp"
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 namespace faqem::render {
 

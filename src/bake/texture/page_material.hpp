@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bake/texture/bake_job.hpp"
-#include "bake/texture/page.hpp"
+#include "bake/texture/page_baker.hpp"
 
 namespace faqem::detail {
 

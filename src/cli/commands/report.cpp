@@ -13,7 +13,7 @@
 #include "cli/referenced_files.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
-#include "cli/report/page.hpp"
+#include "cli/report/report_page.hpp"
 #include "cli/report/viewer_model.hpp"
 #include "faqem/error.hpp"
 #include "render/views.hpp"

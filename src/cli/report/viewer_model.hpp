@@ -23,7 +23,7 @@ struct ViewerFrame {
 std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
                                      const ViewerFrame& frame);
 
-/// Returns the error surface with vertex colours by distance, for the rasteriser.
+/// Returns the error surface with vertex colours by distance, for the rasterizer.
 /// \param limit  distance at the end of the colour scale, model units
 Asset color_by_distance(const ErrorSurface& error, double limit);
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "faqem/detail/base/bucketed.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"

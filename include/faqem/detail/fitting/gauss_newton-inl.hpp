@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/detail/base/bucketed.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
 FAQEM_NAMESPACE_BEGIN

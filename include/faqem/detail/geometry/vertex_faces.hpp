@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "faqem/detail/base/bucketed.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"

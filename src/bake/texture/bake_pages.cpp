@@ -8,7 +8,7 @@
 #include "bake/atlas/point2.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
-#include "bake/texture/page.hpp"
+#include "bake/texture/page_baker.hpp"
 #include "bake/texture/page_material.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/vertex_attributes.hpp"

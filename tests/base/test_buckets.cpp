@@ -1,4 +1,4 @@
-#include "faqem/detail/base/bucketed.hpp"
+#include "faqem/detail/base/buckets.hpp"
 
 #include <catch2/catch.hpp>
 #include <utility>

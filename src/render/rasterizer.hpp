@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A simple software rasteriser: depth buffer, perspective-correct attributes, textures, two lights and
+/// A simple software rasterizer: depth buffer, perspective-correct attributes, textures, two lights and
 /// ambient occlusion.
 
 #include <cstdint>

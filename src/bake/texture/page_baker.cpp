@@ -1,4 +1,4 @@
-#include "bake/texture/page.hpp"
+#include "bake/texture/page_baker.hpp"
 
 #include <algorithm>
 #include <array>

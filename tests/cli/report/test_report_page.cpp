@@ -1,4 +1,4 @@
-#include "cli/report/page.hpp"
+#include "cli/report/report_page.hpp"
 
 #include <catch2/catch.hpp>
 #include <string_view>

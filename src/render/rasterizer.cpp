@@ -1,4 +1,4 @@
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/rasteriser.hpp"
+#include "render/rasterizer.hpp"
 
 #include <catch2/catch.hpp>
 
