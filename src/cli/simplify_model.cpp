@@ -1,10 +1,10 @@
 #include "cli/simplify_model.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <sstream>
 
+#include "cli/output_file.hpp"
 #include "cli/strict.hpp"
 #include "faqem/error.hpp"
 
@@ -22,9 +22,7 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out) {
     if (requested.kind != Bake::automatic) return requested;
-    std::string extension = out.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_case_extension(out);
     const auto no_part_has = [&](auto values) {
         return std::all_of(source.parts.begin(), source.parts.end(),
                            [&](const Part& p) { return (p.*values).empty(); });

@@ -30,6 +30,11 @@ public:
     /// O(number of collapses undone)
     SurfacePoint map(Index face, const Vec3& barycentric) const;
 
+    /// Same as map(); the result for a nearby point is of no use.
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint&) const {
+        return map(face, barycentric);
+    }
+
 private:
     const CollapseHistory& history_;
     ReplayTables replay_;

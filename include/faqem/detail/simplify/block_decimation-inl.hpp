@@ -7,10 +7,10 @@
 #include <atomic>
 #include <bit>
 #include <limits>
-#include <numeric>
 #include <thread>
 #include <utility>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
@@ -24,40 +24,27 @@ using engine::CancellationCheck;
 using engine::CollapseMesh;
 using engine::Vector3;
 
-// Part of the whole surface's share that a block keeps: blocks with little detail can give more collapses.
+// Part of the whole surface's share that a block keeps. Of the surplus of collapses the most expensive ones
+// are discarded, so that blocks with little detail give more collapses than blocks with much.
 inline constexpr double local_share = 0.8;
 
-/// The faces of all blocks. A face belongs to every block that contains one of its corners.
-struct Blocks {
-    Blocks(const BlockInput& input, CancellationCheck check_cancelled)
-        : begin((input.positions.size() + input.per_block - 1) / input.per_block + 1, 0) {
-        for_each(input, check_cancelled, [&](std::size_t block, Index) { ++begin[block + 1]; });
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        faces.resize(begin.back());
-        std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-        for_each(input, check_cancelled, [&](std::size_t block, Index f) { faces[place[block]++] = f; });
-    }
+// Blocks are not used if more than this part of the faces would remain: one engine would then have to process
+// most of the surface a second time.
+inline constexpr double max_kept_share = 0.75;
 
-    template <class Visit>
-    static void for_each(const BlockInput& input, CancellationCheck check_cancelled, Visit&& visit) {
+/// The faces by block. A face belongs to every block that contains one of its corners.
+inline Buckets<Index> faces_by_block(const BlockInput& input, CancellationCheck check_cancelled) {
+    return Buckets<Index>(input.block_count(), [&](auto&& put) {
         for (Index f = 0; f < input.triangles.size(); ++f) {
             check_cancelled();
             const Triangle& t = input.triangles[f];
             const std::size_t a = input.block_of(t[0]), b = input.block_of(t[1]), c = input.block_of(t[2]);
-            visit(a, f);
-            if (b != a) visit(b, f);
-            if (c != a && c != b) visit(c, f);
+            put(a, f);
+            if (b != a) put(b, f);
+            if (c != a && c != b) put(c, f);
         }
-    }
-
-    std::size_t count() const { return begin.size() - 1; }
-    std::span<const Index> of(std::size_t b) const {
-        return std::span(faces).subspan(begin[b], begin[b + 1] - begin[b]);
-    }
-
-    std::vector<std::size_t> begin;  ///< first index of each block in `faces`, and the end
-    std::vector<Index> faces;
-};
+    });
+}
 
 /// Number of faces with a vertex that is fixed because it has faces in several blocks.
 inline std::size_t count_waiting(const BlockInput& input) {
@@ -74,8 +61,9 @@ inline std::size_t count_waiting(const BlockInput& input) {
 /// The mesh of one block: its own vertices, followed by vertices of other blocks that its faces refer to.
 class Block {
 public:
-    Block(const BlockInput& input, const Blocks& blocks, std::size_t b)
-        : faces(blocks.of(b)),
+    /// \param block_faces  the faces of block `b`; must outlive this object
+    Block(const BlockInput& input, std::size_t b, std::span<const Index> block_faces)
+        : faces(block_faces),
           first_(static_cast<Index>(b * input.per_block)),
           own_(static_cast<Index>(std::min(input.per_block, input.positions.size() - first_))) {
         for (const Index f : faces) {
@@ -241,35 +229,23 @@ inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking)
     return watched;
 }
 
-/// The tracked original vertices that were merged into vertices of each block.
-struct Lineages {
-    Lineages(const BlockInput& input, const BlockTracking* tracking, std::size_t blocks)
-        : begin(blocks + 1, 0), vertex_map(tracking ? tracking->vertex_map : std::span<const Index>()) {
-        if (!tracking) return;
-        const std::vector<std::uint8_t> watched = watched_vertices(*tracking);
-        const auto for_each = [&](auto&& visit) {
-            for (Index v = 0; v < vertex_map.size(); ++v) {
-                if (watched[v]) visit(input.block_of(vertex_map[v]), v);
-            }
-        };
-        for_each([&](std::size_t b, Index) { ++begin[b + 1]; });
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        vertices.resize(begin.back());
-        std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-        for_each([&](std::size_t b, Index v) { vertices[place[b]++] = v; });
-    }
+/// The tracked original vertices, by the block of the vertex that they were merged into.
+inline Buckets<Index> watched_by_block(const BlockInput& input, const BlockTracking& tracking) {
+    const std::vector<std::uint8_t> watched = watched_vertices(tracking);
+    return Buckets<Index>(input.block_count(), [&](auto&& put) {
+        for (Index v = 0; v < watched.size(); ++v) {
+            if (watched[v]) put(input.block_of(tracking.vertex_map[v]), v);
+        }
+    });
+}
 
-    engine::TrackedVertices of(std::size_t b, const Block& block) const {
-        engine::TrackedVertices tracked;
-        for (std::size_t i = begin[b]; i < begin[b + 1]; ++i)
-            tracked.add(vertices[i], block.local(vertex_map[vertices[i]]));
-        return tracked;
-    }
-
-    std::vector<std::size_t> begin;  ///< first index of each block in `vertices`, and the end
-    std::vector<Index> vertices;
-    std::span<const Index> vertex_map;
-};
+/// The original vertices of one block as the input of the tracked metric.
+inline engine::TrackedVertices tracked_vertices(std::span<const Index> watched,
+                                                std::span<const Index> vertex_map, const Block& block) {
+    engine::TrackedVertices tracked;
+    for (const Index v : watched) tracked.add(v, block.local(vertex_map[v]));
+    return tracked;
+}
 
 /// Simplifies one block with an engine of its own.
 template <class Metric>
@@ -325,12 +301,16 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
     std::uint64_t low = 0;
     while (low < last) {
         const std::uint64_t middle = low + (last - low + 1) / 2;
-        is_kept(middle) ? low = middle : last = middle - 1;
+        if (is_kept(middle))
+            low = middle;
+        else
+            last = middle - 1;
     }
     return low;
 }
 
-/// The largest selection of steps that removes at most `most` faces. Non-negative doubles are ordered as their bits.
+/// The largest selection of steps that removes at most `most` faces. Non-negative doubles are ordered as
+/// their bits.
 inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
     const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
@@ -385,16 +365,16 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     const double waiting = static_cast<double>(count_waiting(input)) / static_cast<double>(faces);
     const double share = spare_share * static_cast<double>(least) / static_cast<double>(faces);
     const double kept_share = waiting + (1 - waiting) * share;
-    if (!(kept_share < 0.75)) return result;
+    if (!(kept_share < max_kept_share)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
-    const Blocks blocks(input, workers.check_cancelled);
+    const Buckets<Index> block_faces = faces_by_block(input, workers.check_cancelled);
     SharedProgress progress(loop, removable);
-    const Lineages lineages(input, tracking, blocks.count());
-    std::vector<Done> done(blocks.count());
+    const Buckets<Index> watched = tracking ? watched_by_block(input, *tracking) : Buckets<Index>();
+    std::vector<Done> done(input.block_count());
     parallel_blocks(
-        blocks.count(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
+        done.size(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
             if (progress.is_cancelled()) return;
-            Block block(input, blocks, b);
+            Block block(input, b, block_faces[b]);
             const auto simplify = [&](auto metric) {
                 return simplify_block(block, std::move(metric), loop, share, patches, progress,
                                       check_cancelled);
@@ -404,8 +384,9 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
                 return;
             }
             const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
-            done[b] = simplify(engine::TrackedMetric({}, tracking->original, lineages.of(b, block), begin_at,
-                                                     loop.distance_weight));
+            done[b] = simplify(engine::TrackedMetric(
+                {}, tracking->original, tracked_vertices(watched[b], tracking->vertex_map, block), begin_at,
+                loop.distance_weight));
         });
     result.is_cancelled = progress.is_cancelled();
     const Cut kept = cut(done, removable);

@@ -81,6 +81,7 @@ struct BlockInput {
     std::span<const std::uint8_t> locked;        ///< one per vertex; nonzero: must not move
     std::size_t per_block;                       ///< vertices per block
 
+    std::size_t block_count() const { return (positions.size() + per_block - 1) / per_block; }
     std::size_t block_of(Index v) const { return v / per_block; }
     bool is_between_blocks(const Triangle& t) const {
         return block_of(t[0]) != block_of(t[1]) || block_of(t[0]) != block_of(t[2]);

@@ -75,68 +75,93 @@ inline bool are_compatible(const CollapseMesh& mesh, std::span<const Index> grou
     });
 }
 
-FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& mesh,
-                                                                std::span<const Index> face_groups,
-                                                                double distance, double min_length,
-                                                                engine::CancellationCheck check_cancelled) {
-    const std::vector<engine::Component> parts = engine::components(mesh, check_cancelled);
-    if (parts.size() < 2) return {};
-    const engine::PairTable surface(mesh, {}, check_cancelled);
-    std::vector<Index> vertices;
-    std::vector<Vector3> positions;
-    std::vector<Triangle> points;  // degenerate triangles: the tree is one of triangles
-    std::vector<Index> component_of;
+/// The vertices with faces, component by component.
+struct VerticesByComponent {
+    std::vector<Index> vertices;      ///< vertex slots
+    std::vector<Index> component_of;  ///< by entry of `vertices`
+    std::vector<Vector3> positions;   ///< by entry of `vertices`
+};
+
+inline VerticesByComponent vertices_by_component(const CollapseMesh& mesh,
+                                                 std::span<const engine::Component> components,
+                                                 engine::CancellationCheck check_cancelled) {
+    VerticesByComponent result;
     std::vector<std::uint8_t> seen(mesh.vertex_slots(), 0);
-    for (Index part = 0; part < parts.size(); ++part) {
-        for (const Index f : parts[part].faces) {
+    for (Index component = 0; component < components.size(); ++component) {
+        for (const Index f : components[component].faces) {
             check_cancelled();
             for (const Index v : mesh.triangle(f)) {
                 if (std::exchange(seen[v], std::uint8_t{1})) continue;
-                const auto point = static_cast<Index>(vertices.size());
-                vertices.push_back(v);
-                positions.push_back(mesh.position(v));
-                points.push_back({point, point, point});
-                component_of.push_back(part);
+                result.vertices.push_back(v);
+                result.component_of.push_back(component);
+                result.positions.push_back(mesh.position(v));
             }
         }
     }
-    const Bvh tree(positions, points, check_cancelled);
+    return result;
+}
 
-    struct Edge {
-        double length_squared;
-        Index a, b;
-        bool operator<(const Edge& o) const {
-            return std::tie(length_squared, a, b) < std::tie(o.length_squared, o.a, o.b);
-        }
-    };
-    std::vector<Edge> edges;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+/// A virtual edge that may be added; a < b.
+struct CandidateEdge {
+    double length_squared;
+    Index a, b;
+    bool operator<(const CandidateEdge& o) const {
+        return std::tie(length_squared, a, b) < std::tie(o.length_squared, o.a, o.b);
+    }
+};
+
+/// Edges from each boundary vertex to the nearest boundary vertices of other components. An edge that is
+/// found from both ends occurs twice.
+inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, const VerticesByComponent& all,
+                                                  std::span<const Index> face_groups, double distance,
+                                                  double min_length,
+                                                  engine::CancellationCheck check_cancelled) {
+    const engine::PairTable surface(mesh, {}, check_cancelled);
+    std::vector<Triangle> points;  // degenerate triangles: the tree is one of triangles
+    points.reserve(all.vertices.size());
+    for (Index point = 0; point < all.vertices.size(); ++point) points.push_back({point, point, point});
+    const Bvh tree(all.positions, points, check_cancelled);
+    std::vector<CandidateEdge> edges;
+    for (std::size_t i = 0; i < all.vertices.size(); ++i) {
         check_cancelled();
-        NearestInOtherComponents nearest(component_of, component_of[i], distance * distance);
-        const Index v = vertices[i];
+        const Index v = all.vertices[i];
         if (surface.boundary_degree(v) == 0) continue;
+        NearestInOtherComponents nearest(all.component_of, all.component_of[i], distance * distance);
         tree.visit_near(
-            engine::to_array(positions[i]), [&] { return nearest.limit(); },
+            engine::to_array(all.positions[i]), [&] { return nearest.limit(); },
             [&](Index point) {
-                const Vector3 d = positions[point] - positions[i];
+                const Vector3 d = all.positions[point] - all.positions[i];
                 nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point);
             });
         for (const auto& hit : nearest.hits()) {
-            const Index w = vertices[hit.point];
+            const Index w = all.vertices[hit.point];
             if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0)
                 continue;
             if (!are_compatible(mesh, face_groups, v, w)) continue;
             edges.push_back({hit.distance_squared, std::min(v, w), std::max(v, w)});
         }
     }
+    return edges;
+}
+
+FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& mesh,
+                                                                std::span<const Index> face_groups,
+                                                                double distance, double min_length,
+                                                                engine::CancellationCheck check_cancelled) {
+    const std::vector<engine::Component> components = engine::components(mesh, check_cancelled);
+    if (components.size() < 2) return {};
+    const VerticesByComponent all = vertices_by_component(mesh, components, check_cancelled);
+    std::vector<CandidateEdge> edges =
+        candidate_edges(mesh, all, face_groups, distance, min_length, check_cancelled);
     std::sort(edges.begin(), edges.end(), engine::cancellable_less(check_cancelled));
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                            [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; }),
-                edges.end());
-    if (edges.size() > vertices.size()) edges.resize(vertices.size());
+    edges.erase(
+        std::unique(edges.begin(), edges.end(),
+                    [](const CandidateEdge& x, const CandidateEdge& y) { return x.a == y.a && x.b == y.b; }),
+        edges.end());
+    if (edges.size() > all.vertices.size()) edges.resize(all.vertices.size());
     std::vector<std::pair<Index, Index>> result;
     result.reserve(edges.size());
-    for (const Edge& edge : edges) result.emplace_back(edge.a, edge.b);
+    for (const CandidateEdge& edge : edges) result.emplace_back(edge.a, edge.b);
     std::sort(result.begin(), result.end());
     return result;
 }
