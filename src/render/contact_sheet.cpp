@@ -47,9 +47,9 @@ std::uint8_t encode(float linear) {
     return static_cast<std::uint8_t>(std::lround(c * 255));
 }
 
-void set_pixel(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& colour) {
+void set_pixel(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& color) {
     std::uint8_t* p = &sheet.rgba[(std::size_t{y} * sheet.width + x) * 4];
-    for (int k = 0; k < 3; ++k) p[k] = encode(colour[k]);
+    for (int k = 0; k < 3; ++k) p[k] = encode(color[k]);
     p[3] = 255;
 }
 

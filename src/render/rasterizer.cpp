@@ -18,7 +18,7 @@ using Eigen::Vector4f;
 
 constexpr std::uint32_t samples_per_axis = 2;
 constexpr double edge_width = 0.8;  // half the line width, in pixels of the supersampled image
-const Vector4f edge_colour(0.02f, 0.03f, 0.05f, 1.0f);
+const Vector4f edge_color(0.02f, 0.03f, 0.05f, 1.0f);
 
 /// A corner of a projected triangle.
 struct Corner {
@@ -46,8 +46,8 @@ struct RenderTarget {
     const Camera& camera;
     Shading shading;
     Edges edges;
-    SurfelImage surfels;           ///< depth and normals
-    std::vector<Vector4f> colour;  ///< linear RGBA, premultiplied
+    SurfelImage surfels;          ///< depth and normals
+    std::vector<Vector4f> color;  ///< linear RGBA, premultiplied
 };
 
 /// Converts screen-space barycentric coordinates to perspective-correct ones.
@@ -99,21 +99,21 @@ std::optional<Vector4f> sample_texture(const ScreenTriangle& face, const Texture
     return sample(texture, texture_ref, at, mip_level(face, texture, uv));
 }
 
-Vector4f base_colour(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
-    Vector4f colour(face.material->base_color.data());
+Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
+    Vector4f color(face.material->base_color.data());
     if (const auto texel =
             sample_texture(face, face.material->base_color_texture, target.scene.color_textures, w)) {
-        colour = colour.cwiseProduct(*texel);
+        color = color.cwiseProduct(*texel);
     }
     if (!face.part->colors.empty()) {
         const auto of = [&](const Corner& c) -> Vector4f {
             return Vector4f(face.part->colors[c.vertex].data());
         };
         const Vector3f u = w.cast<float>();
-        colour = colour.cwiseProduct(u[0] * of(face.corners[0]) + u[1] * of(face.corners[1]) +
-                                     u[2] * of(face.corners[2]));
+        color = color.cwiseProduct(u[0] * of(face.corners[0]) + u[1] * of(face.corners[1]) +
+                                   u[2] * of(face.corners[2]));
     }
-    return colour;
+    return color;
 }
 
 /// Applies the normal map of the material to a normal, in the tangent frame of the UVs of the face.
@@ -174,25 +174,25 @@ Vector3f lighting(const Camera& camera, const Vector3f& albedo, const Vector3& n
 /// \param normal  receives the shading normal
 std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
                               Vector3& normal) {
-    Vector4f colour = base_colour(target, face, w);
+    Vector4f color = base_color(target, face, w);
     const Material& material = *face.material;
-    if (material.alpha_mode == AlphaMode::mask && !(colour[3] >= material.alpha_cutoff)) return std::nullopt;
-    if (material.alpha_mode != AlphaMode::blend) colour[3] = 1;
+    if (material.alpha_mode == AlphaMode::mask && !(color[3] >= material.alpha_cutoff)) return std::nullopt;
+    if (material.alpha_mode != AlphaMode::blend) color[3] = 1;
     normal = face.normal;
     if (target.shading == Shading::lit && !material.unlit) {
         normal = shading_normal(target, face, w);
         const Vector3 world = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
         const Vector3f glow(material.emissive.data());
         Vector3f rgb =
-            lighting(target.camera, colour.head<3>(), normal, (target.camera.eye - world).normalized());
+            lighting(target.camera, color.head<3>(), normal, (target.camera.eye - world).normalized());
         if (glow.maxCoeff() > 0) {
             const auto texel =
                 sample_texture(face, material.emissive_texture, target.scene.color_textures, w);
             rgb += texel ? Vector3f(glow.cwiseProduct(texel->head<3>())) : glow;
         }
-        colour.head<3>() = rgb;
+        color.head<3>() = rgb;
     }
-    return colour;
+    return color;
 }
 
 /// Distance in pixels to the nearest edge of the face.
@@ -215,15 +215,15 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     Surfel& surfel = target.surfels.pixels[pixel];
     if (!(inverse_depth > surfel.inverse_depth)) return;
     Vector3 normal;
-    auto colour = shade(target, face, perspective_weights(face, screen_weights), normal);
-    if (!colour) return;
+    auto color = shade(target, face, perspective_weights(face, screen_weights), normal);
+    if (!color) return;
     if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
-        *colour = 0.6f * edge_colour + 0.4f * *colour;
+        *color = 0.6f * edge_color + 0.4f * *color;
     }
-    const float alpha = std::clamp((*colour)[3], 0.0f, 1.0f);
-    Vector4f premultiplied = *colour * alpha;
+    const float alpha = std::clamp((*color)[3], 0.0f, 1.0f);
+    Vector4f premultiplied = *color * alpha;
     premultiplied[3] = alpha;
-    target.colour[pixel] = premultiplied + (1 - alpha) * target.colour[pixel];
+    target.color[pixel] = premultiplied + (1 - alpha) * target.color[pixel];
     if (face.material->alpha_mode == AlphaMode::blend) return;  // blended faces do not write depth
     surfel.inverse_depth = static_cast<float>(inverse_depth);
     surfel.normal = normal.cast<float>();
@@ -305,14 +305,14 @@ void draw_scene(RenderTarget& target) {
     for (const auto& [nearness, face] : blended) draw_face(target, face);
 }
 
-Frame downsample(const std::vector<Vector4f>& colour, std::uint32_t size) {
+Frame downsample(const std::vector<Vector4f>& color, std::uint32_t size) {
     Frame frame;
     frame.size = size;
     frame.pixels.assign(std::size_t{size} * size, Vector4f::Zero());
     const std::uint32_t fine = size * samples_per_axis;
     for (std::uint32_t y = 0; y < fine; ++y) {
         for (std::uint32_t x = 0; x < fine; ++x) {
-            Vector4f c = colour[std::size_t{y} * fine + x];
+            Vector4f c = color[std::size_t{y} * fine + x];
             // Clamped before averaging, which otherwise makes the edges of highlights jagged.
             for (int k = 0; k < 3; ++k) c[k] = std::min(c[k], 1.0f);
             frame.pixels[std::size_t{y / samples_per_axis} * size + x / samples_per_axis] +=
@@ -330,13 +330,13 @@ Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shadi
     target.surfels.size = fine;
     target.surfels.tan_half_fov = camera.tan_half_fov;
     target.surfels.pixels.resize(std::size_t{fine} * fine);
-    target.colour.assign(std::size_t{fine} * fine, Vector4f::Zero());
+    target.color.assign(std::size_t{fine} * fine, Vector4f::Zero());
     draw_scene(target);
     if (shading == Shading::lit) {
         const std::vector<float> accessibility = ambient_accessibility(target.surfels, camera);
-        for (std::size_t i = 0; i < accessibility.size(); ++i) target.colour[i].head<3>() *= accessibility[i];
+        for (std::size_t i = 0; i < accessibility.size(); ++i) target.color[i].head<3>() *= accessibility[i];
     }
-    return downsample(target.colour, size);
+    return downsample(target.color, size);
 }
 
 }  // namespace faqem::render

@@ -33,12 +33,12 @@ bool near(const Vector4f& a, const Vector4f& b, float tolerance = 0.02f) {
 const Vector4f red(1, 0, 0, 1), blue(0, 0, 1, 1), nothing(0, 0, 0, 0);
 
 /// An untextured square of two faces at the given z.
-faqem::Asset square(double z, const faqem::Vec4f& colour, faqem::AlphaMode mode = faqem::AlphaMode::opaque) {
+faqem::Asset square(double z, const faqem::Vec4f& color, faqem::AlphaMode mode = faqem::AlphaMode::opaque) {
     faqem::Asset asset = tool_test::sheet(1, 0);
     for (faqem::Vec3& p : asset.parts[0].positions) p[2] = z;
     asset.images.clear();
     asset.materials[0].base_color_texture = {};
-    asset.materials[0].base_color = colour;
+    asset.materials[0].base_color = color;
     asset.materials[0].alpha_mode = mode;
     return asset;
 }

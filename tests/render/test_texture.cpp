@@ -58,12 +58,12 @@ TEST_CASE("nearest filtering returns the texel that contains the coordinate") {
 }
 
 TEST_CASE("sRGB textures are filtered in linear light and data textures without conversion") {
-    const Texture colours = row({0, 255}, ColorSpace::srgb);
-    CHECK(sample(colours, TextureRef{}, {0.5, 0.5}, 0)[0] == Approx(0.5));
+    const Texture colors = row({0, 255}, ColorSpace::srgb);
+    CHECK(sample(colors, TextureRef{}, {0.5, 0.5}, 0)[0] == Approx(0.5));
     CHECK(sample(row({188, 188}, ColorSpace::srgb), TextureRef{}, {0.5, 0.5}, 0)[0] ==
           Approx(0.503).epsilon(0.01));
     // The next mip level is the average in linear light: the sRGB value of 0.5 is 188.
-    CHECK(int(colours.levels.at(1).rgba[0]) == 188);
+    CHECK(int(colors.levels.at(1).rgba[0]) == 188);
     CHECK(int(row({0, 255}).levels.at(1).rgba[0]) == 128);
 }
 

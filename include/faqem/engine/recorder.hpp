@@ -85,14 +85,14 @@ public:
     /// \param vertices  for each vertex slot of the new mesh, its slot in the current mesh
     /// \param faces     likewise for face slots
     void renumber(std::span<const Index> vertices, std::span<const Index> faces) {
-        const auto take = [](std::vector<Index>& of, std::span<const Index> slots) {
-            std::vector<Index> taken;
-            taken.reserve(slots.size());
-            for (const Index slot : slots) taken.push_back(of[slot]);
-            of = std::move(taken);
+        const auto select = [](std::vector<Index>& of, std::span<const Index> slots) {
+            std::vector<Index> selected;
+            selected.reserve(slots.size());
+            for (const Index slot : slots) selected.push_back(of[slot]);
+            of = std::move(selected);
         };
-        take(version_, vertices);
-        take(faces_, faces);
+        select(version_, vertices);
+        select(faces_, faces);
     }
 
     /// Current history index of a vertex slot.

@@ -54,12 +54,12 @@ private:
     /// Chooses the extent and the cell size; the cells are still empty.
     explicit BoxGrid(std::span<const Box2> boxes);
 
-    /// Calls visit(cell) for every cell that the box overlaps.
+    /// Calls visit_cell(cell) for every cell that the box overlaps.
     template <class Visit>
-    void visit(const Box2& box, const Visit& visit) const {
+    void visit(const Box2& box, const Visit& visit_cell) const {
         const std::size_t x0 = column(box.low.x), x1 = column(box.high.x);
         for (std::size_t y = row(box.low.y); y <= row(box.high.y); ++y) {
-            for (std::size_t x = x0; x <= x1; ++x) visit(y * columns_ + x);
+            for (std::size_t x = x0; x <= x1; ++x) visit_cell(y * columns_ + x);
         }
     }
     /// Number of cells that the box overlaps.

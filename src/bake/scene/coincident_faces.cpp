@@ -39,11 +39,12 @@ std::vector<FaceAppearance> face_appearances(const Part& part) {
 // Welded corners by face, the smallest one first: duplicate faces are equal, faces of opposite winding are
 // not.
 std::vector<Triangle> canonical_corners(const Part& part) {
-    const std::vector<Index> first = engine::weld_exact(part.positions);
+    const std::vector<Index> representative = engine::weld_exact(part.positions);
     std::vector<Triangle> result;
     result.reserve(part.triangles.size());
     for (const Triangle& t : part.triangles) {
-        Triangle& p = result.emplace_back(Triangle{first[t[0]], first[t[1]], first[t[2]]});
+        Triangle& p =
+            result.emplace_back(Triangle{representative[t[0]], representative[t[1]], representative[t[2]]});
         std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
     }
     return result;

@@ -32,13 +32,13 @@ std::uint64_t min_faces_for_components(const Part& part) {
     return sum;
 }
 
-// Minimum face count by part. If the sum is more than `goal`, the minimums are by part instead of by
+// Minimum face count by part. If the sum is more than `target_faces`, the minimums are by part instead of by
 // component.
-std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t goal) {
+std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t target_faces) {
     std::vector<std::uint64_t> least;
     std::uint64_t sum = 0;
     for (const Part& part : asset.parts) sum += least.emplace_back(min_faces_for_components(part));
-    for (std::size_t p = 0; p < least.size() && sum > goal; ++p)
+    for (std::size_t p = 0; p < least.size() && sum > target_faces; ++p)
         least[p] = std::min<std::uint64_t>(min_target_faces, faces_of(asset, p));
     return least;
 }
@@ -47,10 +47,10 @@ std::vector<std::uint64_t> min_budgets(const Asset& asset, std::uint64_t goal) {
 
 // Parts whose proportional share would be below their minimum get the minimum; the other parts share the
 // rest.
-std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal) {
+std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t target_faces) {
     const std::size_t parts = asset.parts.size();
-    std::vector<std::uint64_t> share = min_budgets(asset, goal);
-    double rest = 0, left = static_cast<double>(goal);
+    std::vector<std::uint64_t> share = min_budgets(asset, target_faces);
+    double rest = 0, left = static_cast<double>(target_faces);
     std::vector<std::size_t> order;
     for (std::size_t p = 0; p < parts; ++p) {
         rest += static_cast<double>(faces_of(asset, p));

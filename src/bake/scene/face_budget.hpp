@@ -10,12 +10,12 @@
 
 namespace faqem::detail {
 
-/// Distributes `goal` faces over the parts in proportion to their face counts (largest remainder method).
+/// Distributes `target_faces` over the parts in proportion to their face counts (largest remainder method).
 /// A part gets at least 4 faces (or all it has) for each of its connected components, at the expense of the
-/// other parts. If `goal` is too small for that, the minimum is 4 faces per part (or all it has).
-/// \return face count by part; the sum exceeds `goal` only if the sum of 4 faces per part does
+/// other parts. If `target_faces` is too small for that, the minimum is 4 faces per part (or all it has).
+/// \return face count by part; the sum exceeds `target_faces` only if the sum of 4 faces per part does
 /// Complexity: O(faces).
-std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t goal);
+std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t target_faces);
 
 /// Weights by part that convert costs (squared distance times area) from a part's units to those of the
 /// scene: the fourth power of an instance's scale, summed over the instances of the part. 1 for parts that

@@ -161,11 +161,11 @@ private:
         if (by_cost) compute_cost_curves();
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
         for (const std::uint64_t target : targets) {
-            const std::uint64_t goal = std::min(target, static_cast<std::uint64_t>(faces_));
+            const std::uint64_t target_faces = std::min(target, static_cast<std::uint64_t>(faces_));
             const std::vector<std::uint64_t> share =
                 by_cost ? detail::distribute_face_budget(
-                              curves_, detail::cost_weights(curves_.size(), instances(source_)), goal)
-                        : detail::budget_by_faces(source_, goal);
+                              curves_, detail::cost_weights(curves_.size(), instances(source_)), target_faces)
+                        : detail::budget_by_faces(source_, target_faces);
             for (std::size_t p = 0; p < share.size(); ++p)
                 result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
         }

@@ -218,9 +218,9 @@ bool bake_pages(BakeJob& job) {
                                               page.layers, images));
     }
     for (const BakePart& part : job.parts) {
-        CornerLayers layers{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
-        if (!uvs[part.index].empty()) layers.uvs.push_back(std::move(uvs[part.index]));
-        WeldedPart welded = weld_corners(part, layers, job.cancellation_check());
+        CornerValues values{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
+        if (!uvs[part.index].empty()) values.uvs.push_back(std::move(uvs[part.index]));
+        WeldedPart welded = weld_corners(part, values, job.cancellation_check());
         transfer_skin_and_morphs(part, welded, job.cancellation_check());
         for (Index f : part.simplified->history.kept_faces) {
             welded.part.face_material.push_back(groups.group_of(face_material(*part.source, f)));

@@ -42,9 +42,9 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     return result;
 }
 
-void finish_part(BakeJob& job, const BakePart& part, const CornerLayers& layers,
+void finish_part(BakeJob& job, const BakePart& part, const CornerValues& values,
                  std::vector<Index> materials) {
-    WeldedPart welded = weld_corners(part, layers, job.cancellation_check());
+    WeldedPart welded = weld_corners(part, values, job.cancellation_check());
     transfer_skin_and_morphs(part, welded, job.cancellation_check());
     welded.part.face_material = std::move(materials);
     job.result.asset.parts.push_back(std::move(welded.part));
@@ -99,11 +99,11 @@ void bake_vertex(BakeJob& job) {
     for (const BakePart& part : job.parts) {
         job.report_progress(Phase::bake, done++ / static_cast<double>(job.parts.size()));
         const CornerNormals& normals = job.normals[part.index];
-        CornerLayers layers{normals.normals, {}, {}};
-        if (part.map) layers.colors = corner_colors(part, sampler, normals, job.workers());
+        CornerValues values{normals.normals, {}, {}};
+        if (part.map) values.colors = corner_colors(part, sampler, normals, job.workers());
         std::vector<Index> materials = kept_materials(part);
         for (Index& m : materials) m = groups.group_of(m);
-        finish_part(job, part, layers, std::move(materials));
+        finish_part(job, part, values, std::move(materials));
     }
 }
 
@@ -122,18 +122,18 @@ void bake_keep(BakeJob& job) {
                 "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
                 "simplify_parts() transfers if bake.kind is Bake::keep");
         }
-        CornerLayers layers{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
+        CornerValues values{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {
             check_cancelled();
-            const float* values = from.values.data() + c * width;
+            const float* corner = from.values.data() + c * width;
             for (std::size_t s = 0; s < sets; ++s)
-                layers.uvs[s].push_back({values[2 * s], values[2 * s + 1]});
+                values.uvs[s].push_back({corner[2 * s], corner[2 * s + 1]});
             if (!colors) continue;
-            values += 2 * sets;
-            layers.colors.push_back({values[0], values[1], values[2], values[3]});
+            corner += 2 * sets;
+            values.colors.push_back({corner[0], corner[1], corner[2], corner[3]});
         }
-        layers.tangents = kept_tangents(job, part, layers.uvs);
-        finish_part(job, part, layers, kept_materials(part));
+        values.tangents = kept_tangents(job, part, values.uvs);
+        finish_part(job, part, values, kept_materials(part));
     }
 }
 

@@ -18,13 +18,13 @@ public:
     const SurfacePoint* start_near(std::uint32_t x, std::uint32_t y) const {
         if (!started_) return nullptr;
         if (last_.y == y && x - last_.x <= 1) return &last_.point;
-        return row_.is_near(x, y) ? &row_.point : nullptr;
+        return row_start_.is_near(x, y) ? &row_start_.point : nullptr;
     }
 
     /// Adds the result of a sample in texel (x, y).
     void add(const SurfacePoint& point, std::uint32_t x, std::uint32_t y) {
         last_ = {point, x, y};
-        if (!started_ || row_.y != y) row_ = last_;
+        if (!started_ || row_start_.y != y) row_start_ = last_;
         started_ = true;
     }
 
@@ -33,14 +33,14 @@ private:
         SurfacePoint point;
         std::uint32_t x = 0, y = 0;
 
-        bool is_near(std::uint32_t to_x, std::uint32_t to_y) const {
+        bool is_near(std::uint32_t sample_x, std::uint32_t sample_y) const {
             constexpr std::uint32_t steps = 4;  // largest offset in texels between the starts of two rows
             // Unsigned differences wrap around: above, or too far to the left, they are large.
-            return to_y - y <= 1 && to_x + steps - x <= 2 * steps;
+            return sample_y - y <= 1 && sample_x + steps - x <= 2 * steps;
         }
     };
 
-    CachedSample last_, row_;
+    CachedSample last_, row_start_;
     bool started_ = false;
 };
 

@@ -17,21 +17,21 @@ int compare(const std::array<float, N>& a, const std::array<float, N>& b) {
     return 0;
 }
 
-int compare(const CornerLayers& layers, std::uint64_t a, std::uint64_t b) {
-    if (!layers.normals.empty()) {
-        if (const int c = compare(layers.normals[a], layers.normals[b])) return c;
+int compare(const CornerValues& values, std::uint64_t a, std::uint64_t b) {
+    if (!values.normals.empty()) {
+        if (const int c = compare(values.normals[a], values.normals[b])) return c;
     }
-    for (const std::vector<Vec2f>& uvs : layers.uvs) {
+    for (const std::vector<Vec2f>& uvs : values.uvs) {
         if (const int c = compare(uvs[a], uvs[b])) return c;
     }
-    if (!layers.tangents.empty()) {
-        if (const int c = compare(layers.tangents[a], layers.tangents[b])) return c;
+    if (!values.tangents.empty()) {
+        if (const int c = compare(values.tangents[a], values.tangents[b])) return c;
     }
-    return layers.colors.empty() ? 0 : compare(layers.colors[a], layers.colors[b]);
+    return values.colors.empty() ? 0 : compare(values.colors[a], values.colors[b]);
 }
 
-// By corner: the first corner of its vertex that agrees with it in every layer.
-std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerLayers& layers,
+// By corner: the first corner of its vertex that agrees with it in all values.
+std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerValues& values,
                                            engine::CancellationCheck check_cancelled) {
     const VertexCorners at = vertex_corners(mesh, check_cancelled);
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
@@ -42,11 +42,11 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
         sorted.assign(corners.begin(), corners.end());
         std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
             check_cancelled();
-            const int c = compare(layers, a, b);
+            const int c = compare(values, a, b);
             return c ? c < 0 : a < b;
         });
         for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
-            if (compare(layers, sorted[first], sorted[i]) != 0) first = i;
+            if (compare(values, sorted[first], sorted[i]) != 0) first = i;
             result[sorted[i]] = sorted[first];
         }
     }
@@ -78,17 +78,17 @@ Vec3 barycentrics_near_corner(std::size_t corner, double inset) {
     return w;
 }
 
-WeldedPart weld_corners(const BakePart& bake_part, const CornerLayers& layers,
+WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values,
                         engine::CancellationCheck check_cancelled) {
     const TriangleMesh& mesh = bake_part.simplified->mesh;
-    const std::vector<std::uint64_t> first = representatives(mesh, layers, check_cancelled);
+    const std::vector<std::uint64_t> first = representatives(mesh, values, check_cancelled);
     std::vector<Index> number(first.size(), no_index);
     WeldedPart result;
     Part& part = result.part;
     part.name = bake_part.source->name;
     part.source = bake_part.source->source;
     part.triangles.resize(mesh.triangles.size());
-    part.uvs.resize(layers.uvs.size());
+    part.uvs.resize(values.uvs.size());
     for (std::uint64_t c = 0; c < first.size(); ++c) {
         check_cancelled();
         Index& n = number[first[c]];
@@ -96,10 +96,10 @@ WeldedPart weld_corners(const BakePart& bake_part, const CornerLayers& layers,
             n = static_cast<Index>(result.corner.size());
             result.corner.push_back(c);
             part.positions.push_back(mesh.positions[mesh.triangles[c / 3][c % 3]]);
-            if (!layers.normals.empty()) part.normals.push_back(layers.normals[c]);
-            for (std::size_t s = 0; s < layers.uvs.size(); ++s) part.uvs[s].push_back(layers.uvs[s][c]);
-            if (!layers.colors.empty()) part.colors.push_back(layers.colors[c]);
-            if (!layers.tangents.empty()) part.tangents.push_back(layers.tangents[c]);
+            if (!values.normals.empty()) part.normals.push_back(values.normals[c]);
+            for (std::size_t s = 0; s < values.uvs.size(); ++s) part.uvs[s].push_back(values.uvs[s][c]);
+            if (!values.colors.empty()) part.colors.push_back(values.colors[c]);
+            if (!values.tangents.empty()) part.tangents.push_back(values.tangents[c]);
         }
         part.triangles[c / 3][c % 3] = n;
     }

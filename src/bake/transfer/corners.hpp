@@ -45,7 +45,7 @@ VertexCorners vertex_corners(const TriangleMesh& mesh, engine::CancellationCheck
 Vec3 barycentrics_near_corner(std::size_t corner, double inset);
 
 /// Attributes by corner of the simplified mesh. Empty ones are not written.
-struct CornerLayers {
+struct CornerValues {
     std::vector<Vec3f> normals;
     std::vector<std::vector<Vec2f>> uvs;
     std::vector<Vec4f> colors;
@@ -58,11 +58,11 @@ struct WeldedPart {
     std::vector<std::uint64_t> corner;  ///< by vertex of `part`: its first corner in the simplified mesh
 };
 
-/// Makes one output vertex of all corners of a simplified vertex that agree in every layer. Output vertices
+/// Makes one output vertex of all corners of a simplified vertex that agree in all values. Output vertices
 /// are in the order of their first use. Part::name and Part::source are those of the source part.
 /// Complexity: O(corners log valence).
 /// \throws whatever `check_cancelled` throws
-WeldedPart weld_corners(const BakePart& part, const CornerLayers& layers,
+WeldedPart weld_corners(const BakePart& part, const CornerValues& values,
                         engine::CancellationCheck check_cancelled = {});
 
 }  // namespace faqem::detail

@@ -311,7 +311,7 @@ void add_lod_command(CLI::App& app, Action& action) {
     command->add_option("--history", arguments->history,
                         "Write the collapse history of all levels to this file, for faqem truncate");
     add_view_options(*command, arguments->view_settings);
-    add_level_options(*command, *arguments);
+    add_options_without_targets(*command, *arguments);
     add_profile_option(*command);
     command
         ->add_option("--threads", arguments->options.threads, "Maximum number of threads; 0: all (default)")

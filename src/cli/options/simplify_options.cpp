@@ -147,7 +147,7 @@ void add_topology_options(CLI::App& command, SimplifyArguments& a) {
 
 void add_simplify_options(CLI::App& command, SimplifyArguments& a) {
     add_target_options(command, a);
-    add_level_options(command, a);
+    add_options_without_targets(command, a);
 }
 
 void add_bake_options(CLI::App& command, SimplifyArguments& a) {
@@ -172,7 +172,7 @@ void add_bake_options(CLI::App& command, SimplifyArguments& a) {
     command.add_option("--mapping", a.mapping, "Map to the original: projection (default), lineage, closest");
 }
 
-void add_level_options(CLI::App& command, SimplifyArguments& a) {
+void add_options_without_targets(CLI::App& command, SimplifyArguments& a) {
     add_metric_options(command, a);
     add_bake_options(command, a);
     add_topology_options(command, a);

@@ -35,7 +35,7 @@ struct SimplifyArguments {
 void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
 
 /// Adds all options except the targets (--ratio, --faces and --max-error). \param arguments  as above
-void add_level_options(CLI::App& command, SimplifyArguments& arguments);
+void add_options_without_targets(CLI::App& command, SimplifyArguments& arguments);
 
 /// Adds only the options of baking. \param arguments  as above
 void add_bake_options(CLI::App& command, SimplifyArguments& arguments);

@@ -6,16 +6,16 @@
 
 namespace faqem::cli {
 
-Vec4f heat_colour(double share) {
+Vec4f heat_color(double share) {
     const double at = share > 0 ? std::min(share, 1.0) * (heat_ramp.size() - 1) : 0;
     const std::size_t before = std::min(static_cast<std::size_t>(at), heat_ramp.size() - 2);
     const double t = at - static_cast<double>(before);
-    Vec4f colour = {0, 0, 0, 1};
+    Vec4f color = {0, 0, 0, 1};
     for (std::size_t k = 0; k < 3; ++k) {
         const double srgb = (1 - t) * heat_ramp[before][k] + t * heat_ramp[before + 1][k];
-        colour[k] = static_cast<float>(detail::linear_from_srgb(srgb / 255));
+        color[k] = static_cast<float>(detail::linear_from_srgb(srgb / 255));
     }
-    return colour;
+    return color;
 }
 
 }  // namespace faqem::cli

@@ -24,6 +24,6 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1
 /// Returns the interpolated colour at a position of the colour map.
 /// \param share  position in [0, 1]; clamped, NaN is treated as 0
 /// \return linear RGBA
-Vec4f heat_colour(double share);
+Vec4f heat_color(double share);
 
 }  // namespace faqem::cli

@@ -143,9 +143,9 @@ std::string scripts(const ReportPage& page) {
 
 std::string ramp_stops() {
     std::string stops;
-    for (const auto& colour : heat_ramp) {
-        stops += (stops.empty() ? "rgb(" : ", rgb(") + std::to_string(colour[0]) + " " +
-                 std::to_string(colour[1]) + " " + std::to_string(colour[2]) + ")";
+    for (const auto& color : heat_ramp) {
+        stops += (stops.empty() ? "rgb(" : ", rgb(") + std::to_string(color[0]) + " " +
+                 std::to_string(color[1]) + " " + std::to_string(color[2]) + ")";
     }
     return stops;
 }

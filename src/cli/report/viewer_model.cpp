@@ -43,7 +43,7 @@ Asset color_by_distance(const ErrorSurface& error, double limit) {
     Asset asset;
     asset.parts = {error_part(error, "error")};
     for (const double distance : error.distances)
-        asset.parts[0].colors.push_back(heat_colour(limit > 0 ? distance / limit : 0));
+        asset.parts[0].colors.push_back(heat_color(limit > 0 ? distance / limit : 0));
     return asset;
 }
 

@@ -39,7 +39,7 @@ Asset painted_ball() {
 }
 
 /// Mean difference of red and green between a level and the original at the same x and y.
-double colour_error(const SimplifiedAsset& simplified, const Asset& original) {
+double color_error(const SimplifiedAsset& simplified, const Asset& original) {
     const Asset& asset = simplified.asset;
     const Pixels before = decode(original.images[0]);
     const Part& part = asset.parts[0];
@@ -144,7 +144,7 @@ TEST_CASE("levels with a shared texture use one image and have the colours of th
         CHECK(simplified.report.pages.size() == (i == 0 ? 1 : 0));
         REQUIRE(simplified.asset.images.size() == 1);
         CHECK(simplified.asset.images[0].encoded == levels[0].result.asset.images[0].encoded);
-        CHECK(colour_error(simplified, ball) < 4);
+        CHECK(color_error(simplified, ball) < 4);
         CHECK(levels[i].error >= error);
         error = levels[i].error;
         const MeshView view{part.positions, part.triangles};

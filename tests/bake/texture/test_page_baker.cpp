@@ -45,7 +45,7 @@ Pixels half(const Pixels& pixels) {
 }
 
 // The largest difference of a channel over all faces, including their corners and edges.
-double worst_colour(const Asset& source, const Pixels& before, const Asset& simplified, const Pixels& after) {
+double worst_color(const Asset& source, const Pixels& before, const Asset& simplified, const Pixels& after) {
     double worst = 0;
     const Part &a = source.parts[0], &b = simplified.parts[0];
     for (std::size_t f = 0; f < a.triangles.size(); ++f) {
@@ -65,10 +65,10 @@ TEST_CASE("charts have the colours of the source at seams and on coarser mip lev
     REQUIRE(simplified.asset.images.size() == 1);
     Pixels after = decode(simplified.asset.images[0]);
     const Pixels before = decode(source.images[0]);
-    CHECK(worst_colour(source, before, simplified.asset, after) < 4);
+    CHECK(worst_color(source, before, simplified.asset, after) < 4);
     for (int level = 1; level < 3; ++level) {
         after = half(after);
-        CHECK(worst_colour(source, before, simplified.asset, after) < 4 + 4 * level);
+        CHECK(worst_color(source, before, simplified.asset, after) < 4 + 4 * level);
     }
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("no unrelated texels are read at seams at any texel density") {
     options.bake.texel_density = density;
     const SimplifiedAsset simplified = bake(source, unchanged(source), options);
     // The ramp increases by 180 over 64 source texels: 2.9 per texel.
-    const double texels = worst_colour(source, before, simplified.asset, decode(simplified.asset.images[0])) /
+    const double texels = worst_color(source, before, simplified.asset, decode(simplified.asset.images[0])) /
                           (180.0 / 63) * simplified.report.pages[0].density;
     CHECK(texels < 1.6);
 }
@@ -137,8 +137,8 @@ TEST_CASE("colours do not bleed across creases into a strip one texel wide") {
     part.face_material.assign(12, 0);
     const auto kind = GENERATE(Bake::atlas, Bake::per_triangle);
     const SimplifiedAsset simplified = bake(source, unchanged_welded(source), of_kind(kind, 128));
-    CHECK(worst_colour(source, decode(source.images[0]), simplified.asset,
-                       decode(simplified.asset.images.at(0))) < 4);
+    CHECK(worst_color(source, decode(source.images[0]), simplified.asset,
+                      decode(simplified.asset.images.at(0))) < 4);
 }
 
 TEST_CASE("automatic uses charts unless they have too few faces") {

@@ -100,13 +100,13 @@ TEST_CASE("viewer_glb writes the model and its error surface in normalized coord
     CHECK(read.parts[1].uvs[0][3] == faqem::Vec2f{2, 0});
 }
 
-TEST_CASE("heat_colour increases in luminance and clamps its argument") {
+TEST_CASE("heat_color increases in luminance and clamps its argument") {
     const auto luminance = [](double share) {
-        const faqem::Vec4f c = heat_colour(share);
+        const faqem::Vec4f c = heat_color(share);
         return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
     };
     for (int i = 0; i < 16; ++i) CHECK(luminance(i / 16.0) < luminance((i + 1) / 16.0));
-    CHECK(heat_colour(2) == heat_colour(1));
-    CHECK(heat_colour(-1) == heat_colour(0));
-    CHECK(heat_colour(std::nan("")) == heat_colour(0));
+    CHECK(heat_color(2) == heat_color(1));
+    CHECK(heat_color(-1) == heat_color(0));
+    CHECK(heat_color(std::nan("")) == heat_color(0));
 }

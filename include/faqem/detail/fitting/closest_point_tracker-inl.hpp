@@ -188,7 +188,7 @@ FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double toler
 
 FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positions, Workers workers,
                                                  std::span<const std::uint8_t> flipped) {
-    if (positions_.empty()) return initialise(positions, workers);
+    if (positions_.empty()) return initialize(positions, workers);
     std::vector<std::uint8_t> moved =
         moved_triangles(triangles_, positions_, positions, workers.check_cancelled);
     for (std::size_t f = 0; f < flipped.size(); ++f) moved[f] |= flipped[f];
@@ -215,7 +215,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
     });
 }
 
-FAQEM_INLINE void ReferenceToMeshTracker::initialise(std::span<const Vector3> positions, Workers workers) {
+FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> positions, Workers workers) {
     vertex_faces_ = make_vertex_faces(positions.size(), triangles_, workers.check_cancelled);
     positions_.assign(positions.begin(), positions.end());
     tree_.emplace(positions_, triangles_, workers.check_cancelled);

@@ -159,7 +159,7 @@ private:
         engine::Vector3 residual = engine::Vector3::Zero();
         bool is_exact = false;  ///< result of a global search, not tracked
     };
-    void initialise(std::span<const engine::Vector3> positions, Workers workers);
+    void initialize(std::span<const engine::Vector3> positions, Workers workers);
     void search(std::size_t i, Index near);
     void set_residual(std::size_t i, const Bvh::Hit& hit);
 

@@ -70,10 +70,10 @@ inline double power_of(double x, double power) { return power == 0.5 ? std::sqrt
 
 inline void add(const Correspondence& correspondence, double weight, FaceSystem& face) {
     const Symmetric3 metric = residual_metric(correspondence.normal, weight);
-    const Vector3 wanted = metric * correspondence.residual;
+    const Vector3 weighted_residual = metric * correspondence.residual;
     const Vec3& share = correspondence.sample.barycentric;
     for (std::size_t k = 0; k < 3; ++k) {
-        face.rhs[k] += share[k] * wanted;
+        face.rhs[k] += share[k] * weighted_residual;
         face.diagonal[k].add(share[k] * share[k], metric);
         face.off_diagonal[k].add(share[k] * share[(k + 1) % 3], metric);
     }
@@ -169,8 +169,8 @@ private:
                 rhs_[v].setZero();
                 continue;
             }
-            const double hold = (damping * diagonal_[v].trace() + mean_damping * mean_trace) / 3;
-            diagonal_[v].add(hold > 0 ? hold : 1.0, {1, 0, 0, 1, 0, 1});
+            const double diagonal_damping = (damping * diagonal_[v].trace() + mean_damping * mean_trace) / 3;
+            diagonal_[v].add(diagonal_damping > 0 ? diagonal_damping : 1.0, {1, 0, 0, 1, 0, 1});
             inverse_[v] = diagonal_[v].matrix().inverse();
         }
     }

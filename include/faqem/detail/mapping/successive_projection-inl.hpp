@@ -50,13 +50,19 @@ struct SuccessiveProjection::Query {
     double sign = 1;  // SurfacePatches::sign
 };
 
-// The best face of a patch, or the state of a walk.
-struct SuccessiveProjection::Best {
+// The best face of a patch.
+struct SuccessiveProjection::ScoredFace {
     Index face = no_index;
-    std::uint64_t entry = 0;
+    std::uint64_t entry = 0;      // index into CollapseHistory::patch_faces
     bool is_approximate = false;  // wrong orientation or other surface patch
     double score = infinity;
-    bool is_aborted = false;  // the walk got too long
+};
+
+// The face at which a walk ended.
+struct SuccessiveProjection::WalkEnd {
+    Index face;
+    bool is_approximate = false;  // a face on the way was, or a patch had no face of the group
+    bool is_aborted = false;      // the walk got too long
 };
 
 // A patch, and the best of its faces so far.
@@ -64,7 +70,7 @@ struct SuccessiveProjection::Patch {
     const Query& query;
     double edge = 0;                   // mean edge length
     std::uint8_t patch_component = 0;  // of the current face
-    Best best, best_away;              // with the same orientation, and with another one
+    ScoredFace best, best_away;        // with the same orientation, and with another one
 };
 
 FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& history,
@@ -107,9 +113,8 @@ FAQEM_INLINE bool SuccessiveProjection::is_facing_away(Index candidate, const Ve
 // The face with the smallest score, or of equal ones the one with the smallest index. Since the result does
 // not depend on the order, the face with the closest bounding sphere is evaluated first, so that most others
 // can be skipped by their bounding spheres.
-FAQEM_INLINE SuccessiveProjection::Best SuccessiveProjection::best_of_patch(Index collapse, Index face,
-                                                                            const Query& query,
-                                                                            std::uint64_t& visited) const {
+FAQEM_INLINE SuccessiveProjection::ScoredFace SuccessiveProjection::best_of_patch(
+    Index collapse, Index face, const Query& query, std::uint64_t& visited) const {
     const std::uint64_t begin = history_.patch_begin[collapse], end = history_.patch_begin[collapse + 1];
     std::uint64_t own = begin, first = begin;
     while (own < end && history_.patch_faces[own] != face) ++own;
@@ -144,14 +149,14 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
                   c = to_eigen(replay_.positions[t[2]]);
     const bool away = is_facing_away(g, engine::area_vector(a, b, c), query);
     if (away && patch.best.face != no_index) return;
-    const bool is_other_patch = surface_patches_.surface_patch[g] != query.surface_patch;
+    const bool is_other_surface_patch = surface_patches_.surface_patch[g] != query.surface_patch;
     const double penalty =
         (replay_.patch_component[e] != patch.patch_component ? component_penalty * patch.edge : 0) +
-        (is_other_patch ? surface_patch_penalty * patch.edge : 0);
+        (is_other_surface_patch ? surface_patch_penalty * patch.edge : 0);
     const double score = std::sqrt(closest_point_on_triangle(query.p0, a, b, c).distance_squared) + penalty;
-    Best& winner = away ? patch.best_away : patch.best;
+    ScoredFace& winner = away ? patch.best_away : patch.best;
     if (score < winner.score || (score == winner.score && g < winner.face)) {
-        winner = {g, e, away || is_other_patch, score};
+        winner = {g, e, away || is_other_surface_patch, score};
     }
 }
 
@@ -225,29 +230,28 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::snap_to_closest(const Query& que
     return result;
 }
 
-FAQEM_INLINE SuccessiveProjection::Best SuccessiveProjection::walk(Index face, const Query& query) const {
-    Best at{query.original, 0, false, infinity};
-    bool is_approximate = false;
+FAQEM_INLINE SuccessiveProjection::WalkEnd SuccessiveProjection::walk(Index face, const Query& query) const {
+    WalkEnd end{query.original};
     std::uint64_t visited = 0;
-    for (Index k = replay_.kept_last[face]; k != no_index; k = replay_.previous[at.entry]) {
+    for (Index k = replay_.kept_last[face]; k != no_index;) {
         if (visited > max_visited_faces) {
-            at.is_aborted = true;
+            end.is_aborted = true;
             break;
         }
-        const Best next = best_of_patch(k, at.face, query, visited);
+        const ScoredFace next = best_of_patch(k, end.face, query, visited);
         if (next.face == no_index) {
-            is_approximate = true;
+            end.is_approximate = true;
             break;
         }
-        at = next;
-        is_approximate = is_approximate || next.is_approximate;
+        end.face = next.face;
+        end.is_approximate = end.is_approximate || next.is_approximate;
+        k = replay_.previous[next.entry];
     }
-    at.is_approximate = is_approximate;
-    return at;
+    return end;
 }
 
 FAQEM_INLINE SurfacePoint SuccessiveProjection::map_by_walk(Index face, const Query& query) const {
-    const Best end = walk(face, query);
+    const WalkEnd end = walk(face, query);
     if (!end.is_aborted && is_accepted(end.face, query)) {
         return snap_to_closest(query, end.face, end.is_approximate ? MapStep::approximate : MapStep::history);
     }

@@ -65,14 +65,15 @@ public:
 
 private:
     struct Query;
-    struct Best;
+    struct ScoredFace;
+    struct WalkEnd;
     struct Patch;
 
     Query make_query(Index face, const Vec3& barycentric) const;
     bool is_facing_away(Index candidate, const engine::Vector3& area_vector, const Query& query) const;
-    Best best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& visited) const;
+    ScoredFace best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& visited) const;
     void consider(std::uint64_t entry, Patch& patch) const;
-    Best walk(Index face, const Query& query) const;
+    WalkEnd walk(Index face, const Query& query) const;
     SurfacePoint map_by_walk(Index face, const Query& query) const;
     SurfacePoint snap_to_closest(const Query& query, Index face, MapStep step) const;
     template <class Filter>

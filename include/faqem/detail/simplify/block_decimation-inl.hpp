@@ -47,15 +47,15 @@ inline Buckets<Index> faces_by_block(const BlockInput& input, CancellationCheck 
 }
 
 /// Number of faces with a vertex that is fixed because it has faces in several blocks.
-inline std::size_t count_waiting(const BlockInput& input) {
-    std::vector<std::uint8_t> waits(input.positions.size(), 0);
+inline std::size_t count_fixed_faces(const BlockInput& input) {
+    std::vector<std::uint8_t> is_fixed(input.positions.size(), 0);
     for (const Triangle& t : input.triangles) {
         if (!input.is_between_blocks(t)) continue;
-        for (const Index v : t) waits[v] = 1;
+        for (const Index v : t) is_fixed[v] = 1;
     }
     return static_cast<std::size_t>(
         std::count_if(input.triangles.begin(), input.triangles.end(),
-                      [&](const Triangle& t) { return waits[t[0]] || waits[t[1]] || waits[t[2]]; }));
+                      [&](const Triangle& t) { return is_fixed[t[0]] || is_fixed[t[1]] || is_fixed[t[2]]; }));
 }
 
 /// The mesh of one block: its own vertices, followed by vertices of other blocks that its faces refer to.
@@ -121,13 +121,13 @@ private:
 };
 
 /// The collapses of one block.
-struct Done {
+struct BlockResult {
     std::vector<BlockStep> steps;
     std::vector<double> costs;           ///< after each step: largest cost so far
     std::vector<std::uint32_t> removed;  ///< after each step: number of removed faces
     std::vector<Index> patch_faces;      ///< face slots of the whole surface
     std::vector<std::size_t> patch_begin;
-    engine::LoopResult result;
+    engine::LoopResult loop_result;
 
     /// End of the first `count` steps in patch_faces.
     std::size_t patch_end(std::size_t count) const {
@@ -139,30 +139,30 @@ struct Done {
 class StepRecorder {
 public:
     /// \param faces  approximate number of faces that will be removed; most steps remove two
-    StepRecorder(const Block& block, Recording patches, std::size_t faces, Done& done)
-        : block_(block), patches_(patches), done_(done) {
+    StepRecorder(const Block& block, Recording patches, std::size_t faces, BlockResult& result)
+        : block_(block), patches_(patches), result_(result) {
         const std::size_t steps = faces / 2 + faces / 32;  // growing the arrays would need twice the memory
-        done.steps.reserve(steps);
-        done.costs.reserve(steps);
-        done.removed.reserve(steps);
+        result.steps.reserve(steps);
+        result.costs.reserve(steps);
+        result.removed.reserve(steps);
         if (patches == Recording::off) return;
-        done.patch_begin.reserve(steps);
-        done.patch_faces.reserve(steps * usual_patch);
+        result.patch_begin.reserve(steps);
+        result.patch_faces.reserve(steps * usual_patch);
     }
 
     void before_collapse(const CollapseMesh& mesh, Index survivor, Index gone, const engine::Candidate& to) {
-        if (done_.steps.empty()) before_ = mesh.face_count();
+        if (result_.steps.empty()) before_ = mesh.face_count();
         end_step(mesh);
-        done_.steps.push_back({block_.slot(survivor), block_.slot(gone), to.point});
-        done_.costs.push_back(done_.costs.empty() ? to.cost : std::max(done_.costs.back(), to.cost));
+        result_.steps.push_back({block_.slot(survivor), block_.slot(gone), to.point});
+        result_.costs.push_back(result_.costs.empty() ? to.cost : std::max(result_.costs.back(), to.cost));
         if (patches_ == Recording::off) return;
-        done_.patch_begin.push_back(done_.patch_faces.size());
+        result_.patch_begin.push_back(result_.patch_faces.size());
         mesh.for_each_face_around(survivor, gone,
-                                  [&](Index f, unsigned) { done_.patch_faces.push_back(block_.faces[f]); });
+                                  [&](Index f, unsigned) { result_.patch_faces.push_back(block_.faces[f]); });
     }
     void end_step(const CollapseMesh& mesh) {
-        if (!done_.steps.empty())
-            done_.removed.push_back(static_cast<std::uint32_t>(before_ - mesh.face_count()));
+        if (!result_.steps.empty())
+            result_.removed.push_back(static_cast<std::uint32_t>(before_ - mesh.face_count()));
     }
     void before_deletion(Index) {}
 
@@ -172,7 +172,7 @@ private:
 
     const Block& block_;
     Recording patches_;
-    Done& done_;
+    BlockResult& result_;
     std::size_t before_ = 0;
 };
 
@@ -249,9 +249,9 @@ inline engine::TrackedVertices tracked_vertices(std::span<const Index> watched,
 
 /// Simplifies one block with an engine of its own.
 template <class Metric>
-Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
-                    Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
-    Done done;
+BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
+                           Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
+    BlockResult result;
     CollapseMesh mesh(block.positions, block.triangles, check_cancelled);
     block.forget_surface();
     engine::PairTable pairs(mesh, {}, check_cancelled);
@@ -259,7 +259,7 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     engine::LoopOptions options = block_options(loop, mesh.face_count(), block.between, share);
     options.first_context_vertex = block.own();
     const std::size_t to_remove = mesh.face_count() - std::min(options.target_faces, mesh.face_count());
-    StepRecorder recorder(block, patches, to_remove, done);
+    StepRecorder recorder(block, patches, to_remove, result);
     std::size_t known = 0;
     options.progress = [&](double fraction) {
         return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known,
@@ -267,27 +267,27 @@ Done simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop
     };
     engine::Engine<Metric, engine::SweepQueue, StepRecorder> engine(mesh, pairs, wedges, block.locked, metric,
                                                                     recorder);
-    done.result = engine.run(options);
+    result.loop_result = engine.run(options);
     recorder.end_step(mesh);
     progress(to_remove, known, check_cancelled);
-    return done;
+    return result;
 }
 
 /// Selects the steps that are kept: all below a cost, and in each block a fraction of those with exactly that
 /// cost.
-struct Cut {
+struct StepSelection {
     double cost = std::numeric_limits<double>::infinity();
     std::uint32_t millionths = 1'000'000;
 
-    std::size_t steps(const Done& block) const {
+    std::size_t steps(const BlockResult& block) const {
         const auto [begin, end] = std::equal_range(block.costs.begin(), block.costs.end(), cost);
         const auto below = static_cast<std::uint64_t>(begin - block.costs.begin());
         return below + static_cast<std::uint64_t>(end - begin) * millionths / 1'000'000;
     }
 
-    std::size_t removed(const std::vector<Done>& blocks) const {
+    std::size_t removed(const std::vector<BlockResult>& blocks) const {
         std::size_t sum = 0;
-        for (const Done& block : blocks) {
+        for (const BlockResult& block : blocks) {
             if (const std::size_t n = steps(block)) sum += block.removed[n - 1];
         }
         return sum;
@@ -311,9 +311,9 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
 
 /// The largest selection of steps that removes at most `most` faces. Non-negative doubles are ordered as
 /// their bits.
-inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
+inline StepSelection select_steps(const std::vector<BlockResult>& blocks, std::size_t most) {
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-    const auto keeps = [&](Cut tried) { return tried.removed(blocks) <= most; };
+    const auto keeps = [&](StepSelection tried) { return tried.removed(blocks) <= most; };
     const std::uint64_t bits = last_kept(infinity, [&](std::uint64_t b) {
         return keeps({std::bit_cast<double>(b), 0});
     });
@@ -325,13 +325,13 @@ inline Cut cut(const std::vector<Done>& blocks, std::size_t most) {
 }
 
 /// Appends the first `steps` steps of a block, and its counts.
-inline void take(const Done& block, std::size_t steps, Recording patches, BlockSteps& to) {
+inline void append_steps(const BlockResult& block, std::size_t steps, Recording patches, BlockSteps& to) {
     to.steps.insert(to.steps.end(), block.steps.begin(),
                     block.steps.begin() + static_cast<std::ptrdiff_t>(steps));
     for (std::size_t i = 0; i < refusal_kinds; ++i) {
-        if (i != static_cast<std::size_t>(Refusal::locked)) to.refusals[i] += block.result.refusals[i];
+        if (i != static_cast<std::size_t>(Refusal::locked)) to.refusals[i] += block.loop_result.refusals[i];
     }
-    for (std::size_t i = 0; i < rung_kinds; ++i) to.rungs[i] += block.result.rungs[i];
+    for (std::size_t i = 0; i < rung_kinds; ++i) to.rungs[i] += block.loop_result.rungs[i];
     if (patches == Recording::off || steps == 0) return;
     const std::size_t first = to.patch_faces.size();
     const std::size_t end = block.patch_end(steps);
@@ -362,17 +362,17 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     BlockSteps result;
     if (input.positions.size() <= 2 * input.per_block) return result;
     const std::size_t faces = input.triangles.size();
-    const double waiting = static_cast<double>(count_waiting(input)) / static_cast<double>(faces);
+    const double fixed_share = static_cast<double>(count_fixed_faces(input)) / static_cast<double>(faces);
     const double share = spare_share * static_cast<double>(least) / static_cast<double>(faces);
-    const double kept_share = waiting + (1 - waiting) * share;
+    const double kept_share = fixed_share + (1 - fixed_share) * share;
     if (!(kept_share < max_kept_share)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
     const Buckets<Index> block_faces = faces_by_block(input, workers.check_cancelled);
     SharedProgress progress(loop, removable);
     const Buckets<Index> watched = tracking ? watched_by_block(input, *tracking) : Buckets<Index>();
-    std::vector<Done> done(input.block_count());
+    std::vector<BlockResult> results(input.block_count());
     parallel_blocks(
-        done.size(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
+        results.size(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
             if (progress.is_cancelled()) return;
             Block block(input, b, block_faces[b]);
             const auto simplify = [&](auto metric) {
@@ -380,26 +380,26 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
                                       check_cancelled);
             };
             if (!tracking) {
-                done[b] = simplify(engine::MemorylessMetric());
+                results[b] = simplify(engine::MemorylessMetric());
                 return;
             }
             const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
-            done[b] = simplify(engine::TrackedMetric(
+            results[b] = simplify(engine::TrackedMetric(
                 {}, tracking->original, tracked_vertices(watched[b], tracking->vertex_map, block), begin_at,
                 loop.distance_weight));
         });
     result.is_cancelled = progress.is_cancelled();
-    const Cut kept = cut(done, removable);
+    const StepSelection kept = select_steps(results, removable);
     std::size_t steps = 0, patch_faces = 0;
-    for (const Done& block : done) {
+    for (const BlockResult& block : results) {
         steps += kept.steps(block);
         if (patches == Recording::on) patch_faces += block.patch_end(kept.steps(block));
     }
     result.steps.reserve(steps);
     if (patches == Recording::on) result.patch_begin.reserve(steps);
     result.patch_faces.reserve(patch_faces);
-    for (Done& block : done) {
-        take(block, kept.steps(block), patches, result);
+    for (BlockResult& block : results) {
+        append_steps(block, kept.steps(block), patches, result);
         block = {};
     }
     return result;

@@ -23,7 +23,8 @@ struct Rules {
     /// Smallest allowed cosine between the old and the new normal of a face, in [-1, 1]; -1: not tested.
     double min_normal_cosine = 0;
     /// Pairs shorter than this are not collapsed (paper, supplementary: 1e-8 of the diagonal), unless the
-    /// faces around them are as small: see is_short_pair(). Engine units. Tested by the engine, not by Legality.
+    /// faces around them are as small: see is_short_pair(). Engine units. Tested by the engine, not by
+    /// Legality.
     double min_pair_length = 0;
     /// An edge is a fold if the cosine between the normals of its two faces is below this. A collapse must
     /// not increase the number of folds. -1: not tested.
@@ -47,8 +48,10 @@ public:
     std::optional<Refusal> check(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                                  Index pair, const Vector3& p, const Rules& rules) {
         moved_faces_.clear();
-        if (const auto refusal = check_faces(mesh, u, v, p, rules.min_normal_cosine)) return refusal;
-        if (const auto refusal = check_faces(mesh, v, u, p, rules.min_normal_cosine)) return refusal;
+        if (const auto refusal = check_flips_and_areas(mesh, u, v, p, rules.min_normal_cosine))
+            return refusal;
+        if (const auto refusal = check_flips_and_areas(mesh, v, u, p, rules.min_normal_cosine))
+            return refusal;
         if (rules.link != LinkCondition::off && !link_condition(mesh, pairs, u, v, pair, rules.link)) {
             return Refusal::link;
         }
@@ -64,8 +67,8 @@ public:
 private:
     // Tests the faces of `moved` that do not contain `partner`: none may flip or lose its area (Sec. 3.3 of
     // the paper). A face that is already degenerate has neither a normal nor an area to preserve.
-    std::optional<Refusal> check_faces(const CollapseMesh& mesh, Index moved, Index partner, const Vector3& p,
-                                       double min_normal_cosine) {
+    std::optional<Refusal> check_flips_and_areas(const CollapseMesh& mesh, Index moved, Index partner,
+                                                 const Vector3& p, double min_normal_cosine) {
         std::optional<Refusal> refusal;
         mesh.all_of_faces(moved, [&](Index f, unsigned corner) {
             if (mesh.has_corner(f, partner)) return true;

@@ -31,18 +31,18 @@ class SweepQueue {
 public:
     static constexpr bool is_exact = false;
 
-    /// \param few  up to this number of pairs, only the bucket queue is used: with few pairs the order
-    ///     matters
-    explicit SweepQueue(std::size_t few = 0) : few_(few) {}
+    /// \param min_sweep_pairs  up to this number of pairs, only the bucket queue is used: with few pairs the
+    ///     order matters
+    explicit SweepQueue(std::size_t min_sweep_pairs = 0) : min_sweep_pairs_(min_sweep_pairs) {}
 
     void reserve(std::size_t pairs) {
         costs_.assign(pairs, absent);
         rounds_.assign(pairs, 0);
         size_ = 0;
-        at_ = pairs;
+        next_pair_ = pairs;
         limit_ = lowest_ = -1;
         round_ = 0;
-        is_over_ = false;
+        uses_buckets_ = false;
     }
 
     /// Sets the target.
@@ -50,44 +50,46 @@ public:
     /// \param check_cancelled  called in pop(), which may iterate over all pairs; exceptions pass
     ///     through pop()
     void set_target(std::size_t pairs, CancellationCheck check_cancelled = {}) {
-        end_ = static_cast<double>(pairs);
+        target_pairs_ = static_cast<double>(pairs);
         check_cancelled_ = check_cancelled;
     }
 
-    bool empty() const { return is_over_ ? buckets_.empty() : size_ == 0; }
-    bool contains(Index pair) const { return is_over_ ? buckets_.contains(pair) : costs_[pair] != absent; }
+    bool empty() const { return uses_buckets_ ? buckets_.empty() : size_ == 0; }
+    bool contains(Index pair) const {
+        return uses_buckets_ ? buckets_.contains(pair) : costs_[pair] != absent;
+    }
     bool has_cheaper(double cost) const {
-        return is_over_ ? buckets_.has_cheaper(cost) : size_ > 0 && scaled_cost(cost) > limit_;
+        return uses_buckets_ ? buckets_.has_cheaper(cost) : size_ > 0 && scaled_cost(cost) > limit_;
     }
 
     void set(Index pair, double cost) {
-        if (is_over_) return buckets_.set(pair, cost);
+        if (uses_buckets_) return buckets_.set(pair, cost);
         size_ += costs_[pair] == absent;
         costs_[pair] = scaled_cost(cost);
     }
 
     void erase(Index pair) {
-        if (is_over_) return buckets_.erase(pair);
+        if (uses_buckets_) return buckets_.erase(pair);
         size_ -= costs_[pair] != absent;
         costs_[pair] = absent;
     }
 
     bool mark_stale(Index pair) {
-        if (is_over_) return false;
+        if (uses_buckets_) return false;
         rounds_[pair] = round_;
         return costs_[pair] != absent;
     }
 
-    double approximation_factor() const { return is_over_ ? 1 : max_growth; }
+    double approximation_factor() const { return uses_buckets_ ? 1 : max_growth; }
 
     Index pop() {
         for (;;) {
-            if (is_over_) return buckets_.pop();
-            for (; at_ < costs_.size(); ++at_) {
-                if (at_ % check_interval == 0) check_cancelled_(operations);
-                const float cost = costs_[at_];
-                if (cost <= limit_ && rounds_[at_] != round_) {
-                    const auto pair = static_cast<Index>(at_++);
+            if (uses_buckets_) return buckets_.pop();
+            for (; next_pair_ < costs_.size(); ++next_pair_) {
+                if (next_pair_ % check_interval == 0) check_cancelled_(operations);
+                const float cost = costs_[next_pair_];
+                if (cost <= limit_ && rounds_[next_pair_] != round_) {
+                    const auto pair = static_cast<Index>(next_pair_++);
                     erase(pair);
                     return pair;
                 }
@@ -105,17 +107,18 @@ private:
     static constexpr double first_share = 0.3;
     static constexpr double max_growth = 4, min_growth = 1.41421356;
     /// Below this ratio of the number of pairs to that at the target, the bucket queue is used.
-    static constexpr double near = 1.25;
+    static constexpr double bucket_queue_ratio = 1.25;
 
     double left() const {
-        return end_ > 0 ? static_cast<double>(size_) / end_ : std::numeric_limits<double>::infinity();
+        return target_pairs_ > 0 ? static_cast<double>(size_) / target_pairs_
+                                 : std::numeric_limits<double>::infinity();
     }
 
     void begin_round() {
         const double times = left();
-        if (!(times > near) || size_ <= few_) return fill_buckets();
+        if (!(times > bucket_queue_ratio) || size_ <= min_sweep_pairs_) return fill_buckets();
         limit_ = limit_ < 0 ? first_limit(1 - 1 / times) : next_limit(times);
-        at_ = 0;
+        next_pair_ = 0;
         lowest_ = absent;
         if (++round_ == 0) {
             std::fill(rounds_.begin(), rounds_.end(), std::uint8_t{0});
@@ -141,7 +144,7 @@ private:
     }
 
     void fill_buckets() {
-        is_over_ = true;
+        uses_buckets_ = true;
         buckets_.reserve(costs_.size());
         for (std::size_t i = 0; i < costs_.size(); ++i) {
             check_cancelled_();
@@ -157,13 +160,13 @@ private:
 
     std::vector<float> costs_;          // per pair: its scaled_cost(); `absent` if it is not in the queue
     std::vector<std::uint8_t> rounds_;  // per pair: the last round in which it was marked as stale
-    std::size_t few_, size_ = 0;
-    std::size_t at_ = 0;  // current position in the round
-    double end_ = 0;      // expected number of pairs at the target; 0: unknown
-    float limit_ = -1;    // negative before the first round
-    float lowest_ = -1;   // lowest cost of the pairs skipped in this round
+    std::size_t min_sweep_pairs_, size_ = 0;
+    std::size_t next_pair_ = 0;  // current position in the round
+    double target_pairs_ = 0;    // expected number of pairs at the target; 0: unknown
+    float limit_ = -1;           // negative before the first round
+    float lowest_ = -1;          // lowest cost of the pairs skipped in this round
     std::uint8_t round_ = 0;
-    bool is_over_ = false;
+    bool uses_buckets_ = false;
     CancellationCheck check_cancelled_;
     BucketQueue buckets_;
 };

@@ -73,6 +73,8 @@ private:
     std::string file_, where_;
 };
 
+/// Reads the values of an attribute by point of the mesh, converted to T. Returns false if one is missing or
+/// cannot be converted.
 template <class T>
 bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAttribute& to) {
     to.bytes.resize(std::size_t{mesh.num_points()} * to.components * sizeof(T));

@@ -170,12 +170,12 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
         }
     }
     for (const ExtensionTexture& texture : current.extension_textures) {
-        const ExtensionTexture* before = find_texture(original, texture.extension, texture.name);
+        const ExtensionTexture* previous = find_texture(original, texture.extension, texture.name);
+        if (!previous) previous = &none;
         Json& extension = json["extensions"][texture.extension];
-        const ExtensionTexture& old = before ? *before : none;
-        write_texture_info(writer, extension, texture.name.c_str(), texture.texture, old.texture);
+        write_texture_info(writer, extension, texture.name.c_str(), texture.texture, previous->texture);
         write_texture_factor(extension, texture.name.c_str(), "scale", texture.normal_scale,
-                             old.normal_scale);
+                             previous->normal_scale);
     }
 }
 

@@ -156,23 +156,23 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
 
 }  // namespace
 
-Json primitive_base(GltfWriter& writer, const Part& part, Index material_index) {
+Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material_index) {
     const Material* material = material_index == no_index ? nullptr : &writer.asset.materials[material_index];
     const std::vector<const Json*> from = source_primitives(writer, part, material);
-    Json base = Json::object();
-    if (from.empty()) return base;
+    Json kept = Json::object();
+    if (from.empty()) return kept;
     if (any_has(from, "extras")) {
-        base["extras"] = common_member(from, "extras");
-        if (base["extras"].is_null()) {
-            base.erase("extras");
+        kept["extras"] = common_member(from, "extras");
+        if (kept["extras"].is_null()) {
+            kept.erase("extras");
             warn_mesh(writer, part.name, "extras of primitives that were joined differ and were left out");
         }
     }
-    if (!any_has(from, "extensions")) return base;
+    if (!any_has(from, "extensions")) return kept;
     Json extensions = common_member(from, "extensions");
     if (extensions.is_null()) {
         warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
-        return base;
+        return kept;
     }
     for (const std::string_view name : vertex_extensions)
         if (extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
@@ -180,9 +180,9 @@ Json primitive_base(GltfWriter& writer, const Part& part, Index material_index) 
                       std::string(name) + " does not fit the new vertices and was left out");
     if (material && material->rebaked && extensions.erase(variants) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new texture and were left out");
-    if (!extensions.empty()) base["extensions"] = std::move(extensions);
-    remap_variants(writer, base);
-    return base;
+    if (!extensions.empty()) kept["extensions"] = std::move(extensions);
+    remap_variants(writer, kept);
+    return kept;
 }
 
 void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes) {

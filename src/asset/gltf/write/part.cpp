@@ -156,7 +156,7 @@ void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
         degenerate_faces += data.degenerate_faces;
-        Json primitive = primitive_base(writer, part, material);
+        Json primitive = kept_primitive_members(writer, part, material);
         primitive["attributes"] = write_attributes(writer, part, data);
         primitive["indices"] = add_indices(writer, data);
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data);

@@ -68,9 +68,10 @@ Index write_material(GltfWriter& writer, Index material);
 /// \return the output material
 Index write_source_material(GltfWriter& writer, Index material);
 
-/// Extras and extensions of the output primitive of a part with the given asset material: those of the
-/// corresponding triangle primitives of the source, if they agree.
-Json primitive_base(GltfWriter& writer, const Part& part, Index material);
+/// The members that the output primitive of a part with the given asset material keeps from the source:
+/// extras and extensions of the corresponding triangle primitives, if these agree. Extensions that do not fit
+/// the new vertices or textures are left out with a warning.
+Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material);
 
 /// Appends the primitives of a part: one per material, in the order of first use.
 void write_part(GltfWriter& writer, const Part& part, Json& primitives);
