@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "asset/gltf/write/levels.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -47,11 +48,9 @@ void append_level(Asset& to, Asset&& level) {
     for (Image& own : level.images) image_map.push_back(add_image(to.images, std::move(own)));
     const auto first_material = static_cast<Index>(to.materials.size());
     for (Material& material : level.materials) {
-        for (TextureRef* ref :
-             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-              &material.occlusion_texture, &material.emissive_texture}) {
-            if (*ref) ref->image = image_map[ref->image];
-        }
+        detail::for_each_texture(material, [&](TextureRef& ref) {
+            if (ref) ref.image = image_map[ref.image];
+        });
         to.materials.push_back(std::move(material));
     }
     for (Part& part : level.parts) {

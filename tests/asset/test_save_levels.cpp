@@ -97,6 +97,29 @@ TEST_CASE("levels of a new asset share equal images and have separate materials"
     CHECK(instances(back).size() == 1);
 }
 
+TEST_CASE("the extension textures of each level refer to the images of that level") {
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
+    asset.parts[0].uvs = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+    asset.parts[0].face_material = {0, 0};
+    asset.images = {small_png(1), small_png(2)};
+    asset.materials.resize(1);
+    asset.materials[0].base_color_texture.image = 0;
+    asset.materials[0].extension_textures = {{"KHR_materials_sheen", "sheenColorTexture", {.image = 1}, 1}};
+    std::vector<SavedLevel> levels = three_levels(asset);
+    for (std::uint8_t i = 1; i < 3; ++i) {
+        const auto shade = static_cast<std::uint8_t>(10 * i);
+        levels[i].asset.images = {small_png(shade), small_png(static_cast<std::uint8_t>(shade + 1))};
+    }
+    const Asset back = load_glb(saved_levels(levels));
+    REQUIRE(back.materials.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Material& material = back.materials[back.parts[i].face_material[0]];
+        REQUIRE(material.extension_textures.size() == 1);
+        const Index image = material.extension_textures[0].texture.image;
+        CHECK(back.images.at(image).encoded == levels[i].asset.images[1].encoded);
+    }
+}
+
 TEST_CASE("extras that are not an object are kept without MSFT_screencoverage") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"][0]["extras"] = 7;
