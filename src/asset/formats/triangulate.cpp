@@ -5,15 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "asset/formats/reflex_corner_tree.hpp"
+
 namespace faqem::detail {
 namespace {
 
-using Point = std::array<double, 2>;
-
-/// Twice the signed area of the triangle abc; positive if it is counter-clockwise.
-double orient2d(const Point& a, const Point& b, const Point& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
+using Point = PlanarPoint;
 
 /// Projects the polygon along the dominant axis of its Newell normal, so that it is counter-clockwise. The
 /// coordinates are scaled to [-1, 1]. Returns an empty array if the polygon has no area.
@@ -67,78 +64,11 @@ bool is_strictly_convex(const std::vector<Point>& points) {
     return reversals <= 2;
 }
 
-/// Uniform grid of the reflex and straight corners. Only these can lie inside a candidate ear.
-class ReflexCornerGrid {
-public:
-    ReflexCornerGrid(const std::vector<Point>& points, std::span<const Index> corners) {
-        for (int k = 0; k < 2; ++k) {
-            const auto [low, high] = std::minmax_element(
-                points.begin(), points.end(), [k](const Point& a, const Point& b) { return a[k] < b[k]; });
-            low_[k] = (*low)[k];
-            high_[k] = (*high)[k];
-        }
-        resolution_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(corners.size())), 1, 2048);
-        start_.assign(resolution_ * resolution_ + 1, 0);
-        for (const Index i : corners) ++start_[cell(points[i]) + 1];
-        for (std::size_t c = 0; c < resolution_ * resolution_; ++c) start_[c + 1] += start_[c];
-        corners_.resize(corners.size());
-        std::vector<std::size_t> cursor(start_.begin(), start_.end() - 1);
-        for (const Index i : corners) corners_[cursor[cell(points[i])]++] = i;
-    }
-
-    /// Whether `test` holds for a corner in one of the cells that a triangle overlaps.
-    template <class Test>
-    bool any_of(const std::array<Point, 3>& triangle, Test&& test) const {
-        const auto [low, high] = std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-        for (std::size_t y = cell_coordinate(low - margin, 1); y <= cell_coordinate(high + margin, 1); ++y) {
-            // Only the part of the row that the triangle overlaps: most of the bounding box of a long, thin
-            // triangle lies outside the triangle.
-            const double height = (high_[1] - low_[1]) / static_cast<double>(resolution_);
-            const double bottom = low_[1] + height * static_cast<double>(y);
-            const auto [left, right] = x_range_between(triangle, bottom - margin, bottom + height + margin);
-            const auto row = start_.begin() + static_cast<std::ptrdiff_t>(y * resolution_);
-            const std::size_t first = row[static_cast<std::ptrdiff_t>(cell_coordinate(left - margin, 0))];
-            const std::size_t last = row[static_cast<std::ptrdiff_t>(cell_coordinate(right + margin, 0)) + 1];
-            for (std::size_t i = first; i < last; ++i)
-                if (test(corners_[i])) return true;
-        }
-        return false;
-    }
-
-private:
-    static constexpr double margin = 1e-12;  // far above the rounding errors of coordinates in [-1, 1]
-
-    /// Range in x of the part of a triangle with y in [bottom, top].
-    static Point x_range_between(const std::array<Point, 3>& triangle, double bottom, double top) {
-        Point range = {2, -2};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Point &a = triangle[i], &b = triangle[(i + 1) % 3];
-            if (std::max(a[1], b[1]) < bottom || std::min(a[1], b[1]) > top) continue;
-            for (const Point& end : {a, b}) {
-                const double t = a[1] == b[1] ? 0 : (std::clamp(end[1], bottom, top) - a[1]) / (b[1] - a[1]);
-                const double x = a[1] == b[1] ? end[0] : a[0] + std::clamp(t, 0.0, 1.0) * (b[0] - a[0]);
-                range = {std::min(range[0], x), std::max(range[1], x)};
-            }
-        }
-        return range;
-    }
-
-    std::size_t cell_coordinate(double x, int k) const {
-        const double at = (x - low_[k]) / (high_[k] - low_[k]) * static_cast<double>(resolution_);
-        if (!(at > 0)) return 0;
-        return at < static_cast<double>(resolution_) ? static_cast<std::size_t>(at) : resolution_ - 1;
-    }
-    std::size_t cell(const Point& p) const {
-        return cell_coordinate(p[1], 1) * resolution_ + cell_coordinate(p[0], 0);
-    }
-
-    Point low_, high_;
-    std::size_t resolution_ = 1;
-    std::vector<std::size_t> start_;
-    std::vector<Index> corners_;
-};
-
-/// Ear clipping with a queue of candidate corners and a grid of reflex corners.
+/// Ear clipping in passes over the ring. A pass tests the remaining corners in the order of the ring and then,
+/// repeatedly, the neighbours of the clipped ears.
+///
+/// A corner that is no ear is tested again only when this can change the answer: when one of its neighbours
+/// changes, or when the reflex corner that was found in its triangle is clipped or becomes convex.
 class EarClipper {
 public:
     explicit EarClipper(const std::vector<Point>& points)
@@ -146,20 +76,15 @@ public:
           next_(points.size()),
           prev_(points.size()),
           remaining_(points.size()),
-          grid_(link_corners()) {}
+          blocked_(points.size()),
+          is_candidate_(points.size(), 0),
+          reflex_(link_corners()) {}
 
     void run(std::vector<Triangle>& triangles) {
-        std::vector<Index> queue;
+        for (std::size_t i = 0; i < points_.size(); ++i) add_candidate(static_cast<Index>(i));
         for (int forced = 0; remaining_ > 3;) {
-            collect_ring(queue);
             const std::size_t before = remaining_;
-            for (std::size_t q = 0; q < queue.size() && remaining_ > 3; ++q) {
-                const Index i = queue[q];
-                if (!is_remaining(i) || !is_ear(i)) continue;
-                queue.push_back(prev_[i]);
-                queue.push_back(next_[i]);
-                clip(i, triangles);
-            }
+            clip_ears(triangles);
             if (remaining_ != before) continue;
             // No ear was found: the polygon intersects itself or is too thin for the precision of double.
             if (++forced > max_forced_clips) break;
@@ -172,7 +97,37 @@ public:
 private:
     static constexpr int max_forced_clips = 64;
 
-    ReflexCornerGrid link_corners() {
+    /// Corners that wait for a reflex corner to change: a linked list for each reflex corner.
+    class BlockedCorners {
+    public:
+        explicit BlockedCorners(std::size_t corners) : first_(corners, no_index), links_(corners) {}
+
+        void add(Index corner, Index blocker) {
+            remove(corner);
+            const Index next = first_[blocker];
+            links_[corner] = {blocker, no_index, next};
+            if (next != no_index) links_[next].prev = corner;
+            first_[blocker] = corner;
+        }
+        void remove(Index corner) {
+            const Link link = links_[corner];
+            if (link.blocker == no_index) return;
+            (link.prev == no_index ? first_[link.blocker] : links_[link.prev].next) = link.next;
+            if (link.next != no_index) links_[link.next].prev = link.prev;
+            links_[corner] = {};
+        }
+        /// One of the corners that wait for this one; no_index if there is none.
+        Index first(Index blocker) const { return first_[blocker]; }
+
+    private:
+        struct Link {
+            Index blocker = no_index, prev = no_index, next = no_index;
+        };
+        std::vector<Index> first_;
+        std::vector<Link> links_;
+    };
+
+    ReflexCornerTree link_corners() {
         const std::size_t n = points_.size();
         std::vector<Index> corners;
         for (std::size_t i = 0; i < n; ++i) {
@@ -181,7 +136,7 @@ private:
         }
         for (std::size_t i = 0; i < n; ++i)
             if (!is_convex_corner(static_cast<Index>(i))) corners.push_back(static_cast<Index>(i));
-        return ReflexCornerGrid(points_, corners);
+        return ReflexCornerTree(points_, corners);
     }
 
     bool is_remaining(Index i) const { return next_[i] != no_index; }
@@ -189,40 +144,97 @@ private:
         return orient2d(points_[prev_[i]], points_[i], points_[next_[i]]) > 0;
     }
 
-    bool is_ear(Index i) const {
+    /// Whether a corner is an ear. If not, the corner is no candidate until this can change.
+    bool is_ear(Index i) {
+        is_candidate_[i] = 0;
         if (!is_convex_corner(i)) return false;
-        const Point &a = points_[prev_[i]], &b = points_[i], &c = points_[next_[i]];
-        // A corner at the position of a, b or c is an end of a bridge to a hole and does not block the ear.
-        return !grid_.any_of({a, b, c}, [&](Index r) {
-            const Point& p = points_[r];
-            return is_remaining(r) && p != a && p != b && p != c && orient2d(a, b, p) >= 0 &&
-                   orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0 && !is_convex_corner(r);
-        });
+        // A corner at the position of the ear's corners is an end of a bridge to a hole and does not block it.
+        const Index blocker = reflex_.find_in({points_[prev_[i]], points_[i], points_[next_[i]]});
+        if (blocker == no_index) return true;
+        blocked_.add(i, blocker);
+        return false;
+    }
+
+    /// Number of corners from the beginning of the current pass to corner i.
+    std::size_t steps_to(Index i) const {
+        return i >= pass_begin_ ? i - pass_begin_ : i + points_.size() - pass_begin_;
+    }
+    /// Order of a heap whose first element is the first corner of the pass.
+    auto later_in_pass() const {
+        return [this](Index a, Index b) { return steps_to(a) > steps_to(b); };
+    }
+
+    /// Lets a corner be tested again: in this pass if its turn has yet to come, otherwise in the next one.
+    void add_candidate(Index i) {
+        blocked_.remove(i);
+        if (is_candidate_[i]) return;
+        is_candidate_[i] = 1;
+        if (pass_at_ == no_index || steps_to(i) <= steps_to(pass_at_)) {
+            next_pass_.push_back(i);
+        } else {
+            this_pass_.push_back(i);
+            std::push_heap(this_pass_.begin(), this_pass_.end(), later_in_pass());
+        }
+    }
+
+    void clip_ears(std::vector<Triangle>& triangles) {
+        pass_begin_ = start_corner_;
+        std::sort(next_pass_.begin(), next_pass_.end(), later_in_pass());
+        next_pass_.erase(std::unique(next_pass_.begin(), next_pass_.end()), next_pass_.end());
+        this_pass_.assign(next_pass_.rbegin(), next_pass_.rend());
+        next_pass_.clear();
+        neighbours_.clear();
+        while (!this_pass_.empty() && remaining_ > 3) {
+            pass_at_ = this_pass_.front();
+            std::pop_heap(this_pass_.begin(), this_pass_.end(), later_in_pass());
+            this_pass_.pop_back();
+            clip_if_ear(pass_at_, triangles);
+        }
+        pass_at_ = no_index;
+        for (std::size_t q = 0; q < neighbours_.size() && remaining_ > 3; ++q)
+            clip_if_ear(neighbours_[q], triangles);
+    }
+
+    void clip_if_ear(Index i, std::vector<Triangle>& triangles) {
+        if (!is_remaining(i) || !is_candidate_[i] || !is_ear(i)) return;
+        neighbours_.push_back(prev_[i]);
+        neighbours_.push_back(next_[i]);
+        clip(i, triangles);
     }
 
     void clip(Index i, std::vector<Triangle>& triangles) {
-        triangles.push_back({prev_[i], i, next_[i]});
-        next_[prev_[i]] = next_[i];
-        prev_[next_[i]] = prev_[i];
-        start_corner_ = next_[i];
+        const Index before = prev_[i], after = next_[i];
+        triangles.push_back({before, i, after});
+        next_[before] = after;
+        prev_[after] = before;
+        start_corner_ = after;
         next_[i] = no_index;
         --remaining_;
+        reflex_.set_active(i, false);
+        unblock(i);
+        for (const Index neighbour : {before, after}) {
+            const bool is_convex = is_convex_corner(neighbour);
+            reflex_.set_active(neighbour, !is_convex);
+            if (is_convex) unblock(neighbour);
+            add_candidate(neighbour);
+        }
     }
 
-    void collect_ring(std::vector<Index>& ring) const {
-        ring.clear();
-        Index i = start_corner_;
-        do {
-            ring.push_back(i);
-            i = next_[i];
-        } while (i != start_corner_);
+    void unblock(Index blocker) {
+        while (blocked_.first(blocker) != no_index) add_candidate(blocked_.first(blocker));
     }
 
     const std::vector<Point>& points_;
     std::vector<Index> next_, prev_;  // ring of the remaining corners; next_ is no_index for clipped corners
     std::size_t remaining_;
     Index start_corner_ = 0;  // one of the remaining corners
-    ReflexCornerGrid grid_;
+    BlockedCorners blocked_;
+    std::vector<std::uint8_t> is_candidate_;     // per corner: it may be an ear
+    std::vector<Index> this_pass_;               // heap of candidates whose turn in this pass has yet to come
+    std::vector<Index> next_pass_;               // candidates for the next pass
+    std::vector<Index> neighbours_;              // of the ears clipped in this pass
+    Index pass_begin_ = 0, pass_at_ = no_index;  // first and current corner; no_index: not within the ring
+    ReflexCornerTree reflex_;
 };
 
 bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }

@@ -15,7 +15,9 @@ namespace faqem::detail {
 /// A convex polygon becomes a fan around corner 0. Other polygons are projected along the dominant axis of
 /// their Newell normal and split by ear clipping. The triangles lie inside the polygon and do not overlap if
 /// the projected polygon does not intersect itself; otherwise there is no such guarantee.
-/// Complexity: O(n) for convex polygons; about O(n log n) for others, O(n^2) in the worst case.
+/// Complexity: O(n) for convex polygons. For others O(n log n) if few corners are near the boundary of most
+/// triangles, whether or not the polygon intersects itself or has clustered or repeated positions; O(n sqrt n) for
+/// stars with long, narrow spikes.
 /// Source: Meisters, "Polygons have ears", 1975.
 /// \param ring       positions of the corners in order; of any number and scale
 /// \param triangles  the triangles are appended, as corner indices in [0, ring.size())
