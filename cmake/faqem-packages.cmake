@@ -18,10 +18,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}\n Headers, libraries, CMake package and pkg-config files.")
 # Each is needed by one component of the CMake package. The component faqem needs none of them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, libopenmesh-dev, libtinygltf-dev, libopenimageio-dev")
-foreach(decoder IN ITEMS DRACO MESHOPT)
-    if(FAQEM_HAS_${decoder})
-        string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ", lib${faqem_package_${decoder}}-dev")
-    endif()
+foreach(library IN LISTS faqem_decoders)
+    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ", ${faqem_debian_${library}}")
 endforeach()
 
 if(FAQEM_BUILD_TOOL)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs Debian 12 packages. Usage: cmake/install-packages.sh [GROUP...]
-#   build   what the libraries and the command need (the default; every other group includes it)
+# Installs packages on Debian 12 or 13. Usage: cmake/install-packages.sh [GROUP...]
+#   build   what the libraries and the command need (the default; the next groups include it)
 #   test    what tests/run.sh needs besides
 #   clang   the compiler clang, for the presets clang and fuzz
 #   tidy    clang-tidy and clang-format
@@ -14,8 +14,8 @@ for group in "$@"; do
     case $group in
         build) ;;
         test)
-            packages="$packages catch2 doxygen file openimageio-tools python3-numpy python3-pip python3-setuptools \
-python3-wheel zsh"
+            packages="$packages catch2 doxygen file python3-numpy python3-pip \
+python3-setuptools python3-wheel zsh"
             # The glTF validator and the viewer need npm. A Node from elsewhere brings its own, which Debian's
             # package conflicts with.
             command -v npm >/dev/null 2>&1 || packages="$packages npm"
@@ -39,8 +39,19 @@ if [ -z "$missing" ]; then
     exit 0
 fi
 
+# fail REASON: names the packages, so that they can be installed in another way.
+fail() {
+    echo "cmake/install-packages.sh: $1. These packages are missing:$missing" >&2
+    exit 1
+}
+
 as_root=""
-[ "$(id -u)" -eq 0 ] || as_root="sudo"
+if [ "$(id -u)" -ne 0 ]; then
+    as_root="sudo"
+    command -v sudo >/dev/null 2>&1 || fail "installing packages needs root or sudo"
+fi
+command -v apt-get >/dev/null 2>&1 || fail "apt-get is not available on this system"
 echo "packages: installing$missing"
-$as_root apt-get update -qq
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
+$as_root apt-get update -qq || fail "apt-get update failed; is the network reachable?"
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
+    fail "apt-get install failed"
