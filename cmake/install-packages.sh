@@ -14,7 +14,7 @@ for group in "$@"; do
     case $group in
         build) ;;
         test)
-            packages="$packages catch2 doxygen file python3-numpy python3-pip \
+            packages="$packages catch2 ccache doxygen file python3-numpy python3-pip \
 python3-setuptools python3-wheel zsh"
             # The glTF validator and the viewer need npm. A Node from elsewhere brings its own, which Debian's
             # package conflicts with.

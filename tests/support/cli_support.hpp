@@ -21,6 +21,11 @@ namespace tool_test {
 
 namespace fs = std::filesystem;
 
+/// The faqem command and the source folder. Their definitions are in a generated file (tests/CMakeLists.txt), so that no
+/// other file of the tests depends on a path.
+extern const char* const tool_path;
+extern const char* const source_path;
+
 /// A temporary folder that is removed by the destructor.
 class Folder : public faqem::cli::TemporaryFolder {
 public:
@@ -47,7 +52,7 @@ struct Outcome {
 /// \param arguments  in shell syntax
 inline Outcome run(const Folder& folder, const std::string& arguments) {
     const Folder streams;
-    const std::string command = "cd '" + folder.path().string() + "' && '" FAQEM_TOOL "' " + arguments +
+    const std::string command = "cd '" + folder.path().string() + "' && '" + tool_path + "' " + arguments +
                                 " >'" + (streams / "out").string() + "' 2>'" + (streams / "err").string() +
                                 "'";
     const int status = std::system(command.c_str());
