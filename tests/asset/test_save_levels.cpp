@@ -1,7 +1,6 @@
 #include "faqem/save_levels.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;

@@ -1,10 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/formats/off.hpp"
 #include "asset/formats/ply.hpp"
 #include "asset/formats/stl.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

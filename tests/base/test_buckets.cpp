@@ -1,7 +1,8 @@
 #include "faqem/detail/base/buckets.hpp"
 
-#include <catch2/catch.hpp>
 #include <utility>
+
+#include "support/catch.hpp"
 
 using faqem::detail::Buckets;
 

@@ -1,8 +1,9 @@
 #include "faqem/detail/base/morton.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+
+#include "support/catch.hpp"
 
 using faqem::detail::morton;
 using faqem::detail::spread_bits;

@@ -4,12 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "support/catch.hpp"
 #include "support/sanitizers.hpp"
 
 using faqem::detail::parallel_blocks;

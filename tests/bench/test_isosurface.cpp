@@ -1,9 +1,9 @@
 // Tests of the mesh generator of the benchmarks.
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "bench/isosurface.hpp"
 #include "faqem/compare.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::bench;

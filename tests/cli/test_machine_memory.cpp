@@ -1,8 +1,8 @@
 #include "cli/machine_memory.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace faqem::cli;

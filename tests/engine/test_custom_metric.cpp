@@ -1,10 +1,10 @@
 #include "faqem/engine/custom_metric.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/engine/simplify_with.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

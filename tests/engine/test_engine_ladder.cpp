@@ -2,9 +2,9 @@
 #include "faqem/engine/engine.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 
+#include "support/catch.hpp"
 #include "support/engine_script.hpp"
 #include "support/meshes.hpp"
 

@@ -1,9 +1,9 @@
 #include "faqem/engine/recorder.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 #include <type_traits>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

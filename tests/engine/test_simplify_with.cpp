@@ -1,10 +1,10 @@
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/engine/simplify_with.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

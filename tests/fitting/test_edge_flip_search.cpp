@@ -1,10 +1,10 @@
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include "faqem/detail/fitting/gauss_newton.hpp"
 
 #include <Eigen/Cholesky>
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

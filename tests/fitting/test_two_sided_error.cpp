@@ -1,8 +1,8 @@
 #include "faqem/detail/fitting/two_sided_error.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,8 @@
 #include "faqem/detail/fitting/vertex_fitting.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,10 +1,10 @@
 #include "faqem/detail/geometry/bvh.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using faqem::Index;

@@ -1,7 +1,8 @@
 #include "faqem/detail/geometry/edge_flip.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::flip_edge;

@@ -1,7 +1,6 @@
 #include "faqem/detail/geometry/halfedges.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,8 +1,8 @@
 #include "faqem/detail/geometry/random_sampling.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

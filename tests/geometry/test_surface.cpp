@@ -1,8 +1,7 @@
 #include "faqem/detail/geometry/surface.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,8 +1,9 @@
 #include "faqem/detail/geometry/surface_samples.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::SurfaceSample;

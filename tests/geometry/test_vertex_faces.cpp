@@ -1,6 +1,6 @@
 #include "faqem/detail/geometry/vertex_faces.hpp"
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::VertexFaces;

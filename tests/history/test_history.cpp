@@ -1,6 +1,5 @@
 #include "faqem/history.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -9,6 +8,7 @@
 
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

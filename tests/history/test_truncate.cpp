@@ -1,11 +1,11 @@
 #include "faqem/truncate.hpp"
 
-#include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
 
 #include "faqem/error.hpp"
 #include "faqem/levels.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

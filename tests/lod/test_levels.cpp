@@ -1,11 +1,11 @@
 #include "faqem/levels.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

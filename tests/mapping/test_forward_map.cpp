@@ -1,4 +1,3 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -6,6 +5,7 @@
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/forward_map.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/hand_history.hpp"
 #include "support/mapped_points.hpp"
 #include "support/meshes.hpp"

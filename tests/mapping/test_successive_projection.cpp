@@ -1,12 +1,12 @@
 #include "faqem/detail/mapping/successive_projection.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "support/catch.hpp"
 #include "support/hand_history.hpp"
 #include "support/mapped_points.hpp"
 

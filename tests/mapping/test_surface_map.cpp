@@ -1,10 +1,10 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 #include <thread>
 #include <vector>
 
 #include "faqem/surface_map.hpp"
+#include "support/catch.hpp"
 #include "support/hand_history.hpp"
 #include "support/mapped_points.hpp"
 

@@ -1,7 +1,8 @@
 #include "faqem/detail/mapping/surface_patches.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::find_surface_patches;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +6,7 @@
 #include "faqem/detail/measure/hausdorff.hpp"
 #include "faqem/error.hpp"
 #include "support/brute_force.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

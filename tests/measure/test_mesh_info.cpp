@@ -1,8 +1,8 @@
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 

@@ -1,9 +1,9 @@
 #include "faqem/detail/measure/removed_components.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 #include <vector>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

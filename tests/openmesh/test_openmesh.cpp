@@ -1,11 +1,11 @@
 // simplify() for OpenMesh meshes.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "faqem/openmesh.hpp"
+#include "support/catch.hpp"
 
 namespace {
 

@@ -1,7 +1,6 @@
 #include "render/rasterizer.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace faqem::render;

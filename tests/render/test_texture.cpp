@@ -1,7 +1,8 @@
 #include "render/texture.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem::render;
 using Eigen::Vector2d;

@@ -1,7 +1,6 @@
 #include "faqem/detail/simplify/block_decimation.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -10,6 +9,7 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
+#include "support/catch.hpp"
 #include "support/original.hpp"
 
 using namespace faqem;

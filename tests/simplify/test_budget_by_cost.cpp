@@ -1,9 +1,9 @@
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "faqem/compare.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

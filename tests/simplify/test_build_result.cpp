@@ -1,7 +1,6 @@
 #include "faqem/detail/simplify/build_result.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,5 +1,4 @@
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -15,6 +14,7 @@
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,13 +1,13 @@
 #include "faqem/detail/simplify/error_bound_search.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "support/brute_force.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,11 +1,12 @@
 #include "faqem/detail/simplify/face_count_search.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
+
+#include "support/catch.hpp"
 
 using faqem::detail::FaceCountSearch;
 

@@ -1,10 +1,10 @@
 #include "faqem/mesh.hpp"
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <vector>
 
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include "faqem/options.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 

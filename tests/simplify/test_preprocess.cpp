@@ -2,10 +2,10 @@
 
 #include "faqem/detail/geometry/triangle.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,11 +1,11 @@
 #include "faqem/detail/simplify/prune_components.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;
@@ -176,7 +176,7 @@ TEST_CASE("a prune size must be finite and positive") {
     for (const double bad :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         CHECK_THROWS_WITH(simplify(dusty().view(), pruning(model_units(bad))),
-                          Catch::Contains("prune must be finite and > 0"));
+                          ContainsSubstring("prune must be finite and > 0"));
         CHECK_THROWS_AS(simplify(dusty().view(), pruning(of_diagonal(bad))), OptionError);
     }
 }

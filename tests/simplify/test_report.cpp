@@ -1,12 +1,12 @@
 #include "faqem/report_json.hpp"
 
-#include <catch2/catch.hpp>
 #include <clocale>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 
@@ -14,7 +14,7 @@ TEST_CASE("preset_named finds every preset by its name and refuses other names")
     for (const Preset preset : all_presets) CHECK(preset_named(name(preset)) == preset);
     CHECK(name(Preset::paper) == "paper");
     CHECK_THROWS_AS(preset_named("Paper"), OptionError);
-    CHECK_THROWS_WITH(preset_named(""), Catch::StartsWith("unknown preset '' (known: qem, paper, stmw"));
+    CHECK_THROWS_WITH(preset_named(""), StartsWith("unknown preset '' (known: qem, paper, stmw"));
 }
 
 TEST_CASE("refusals and rungs have distinct names") {

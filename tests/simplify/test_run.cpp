@@ -1,6 +1,6 @@
 #include "faqem/detail/simplify/run.hpp"
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::target_face_count;

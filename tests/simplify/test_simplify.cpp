@@ -1,11 +1,11 @@
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

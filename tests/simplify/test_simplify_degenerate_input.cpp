@@ -2,11 +2,11 @@
 
 #include <sys/mman.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;
@@ -273,6 +273,6 @@ TEST_CASE("meshes too large for 32-bit indices are refused before their arrays a
     CHECK_THROWS_WITH(simplify(view), "positions: more than 2^32 - 2 vertices");
     view.positions = {};
     view.triangles = std::span(static_cast<const Triangle*>(memory), count);
-    CHECK_THROWS_WITH(simplify(view), Catch::StartsWith("triangles: more than "));
+    CHECK_THROWS_WITH(simplify(view), StartsWith("triangles: more than "));
     ::munmap(memory, bytes);
 }

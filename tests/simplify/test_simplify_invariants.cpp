@@ -1,11 +1,11 @@
 // Invariants of simplify() for seeded random triangle soups and surfaces, with every preset and three ratios.
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <set>
 #include <thread>
 
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,10 +1,10 @@
 // Meshes whose bounding box says nothing about the size of what is visible: specks and stray faces, as in scans.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

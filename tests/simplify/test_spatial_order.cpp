@@ -1,8 +1,8 @@
 #include "faqem/detail/simplify/spatial_order.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include "faqem/detail/simplify/virtual_edges.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "faqem/engine/mesh/components.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -3,12 +3,12 @@
 /// The number of basic blocks executed between two cancellation checks.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <functional>
 
 #include "faqem/engine/util/cancellation.hpp"
 #include "step_counts/steps.hpp"
+#include "support/catch.hpp"
 
 namespace faqem::test {
 

@@ -1,8 +1,6 @@
 // Cancellation checks in the expensive parts of the baker, whose sources are compiled into this program
 // with instrumentation.
 
-#include <catch2/catch.hpp>
-
 #include "bake/atlas/charts.hpp"
 #include "bake/atlas/packing.hpp"
 #include "bake/atlas/per_triangle.hpp"
@@ -12,6 +10,7 @@
 #include "bake/transfer/tangents.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "step_counts/silence.hpp"
+#include "support/catch.hpp"
 #include "support/chart_meshes.hpp"
 
 using namespace faqem;

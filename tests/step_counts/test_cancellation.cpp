@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/mesh/components.hpp"
@@ -9,6 +8,7 @@
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "step_counts/silence.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 #include "support/original.hpp"
 

@@ -1,4 +1,3 @@
-#include <catch2/catch.hpp>
 #include <string>
 
 #include "faqem/engine/engine.hpp"
@@ -6,6 +5,7 @@
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "step_counts/steps.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 #include "support/original.hpp"
 

@@ -1,6 +1,5 @@
 // The work of triangulating large polygons, whose sources are compiled into this program with instrumentation.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -10,6 +9,7 @@
 
 #include "asset/formats/triangulate.hpp"
 #include "step_counts/steps.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 

@@ -1,12 +1,11 @@
 // Cancellation checks in the preprocessing of a mesh, whose sources are compiled into this program with
 // instrumentation.
 
-#include <catch2/catch.hpp>
-
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "step_counts/silence.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,10 +1,10 @@
 #include "asset/formats/mtl.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;
@@ -216,5 +216,5 @@ TEST_CASE("a material library without used materials gives a warning", "[mtl]") 
     const Asset asset = read_obj(folder / "a.obj");
     CHECK(asset.materials.empty());
     REQUIRE(asset.warnings.size() == 1);
-    CHECK_THAT(asset.warnings[0], Catch::Contains("no face uses a material"));
+    CHECK_THAT(asset.warnings[0], ContainsSubstring("no face uses a material"));
 }

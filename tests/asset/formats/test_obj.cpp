@@ -1,9 +1,9 @@
 #include "asset/formats/obj.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "asset/image/srgb.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

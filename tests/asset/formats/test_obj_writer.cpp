@@ -1,10 +1,10 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <sstream>
 
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

@@ -1,8 +1,7 @@
 #include "asset/formats/off.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "asset/image/srgb.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

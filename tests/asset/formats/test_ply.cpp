@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "asset/image/srgb.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

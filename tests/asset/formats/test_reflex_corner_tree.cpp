@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 
 #include "asset/formats/reflex_corner_tree.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,10 +1,10 @@
 #include "asset/formats/stl.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

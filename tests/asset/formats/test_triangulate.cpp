@@ -1,10 +1,10 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <random>
 
 #include "asset/formats/triangulate.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

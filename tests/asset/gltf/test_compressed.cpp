@@ -1,8 +1,7 @@
 #include "asset/gltf/read/compressed.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "asset/image/image.hpp"
+#include "support/catch.hpp"
 #include "support/gltf_compressed_builder.hpp"
 
 #ifdef FAQEM_WITH_MESHOPT

@@ -1,7 +1,6 @@
 // Invalid glTF input and the error messages for it.
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;

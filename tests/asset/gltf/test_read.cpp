@@ -1,9 +1,9 @@
 // Reading of valid glTF documents.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;

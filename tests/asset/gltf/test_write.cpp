@@ -1,8 +1,8 @@
 // Writing of loaded and new assets as glTF.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;

@@ -1,7 +1,6 @@
 // Writing of materials as glTF.
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;

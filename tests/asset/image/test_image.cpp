@@ -1,9 +1,9 @@
 // Decoding and encoding of images.
 
-#include <catch2/catch.hpp>
 #include <functional>
 
 #include "asset/image/image.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

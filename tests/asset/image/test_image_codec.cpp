@@ -2,7 +2,6 @@
 
 #include "asset/image/image_codec.hpp"
 
-#include <catch2/catch.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -10,6 +9,7 @@
 
 #include "asset/image/image.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;
@@ -145,7 +145,7 @@ TEST_CASE("PNG and JPEG are known to be supported without the image codec, WebP 
     CHECK_FALSE(detail::can_decode_image("image/webp"));
     CHECK(provider_calls == 1);
     CHECK_THROWS_WITH(decode(webp_header()),
-                      Catch::Contains("image/webp is not supported; only PNG and JPEG are supported"));
+                      ContainsSubstring("image/webp is not supported; only PNG and JPEG are supported"));
     CHECK(decode_calls == 0);
     has_webp = true;
     CHECK(detail::can_decode_image("image/webp"));

@@ -1,8 +1,8 @@
 #include "asset/scene/flatten.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include <array>
-#include <catch2/catch.hpp>
 #include <map>
 #include <random>
 
 #include "asset/scene/value_numbers.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using faqem::detail::UniqueValues;

@@ -1,9 +1,9 @@
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <limits>
 #include <string>
 
 #include "asset/text/text_buffer.hpp"
+#include "support/catch.hpp"
 
 using faqem::detail::TextBuffer;
 

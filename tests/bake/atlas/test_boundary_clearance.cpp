@@ -2,13 +2,13 @@
 
 #include "bake/atlas/boundary_clearance.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <set>
 
 #include "bake/atlas/box_grid.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::Box2;

@@ -1,12 +1,12 @@
 #include "bake/atlas/charts.hpp"
 
-#include <catch2/catch.hpp>
 #include <random>
 #include <set>
 
 #include "bake/atlas/parametrization.hpp"
 #include "bake/atlas/segmentation.hpp"
 #include "bake/atlas/triangle_overlap.hpp"
+#include "support/catch.hpp"
 #include "support/chart_meshes.hpp"
 
 using namespace faqem;

@@ -1,13 +1,13 @@
 #include "bake/atlas/packing.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
 #include "bake/atlas/charts.hpp"
 #include "bake/atlas/occupancy_grid.hpp"
 #include "bake/atlas/tiles.hpp"
+#include "support/catch.hpp"
 #include "support/chart_meshes.hpp"
 #include "support/scenes.hpp"
 

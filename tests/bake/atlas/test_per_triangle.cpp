@@ -1,11 +1,11 @@
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <random>
 #include <set>
 
 #include "bake/atlas/per_triangle.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

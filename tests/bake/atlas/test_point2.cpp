@@ -1,8 +1,8 @@
 // Points, triangles and bounding boxes in the plane, compared with closed forms and with complex numbers.
 
 #include "bake/atlas/point2.hpp"
+#include "support/catch.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <limits>

@@ -1,8 +1,8 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
 #include "bake/atlas/triangle_pairs.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;

@@ -1,9 +1,9 @@
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

@@ -1,10 +1,10 @@
 #include "faqem/bake_levels.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

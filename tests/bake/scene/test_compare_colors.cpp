@@ -1,8 +1,7 @@
 #include "faqem/compare_colors.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

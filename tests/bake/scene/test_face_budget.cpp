@@ -1,7 +1,8 @@
 #include "bake/scene/face_budget.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::cost_weights;

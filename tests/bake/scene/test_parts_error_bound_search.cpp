@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "faqem/compare.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

@@ -1,7 +1,6 @@
 #include "bake/scene/removed_components.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 // Normals of the simplified mesh, image formats, and reports of pages.
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <sstream>
 
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;

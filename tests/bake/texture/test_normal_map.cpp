@@ -1,7 +1,7 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "support/catch.hpp"
 #include "support/lit.hpp"
 
 using namespace faqem;

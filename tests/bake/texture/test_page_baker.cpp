@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include "support/scenes.hpp"
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::test;

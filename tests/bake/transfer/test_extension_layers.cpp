@@ -3,9 +3,9 @@
 #include "bake/transfer/extension_layers.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/lit.hpp"
 
 using namespace faqem;

@@ -1,7 +1,8 @@
 #include "bake/transfer/tangents.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using detail::mikk_tangents;

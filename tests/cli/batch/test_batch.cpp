@@ -2,7 +2,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -10,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
@@ -247,7 +247,7 @@ TEST_CASE("batch exits with 8 after a signal and can be resumed") {
     if (process == 0) {
         const bool ready = chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout) != nullptr;
         if (!ready) _exit(99);
-        execl(FAQEM_TOOL, "faqem", "batch", "in", "out", "--bake", "none", nullptr);
+        execl(tool_path, "faqem", "batch", "in", "out", "--bake", "none", nullptr);
         _exit(99);
     }
     const int status = signal_and_wait(process, SIGTERM);

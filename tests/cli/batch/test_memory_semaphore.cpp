@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <thread>
 #include <vector>
 
 #include "cli/batch/memory_semaphore.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem::cli;
 

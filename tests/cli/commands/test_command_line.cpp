@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include "faqem/version.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
@@ -202,9 +201,8 @@ TEST_CASE("no colour escape sequences are written on a terminal") {
     faqem::save(sheet(8), folder / "in.glb");
     for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
         const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                                    " script -qec \"'" FAQEM_TOOL
-                                    "' simplify in.glb out.glb --force --bake "
-                                    "none\" seen >/dev/null </dev/null";
+                                    " script -qec \"'" + tool_path +
+                                    "' simplify in.glb out.glb --force --bake none\" seen >/dev/null </dev/null";
         REQUIRE(std::system(command.c_str()) == 0);
         const std::string seen = read(folder / "seen");
         CHECK(seen.find("load [") != std::string::npos);  // the progress bar
@@ -217,6 +215,6 @@ TEST_CASE("failing to write to standard output exits with 7") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
     const std::string command =
-        "'" FAQEM_TOOL "' info '" + (folder / "in.glb").string() + "' >/dev/full 2>/dev/null";
+        std::string("'") + tool_path + "' info '" + (folder / "in.glb").string() + "' >/dev/full 2>/dev/null";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 7);
 }

@@ -1,8 +1,8 @@
 // The options --prune, --keep-groups, --strict-target and --strict.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;

@@ -1,7 +1,6 @@
 // Malicious files exit with 3 (or 4) and an error that names the file and the element; no output is written.
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/gltf_builder.hpp"
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +7,7 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;

@@ -1,8 +1,8 @@
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "faqem/compare.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;

@@ -6,9 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
@@ -29,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 Outcome run_after(const Folder& folder, const std::string& before, const std::string& arguments) {
     const Folder streams;
     const std::string command = "cd '" + folder.path().string() + "' && " + before +
-                                " && exec '" FAQEM_TOOL "' " + arguments + " 2>'" +
+                                " && exec '" + tool_path + "' " + arguments + " 2>'" +
                                 (streams / "err").string() + "' >/dev/null";
     const int status = std::system(("sh -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read(streams / "err")};
@@ -65,7 +65,7 @@ TEST_CASE("a full or read-only file system exits with 7, keeps the old file and 
     faqem::save(sheet(40), folder / "in.glb");
     for (const std::string out : {"new.glb", "old.glb", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
         CAPTURE(out);
-        const std::string simplify = "'" FAQEM_TOOL "' simplify in.glb /mnt/" + out +
+        const std::string simplify = std::string("'") + tool_path + "' simplify in.glb /mnt/" + out +
                                      " --ratio 0.9 --bake none --quiet --force 2>> err";
         write(folder / "script", "mount -t tmpfs -o size=16k none /mnt\nprintf precious > /mnt/old.glb\n" +
                                      simplify + "\necho $? $(ls -A /mnt) $(cat /mnt/old.glb) >> out\n" +
@@ -144,7 +144,7 @@ TEST_CASE("a killed process leaves either the complete old file or the complete 
         REQUIRE(process >= 0);
         if (process == 0) {
             if (chdir(folder.path().c_str()) != 0) _exit(99);
-            execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--force", "--ratio", "0.9", "--bake",
+            execl(tool_path, "faqem", "simplify", "in.glb", "out.glb", "--force", "--ratio", "0.9", "--bake",
                   "none", "--quiet", nullptr);
             _exit(99);
         }

@@ -1,13 +1,13 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "faqem/history.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
@@ -247,7 +247,7 @@ TEST_CASE("SIGTERM and SIGINT end simplify with 8 and no temporary files") {
         REQUIRE(process >= 0);
         if (process == 0) {
             if (chdir(folder.path().c_str()) != 0) _exit(99);
-            execl(FAQEM_TOOL, "faqem", "simplify", "in.glb", "out.glb", "--quiet", nullptr);
+            execl(tool_path, "faqem", "simplify", "in.glb", "out.glb", "--quiet", nullptr);
             _exit(99);
         }
         const int status = signal_and_wait(process, number);

@@ -1,7 +1,7 @@
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;

@@ -1,11 +1,11 @@
 #include "cli/options/profile.hpp"
 
 #include <CLI/CLI.hpp>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/commands/command_line.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace faqem::cli;
@@ -120,7 +120,7 @@ TEST_CASE("a profile that is missing or not a JSON object is bad input") {
 }
 
 TEST_CASE("the profile schema has exactly the options of simplify, lod and batch") {
-    const Json schema = Json::parse(read(FAQEM_SOURCE "/docs/profile.schema.json"));
+    const Json schema = Json::parse(read(fs::path(source_path) / "docs/profile.schema.json"));
     std::set<std::string> known, described = {"$schema", "faqem-profile"};
     for (const auto& [key, value] : schema["properties"].items()) known.insert(key);
     for (const CommandInfo& command : tree().commands) {

@@ -1,11 +1,11 @@
 #include "cli/report/error_surface.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 
 using namespace faqem::cli;
 using faqem::Part;

@@ -1,11 +1,11 @@
 #include "cli/report/report_page.hpp"
 
-#include <catch2/catch.hpp>
 #include <string_view>
 
 #include "asset/gltf/gltf.hpp"
 #include "cli/report/heat_ramp.hpp"
 #include "cli/report/viewer_model.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace faqem::cli;

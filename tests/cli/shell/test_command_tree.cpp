@@ -1,11 +1,11 @@
 #include "cli/shell/command_tree.hpp"
 
 #include <CLI/CLI.hpp>
-#include <catch2/catch.hpp>
 
 #include "cli/commands/command_line.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "faqem/error.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace faqem::cli;

@@ -1,9 +1,9 @@
 #include "cli/shell/completion.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 #include <sstream>
 
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 using namespace tool_test;

@@ -1,6 +1,6 @@
 #include "cli/shell/deprecated_names.hpp"
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace faqem::cli;
 

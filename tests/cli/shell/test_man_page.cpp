@@ -1,8 +1,7 @@
 #include "cli/shell/man_page.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/version.hpp"
+#include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
 TEST_CASE("man_page escapes the special characters of troff") {

@@ -1,8 +1,8 @@
 #include "faqem/engine/constraints/boundary_loops.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

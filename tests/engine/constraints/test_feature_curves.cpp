@@ -1,11 +1,11 @@
 #include "faqem/engine/constraints/feature_curves.hpp"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <map>
 #include <set>
 
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

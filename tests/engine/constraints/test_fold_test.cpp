@@ -1,10 +1,10 @@
 #include "faqem/engine/constraints/fold_test.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
 #include "faqem/engine/constraints/legality.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include "faqem/engine/constraints/legality.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 #include <set>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

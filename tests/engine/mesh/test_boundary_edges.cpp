@@ -1,9 +1,9 @@
 #include "faqem/engine/mesh/boundary_edges.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 #include <tuple>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,8 +1,8 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 
-#include <catch2/catch.hpp>
 #include <set>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

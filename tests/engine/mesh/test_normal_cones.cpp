@@ -1,11 +1,11 @@
 #include "faqem/engine/mesh/normal_cones.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,9 +1,9 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 
-#include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

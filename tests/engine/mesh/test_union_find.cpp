@@ -1,6 +1,6 @@
 #include "faqem/engine/mesh/union_find.hpp"
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using faqem::Index;
 using faqem::engine::UnionFind;

@@ -1,7 +1,8 @@
 #include "faqem/engine/mesh/vector.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
+
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

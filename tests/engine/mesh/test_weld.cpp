@@ -1,8 +1,8 @@
 #include "faqem/engine/mesh/weld.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,8 +1,7 @@
 #include "faqem/engine/metric/accumulated.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/detail/simplify/presets.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

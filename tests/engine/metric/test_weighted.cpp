@@ -1,6 +1,5 @@
 #include "faqem/engine/metric/weighted.hpp"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "faqem/compare.hpp"
@@ -8,6 +7,7 @@
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/error.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/original.hpp"
 
 using namespace faqem;

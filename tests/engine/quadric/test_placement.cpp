@@ -1,6 +1,6 @@
 #include "faqem/engine/quadric/placement.hpp"
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace faqem;
 using namespace faqem::engine;

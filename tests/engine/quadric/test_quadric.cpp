@@ -1,9 +1,9 @@
 #include "faqem/engine/quadric/quadric.hpp"
 
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <limits>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

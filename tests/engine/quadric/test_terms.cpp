@@ -1,7 +1,6 @@
 #include "faqem/engine/quadric/terms.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

@@ -1,10 +1,10 @@
 #include "faqem/engine/queue/bucket_queue.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

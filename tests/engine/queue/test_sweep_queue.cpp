@@ -1,9 +1,9 @@
 #include "faqem/engine/queue/sweep_queue.hpp"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

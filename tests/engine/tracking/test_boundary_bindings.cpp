@@ -1,9 +1,8 @@
 #include "faqem/engine/tracking/boundary_bindings.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
+#include "support/catch.hpp"
 #include "support/original.hpp"
 
 using namespace faqem;

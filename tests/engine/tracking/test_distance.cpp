@@ -1,8 +1,7 @@
 #include "faqem/engine/tracking/distance.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "faqem/detail/geometry/triangle.hpp"
+#include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;

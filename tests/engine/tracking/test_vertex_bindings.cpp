@@ -1,7 +1,6 @@
 #include "faqem/engine/tracking/vertex_bindings.hpp"
 
-#include <catch2/catch.hpp>
-
+#include "support/catch.hpp"
 #include "support/original.hpp"
 
 using namespace faqem;

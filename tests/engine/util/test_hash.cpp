@@ -1,7 +1,8 @@
 #include "faqem/engine/util/hash.hpp"
 
 #include <bit>
-#include <catch2/catch.hpp>
+
+#include "support/catch.hpp"
 
 using faqem::engine::splitmix64;
 

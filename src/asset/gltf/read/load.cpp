@@ -124,6 +124,12 @@ bool read_token(std::vector<unsigned char>* out, std::string*, const std::string
     return true;
 }
 
+/// Sizes are limited where bytes are read, so tinygltf's own limit is not used.
+[[maybe_unused]] bool token_size(std::size_t* size, std::string*, const std::string&, void*) {
+    *size = 0;
+    return true;
+}
+
 bool refuse_write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
     return false;
 }
@@ -151,9 +157,22 @@ std::string json_with_uri_tokens(const Json& document) {
     return copy.dump();
 }
 
+/// A template, because the callback GetFileSizeInBytes exists from tinygltf 2.9 on only.
+template <class Callbacks>
+Callbacks token_callbacks(CallbackContext& context) {
+    Callbacks callbacks{};
+    callbacks.FileExists = token_exists;
+    callbacks.ExpandFilePath = keep_path;
+    callbacks.ReadWholeFile = read_token;
+    callbacks.WriteWholeFile = refuse_write;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = token_size;
+    callbacks.user_data = &context;
+    return callbacks;
+}
+
 tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& context) {
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({token_exists, keep_path, read_token, refuse_write, &context});
+    parser.SetFsCallbacks(token_callbacks<tinygltf::FsCallbacks>(context));
     parser.SetImageLoader(store_image, nullptr);
     const std::string file = context.file.string(), json = json_with_uri_tokens(document);
     if (json.size() > std::numeric_limits<unsigned>::max())
