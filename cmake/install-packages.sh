@@ -5,6 +5,7 @@
 #   clang   the compiler clang, for the presets clang and fuzz
 #   tidy    clang-tidy and clang-format
 #   docs    what the target docs needs
+#   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
 set -eu
 
@@ -23,8 +24,9 @@ python3-setuptools python3-wheel zsh"
         clang) packages="$packages clang" ;;
         tidy) packages="$packages clang clang-tidy clang-format" ;;
         docs) packages="$packages doxygen python3" ;;
+        fresh) packages="debootstrap ccache" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, fresh)" >&2
             exit 2
             ;;
     esac
