@@ -155,7 +155,7 @@ subproject() {
     cp -a "$work/compiler" "$work/user"
     install_in user "libeigen3-dev nlohmann-json3-dev"
     in_root "$work/user" "cmake -G Ninja -S faqem/tests/embedding -B build -DFAQEM_SOURCE=/root/faqem \
-        -DHOW=add_subdirectory -DCMAKE_BUILD_TYPE=Release -DFAQEM_BUILD_ASSET=OFF -DFAQEM_BUILD_OPENMESH=OFF \
+        -DHOW=add_subdirectory -DFAQEM_BUILD_ASSET=OFF -DFAQEM_BUILD_OPENMESH=OFF \
         -DCMAKE_CXX_COMPILER_LAUNCHER=ccache"
     in_root "$work/user" "cmake --build build --target faqem_faqem embedding"
 }
