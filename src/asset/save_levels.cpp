@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "asset/gltf/write/levels.hpp"
+#include "asset/io/file_format.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
@@ -12,13 +13,6 @@ namespace faqem {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_gltf_or_glb_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension == ".glb" || extension == ".gltf";
-}
 
 void check_levels(const std::vector<SavedLevel>& levels) {
     if (levels.empty()) throw InputError("", "levels", "at least one level is required");
@@ -79,7 +73,7 @@ std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size
 
 std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::path& file,
                                      Overwrite overwrite) {
-    if (!has_gltf_or_glb_extension(file))
+    if (detail::format_by_name(file) != detail::Format::gltf)
         throw UnsupportedError(file.string(), "", "cannot hold levels: the name must end in .glb or .gltf");
     check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();

@@ -93,7 +93,7 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model) {
     std::error_code ignored;
     // The size of a pipe is unknown, and it must not be opened here.
     if (std::filesystem::is_regular_file(model, ignored)) {
-        if (lower_case_extension(model) != ".obj") files = referenced_files(model);
+        if (lower_case_extension(model) != ".obj") files = referenced_files(model, References::readable);
         files.push_back(model);
     }
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow.

@@ -7,20 +7,19 @@
 #include <string>
 
 #include "asset/io/file.hpp"
+#include "asset/io/side_files.hpp"
+#include "cli/protected_files.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
 
 namespace fs = std::filesystem;
 
-void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Overwrite overwrite) {
+void check_output(const fs::path& file, Overwrite overwrite) {
     std::error_code error;
-    for (const fs::path& input : inputs) {
-        if (fs::equivalent(file, input, error)) {
-            throw OptionError(file.string() + ": is the same file as the input " + input.string() +
-                              "; choose another output file");
-        }
-    }
+    check_unprotected(file);
+    if (lower_case_extension(file) == ".gltf")
+        check_unprotected(file.parent_path() / detail::buffer_file_name(file.stem().string()));
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, error))
         throw WriteError(file.string() + ": no such directory: " + folder.string());
@@ -32,14 +31,6 @@ void check_output(const fs::path& file, const std::vector<fs::path>& inputs, Ove
     }
     if (access(folder.c_str(), W_OK) != 0)
         throw WriteError(file.string() + ": the directory is not writable");
-}
-
-std::string lower_case_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
 }
 
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {

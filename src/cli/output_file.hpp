@@ -9,21 +9,20 @@
 #include <system_error>
 #include <vector>
 
+#include "asset/io/file_format.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
 
-/// Checks that a file can be written: its directory exists and is writable, it is not one of the inputs
-/// (compared by inode, so that links are recognized), it is not a directory, device or pipe, and it exists
-/// only if it may be overwritten.
-/// \throws OptionError  the file is one of the inputs
-/// \throws WriteError   any other condition is violated
-void check_output(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs,
-                  Overwrite overwrite);
+using detail::lower_case_extension;
 
-/// Returns the extension of a file name with its dot, in lower case (ASCII).
-std::string lower_case_extension(const std::filesystem::path& file);
+/// Checks that a file can be written: it is not protected (protect_input()), nor is the buffer of a .gltf
+/// file, its directory exists and is writable, it is not a directory, device or pipe, and it exists only if
+/// it may be overwritten. Other files beside a model are checked when it is saved.
+/// \throws OptionError  the file is an input
+/// \throws WriteError   any other condition is violated
+void check_output(const std::filesystem::path& file, Overwrite overwrite);
 
 /// Checks that a file name has one of the extensions, ignoring case.
 /// \param extensions  in lower case, with the dot

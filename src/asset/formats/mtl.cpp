@@ -240,7 +240,22 @@ TextureRef add_texture(Asset& asset, const MtlMaterial& material, const MtlTextu
     return ref;
 }
 
+bool is_texture_key(std::string_view key) {
+    static constexpr std::array<std::string_view, 5> others = {"bump", "disp", "decal", "refl", "norm"};
+    std::string lower(key);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower.starts_with("map_") || std::find(others.begin(), others.end(), lower) != others.end();
+}
+
 }  // namespace
+
+std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, const std::string& name) {
+    std::vector<std::string> statements;
+    for (TextScanner in(text, name, Continuation::yes); in.skip_to_content(); in.next_line())
+        if (is_texture_key(in.word())) statements.push_back(in.rest_of_line());
+    return statements;
+}
 
 std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
                                   std::vector<std::string>& warnings) {

@@ -48,6 +48,14 @@ struct MtlMaterial {
 FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
                                                std::vector<std::string>& warnings);
 
+/// Returns the texture statements of a library without their keywords: map_* of any kind, bump, disp, decal,
+/// refl and norm, in any case, also those that read_mtl() ignores. A statement has options and a file name.
+/// Libraries that read_mtl() rejects are accepted.
+/// \param text  borrowed
+/// \param name  path of the library
+FAQEM_EXPORT std::vector<std::string> texture_statements(std::span<const std::uint8_t> text,
+                                                         const std::string& name);
+
 /// Adds a material and its images to the asset. Images that the asset already has are shared. An image that
 /// is missing or outside the folder is a warning, and the material has no such texture.
 /// \param folder  folder of the OBJ file; images must be in it or below it

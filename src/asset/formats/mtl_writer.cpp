@@ -8,6 +8,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/side_files.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_buffer.hpp"
 
@@ -73,7 +74,7 @@ private:
         for (const MtlImage& known : library_.images)
             if (known.image == image) return known.name;
         const std::string extension = file_extension(asset_.images[image].mime_type);
-        library_.images.push_back({stem_ + "_" + std::to_string(library_.images.size()) + extension, image});
+        library_.images.push_back({image_file_name(stem_, library_.images.size(), extension), image});
         return library_.images.back().name;
     }
 

@@ -264,22 +264,6 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     }
 }
 
-/// File names of one mtllib statement. The rest of the line is one name if such a file exists; otherwise it
-/// is split after each `.mtl`.
-std::vector<std::string> library_names(const std::string& rest, const std::filesystem::path& folder) {
-    try {
-        resolve_inside(folder, rest, ReferenceSyntax::file_name);
-        return {rest};
-    } catch (const InputError&) {
-        std::vector<std::string> names;
-        std::size_t first = 0;
-        for (std::size_t end; (end = rest.find(".mtl ", first)) != std::string::npos; first = end + 5)
-            names.push_back(rest.substr(first, end + 4 - first));
-        names.push_back(rest.substr(first));
-        return names;
-    }
-}
-
 /// Reads all material libraries. If a name is defined repeatedly, the last definition is used.
 std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
                                                   const std::filesystem::path& folder,
@@ -334,6 +318,20 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem:
 }
 
 }  // namespace
+
+std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder) {
+    try {
+        resolve_inside(folder, statement, ReferenceSyntax::file_name);
+        return {statement};
+    } catch (const InputError&) {
+        std::vector<std::string> names;
+        std::size_t first = 0;
+        for (std::size_t end; (end = statement.find(".mtl ", first)) != std::string::npos; first = end + 5)
+            names.push_back(statement.substr(first, end + 4 - first));
+        names.push_back(statement.substr(first));
+        return names;
+    }
+}
 
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     Asset asset;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -31,6 +32,13 @@ Asset read_obj(const std::filesystem::path& file);
 /// \param text  borrowed
 /// \param file  path for messages; material libraries and images are searched in its folder
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file);
+
+/// Returns the file names in an mtllib statement. The whole statement is one name if such a file exists;
+/// otherwise it is split after each `.mtl`.
+/// \param statement  without its keyword
+/// \param folder     folder of the OBJ file
+FAQEM_EXPORT std::vector<std::string> library_names(const std::string& statement,
+                                                    const std::filesystem::path& folder);
 
 /// Writes an asset as NAME.obj, and as NAME.mtl and NAME_0.png ... if it has materials and images. The OBJ
 /// file is written last. The scene is flattened to world space. Positions are written in float precision if

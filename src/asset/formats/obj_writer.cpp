@@ -8,6 +8,7 @@
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
+#include "asset/io/side_files.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_buffer.hpp"
@@ -188,7 +189,7 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
     const TextBuffer faces = faces_text(flat, lines, used, library);
     for (Index v = 0; v < flat.positions.size(); ++v) lines.position(v);
     TextBuffer text;
-    if (!used.materials.empty()) text.put("mtllib " + stem + ".mtl\n");
+    if (!used.materials.empty()) text.put("mtllib " + library_file_name(stem) + "\n");
     text.put("o " + sanitized_name(flat.name, stem) + "\n");
     lines.write(text);
     text.put(faces.view());
@@ -197,7 +198,7 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
     for (const MtlImage& image : library.images)
         files.push_back({file.parent_path() / image.name, asset.images[image.image].encoded});
     if (!used.materials.empty())
-        files.push_back({file.parent_path() / (stem + ".mtl"), bytes_of(library.text)});
+        files.push_back({file.parent_path() / library_file_name(stem), bytes_of(library.text)});
     files.push_back({file, text.bytes()});
     write_files(files, overwrite);
     return losses;

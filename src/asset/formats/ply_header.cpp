@@ -109,4 +109,15 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
     return header;
 }
 
+std::vector<std::string> ply_texture_files(std::span<const std::uint8_t> bytes, const std::string& file) {
+    std::vector<std::string> names;
+    for (TextScanner in(bytes, file, Continuation::no); in.skip_to_content(); in.next_line()) {
+        const std::string_view key = in.word();
+        if (key == "end_header") break;
+        if ((key == "comment" || key == "obj_info") && in.accept_word("TextureFile"))
+            names.push_back(in.rest_of_line());
+    }
+    return names;
+}
+
 }  // namespace faqem::detail

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "faqem/export.hpp"
+
 namespace faqem::detail {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
@@ -43,5 +45,11 @@ struct PlyHeader {
 /// \param file   path for messages
 /// \throws InputError  with the line, if the header is invalid
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
+
+/// Returns the file names of the comments `TextureFile` in the header of a PLY file, which may be damaged.
+/// \param bytes  the file, or as much of it as may be header, borrowed
+/// \param file   path of the file
+FAQEM_EXPORT std::vector<std::string> ply_texture_files(std::span<const std::uint8_t> bytes,
+                                                        const std::string& file);
 
 }  // namespace faqem::detail

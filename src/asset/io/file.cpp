@@ -177,6 +177,8 @@ void commit_file(PendingFile& pending, Overwrite overwrite) {
         fail_write(pending.target, "sync its folder", errno);
 }
 
+WriteCheck write_check = nullptr;
+
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -194,6 +196,14 @@ std::string percent_decoded(std::string_view text) {
         if (low >= 0) i += 2;
     }
     return decoded;
+}
+
+/// The name in a reference, with slashes as separators.
+std::string name_in(std::string_view reference, ReferenceSyntax kind) {
+    if (kind == ReferenceSyntax::uri) return percent_decoded(reference);
+    std::string name(reference);
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return name;
 }
 
 bool has_scheme(std::string_view text) {
@@ -242,7 +252,11 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
     return bytes;
 }
 
+void set_write_check(WriteCheck check) { write_check = check; }
+
 void write_files(std::span<const FileContent> files, Overwrite overwrite) {
+    if (write_check)
+        for (const FileContent& content : files) write_check(content.file);
     std::vector<PendingFile> pending;
     pending.reserve(files.size());
     try {
@@ -269,8 +283,7 @@ fs::path resolve_inside(const fs::path& folder, std::string_view reference, Refe
     const auto refuse = [&](const char* why) {
         throw InputError(folder.string(), "reference '" + std::string(reference) + "'", why);
     };
-    std::string name = kind == ReferenceSyntax::uri ? percent_decoded(reference) : std::string(reference);
-    if (kind == ReferenceSyntax::file_name) std::replace(name.begin(), name.end(), '\\', '/');
+    const std::string name = name_in(reference, kind);
     if (name.empty()) refuse("is empty");
     if (name.find('\0') != std::string::npos) refuse("contains a zero byte");
     if (has_scheme(name)) refuse("is not a relative path");
@@ -288,6 +301,12 @@ fs::path resolve_inside(const fs::path& folder, std::string_view reference, Refe
         throw ReadError(folder.string(), "reference '" + std::string(reference) + "'",
                         "cannot read: " + error.code().message());
     }
+}
+
+fs::path referenced_path(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {
+    constexpr std::string_view scheme = "file://";  // followed by an empty host and an absolute path
+    if (kind == ReferenceSyntax::uri && reference.starts_with(scheme)) reference.remove_prefix(scheme.size());
+    return folder / name_in(reference, kind);
 }
 
 }  // namespace faqem::detail

@@ -21,6 +21,13 @@ namespace faqem::detail {
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
 
+/// Checks whether a file may be written. Called with the path as given; throws an exception if not.
+using WriteCheck = void (*)(const std::filesystem::path& file);
+
+/// Sets a check that write_file() and write_files() call for each of their files before they write the first
+/// one, on the calling thread. Initially there is none. Not thread-safe: intended for the start of a program.
+FAQEM_EXPORT void set_write_check(WriteCheck check);
+
 /// A file to be written. The bytes are borrowed.
 struct FileContent {
     std::filesystem::path file;
@@ -34,6 +41,7 @@ struct FileContent {
 /// \param bytes      new content, borrowed
 /// \param overwrite  Overwrite::no: an existing file is an error, even if it is created during the write
 /// \throws WriteError  with the path and the reason; the temporary file is removed
+/// \throws whatever the write check throws; nothing is written then
 FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                              Overwrite overwrite);
 
@@ -42,7 +50,7 @@ FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const 
 /// that refers to the others should be the last one.
 /// \param files      paths and contents, borrowed
 /// \param overwrite  as in write_file()
-/// \throws WriteError  as write_file()
+/// \throws as write_file()
 void write_files(std::span<const FileContent> files, Overwrite overwrite);
 
 /// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
@@ -68,5 +76,13 @@ enum class ReferenceSyntax {
 FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& folder,
                                                   std::string_view reference,
                                                   ReferenceSyntax kind = ReferenceSyntax::uri);
+
+/// Returns the path that a file reference of an asset names, wherever it is: unlike resolve_inside(), which
+/// decides what may be read, this does not examine the path, so it may name a file outside the folder or none.
+/// \param folder     folder of the asset; empty: the current directory
+/// \param reference  relative to `folder`, absolute, or in glTF with the scheme `file:`
+/// \param kind       syntax of the reference
+FAQEM_EXPORT std::filesystem::path referenced_path(const std::filesystem::path& folder,
+                                                   std::string_view reference, ReferenceSyntax kind);
 
 }  // namespace faqem::detail

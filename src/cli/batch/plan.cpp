@@ -1,12 +1,9 @@
 #include "cli/batch/plan.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
 #include <string_view>
-#include <utility>
 
 #include "cli/output_file.hpp"
 #include "faqem/error.hpp"
@@ -23,16 +20,6 @@ constexpr std::array<std::string_view, 6> model_extensions = {".glb", ".gltf", "
 bool is_model_name(const fs::path& file) {
     const std::string extension = lower_case_extension(file);
     return std::find(model_extensions.begin(), model_extensions.end(), extension) != model_extensions.end();
-}
-
-using FileId = std::pair<dev_t, ino_t>;
-
-/// Gets device and inode of a file. Returns false if the file does not exist.
-bool file_id(const fs::path& file, FileId& id) {
-    struct stat status = {};
-    if (::stat(file.c_str(), &status) != 0) return false;
-    id = {status.st_dev, status.st_ino};
-    return true;
 }
 
 void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found) {
@@ -54,11 +41,6 @@ void find_models(const fs::path& folder, const fs::path& out_folder, std::vector
 void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_folder,
                          const std::string& extension) {
     std::map<std::string, const BatchFile*> output_names;
-    std::map<FileId, const BatchFile*> inputs;
-    FileId id;
-    for (const BatchFile& file : files) {
-        if (file_id(file.in, id)) inputs.emplace(id, &file);
-    }
     for (BatchFile& file : files) {
         file.out_name = fs::path(file.name).replace_extension(extension).generic_string();
         file.out = out_folder / file.out_name;
@@ -66,11 +48,6 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
         if (!is_new) {
             throw OptionError(file.out.string() + ": two models have this output file: " +
                               other->second->in.string() + " and " + file.in.string());
-        }
-        if (!file_id(file.out, id)) continue;
-        if (const auto input = inputs.find(id); input != inputs.end()) {
-            throw OptionError(file.out.string() + ": is the same file as the input " +
-                              input->second->in.string() + "; choose another output directory");
         }
     }
 }

@@ -25,8 +25,8 @@ struct BatchFile {
 /// \return the models, by decreasing file size, then by name
 /// \throws ReadError    a directory cannot be read
 /// \throws InputError   there are no models
-/// \throws OptionError  both directories are the same, two models have the same result (the message names
-/// them), or a result would overwrite an input
+/// \throws OptionError  both directories are the same, or two models have the same result (the message names
+/// them)
 std::vector<BatchFile> plan_batch(const std::filesystem::path& folder,
                                   const std::filesystem::path& out_folder, const std::string& extension);
 

@@ -83,7 +83,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
 /// \param watch  reset after waiting for memory, so that it measures the work alone
 Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
-    std::vector<fs::path> inputs = referenced_files(file.in);
+    std::vector<fs::path> inputs = referenced_files(file.in, References::readable);
     inputs.insert(inputs.begin(), file.in);
     const BatchEntry entry = {modification_stamp(inputs), work.options_key, "", 0, 0};
     const std::optional<BatchEntry> before =
@@ -95,7 +95,7 @@ Result try_process(const BatchFile& file, const BatchContext& work, detail::Stop
     std::error_code error;
     fs::create_directories(file.out.parent_path(), error);
     const Overwrite overwrite = is_own ? Overwrite::yes : work.overwrite;
-    check_output(file.out, {file.in}, overwrite);
+    check_output(file.out, overwrite);
     const MemoryReservation reservation(
         work.memory, estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options));
     if (is_interrupted()) return cancelled_result();

@@ -40,7 +40,7 @@ void read_line(const std::string& line, std::map<std::string, BatchEntry>& entri
 
 }  // namespace
 
-BatchRecord::BatchRecord(const std::filesystem::path& out_folder) : file_(out_folder / ".faqem-batch.jsonl") {
+BatchRecord::BatchRecord(const std::filesystem::path& out_folder) : file_(path_in(out_folder)) {
     const auto fail = [&](const char* what, int error) {
         if (descriptor_ >= 0) ::close(descriptor_);
         throw WriteError(file_.string() + ": " + what + std::generic_category().message(error));

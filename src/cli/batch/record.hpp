@@ -24,6 +24,11 @@ struct BatchEntry {
 /// loses no earlier lines. The file is locked against other processes. find() and add() are thread-safe.
 class BatchRecord {
 public:
+    /// Returns the path of the record in an output directory.
+    static std::filesystem::path path_in(const std::filesystem::path& out_folder) {
+        return out_folder / ".faqem-batch.jsonl";
+    }
+
     /// Opens and locks the file and reads its entries. Truncated and damaged lines are ignored.
     /// \throws WriteError  the file cannot be opened for writing, or another process has locked it
     explicit BatchRecord(const std::filesystem::path& out_folder);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "cli/batch/process_file.hpp"
 #include "cli/commands/commands.hpp"
@@ -13,6 +14,7 @@
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
+#include "cli/protected_files.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/version.hpp"
 
@@ -27,10 +29,23 @@ struct BatchArguments : SimplifyArguments {
     bool resume = false, force = false;
 };
 
+/// Checks before the first model that no result, with the files beside it, is an input of the batch or belongs
+/// to one.
+void check_outputs_unprotected(const std::vector<BatchFile>& files, const std::string& out_folder) {
+    std::vector<std::filesystem::path> results;
+    for (const BatchFile& file : files) {
+        protect_input(file.in);
+        results.push_back(file.out);
+    }
+    check_models_unprotected(results);
+    check_unprotected(BatchRecord::path_in(out_folder));
+}
+
 int run(const BatchArguments& arguments) {
     Options options = make_options(arguments);
     const std::string extension = extension_of_format(arguments.format);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
+    check_outputs_unprotected(files, arguments.out);
     make_folder(arguments.out);
     BatchRecord record(arguments.out);
     MemorySemaphore memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);

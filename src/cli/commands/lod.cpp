@@ -18,6 +18,7 @@
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/protected_files.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/error.hpp"
 #include "faqem/save_levels.hpp"
@@ -75,11 +76,16 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
             "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
 }
 
-void check_outputs(const LodArguments& a, const Outputs& outputs) {
-    for (const fs::path& file : outputs.models) check_output(file, {a.in}, a.overwrite());
-    check_output(outputs.manifest, {a.in}, a.overwrite());
+/// Checks all output files and creates their folder.
+void prepare_outputs(const LodArguments& a, const Outputs& outputs) {
+    protect_input(a.in);
+    check_models_unprotected(outputs.models);
+    for (const fs::path& file : {outputs.manifest, fs::path(a.history)}) check_unprotected(file);
+    make_folder(a.out);
+    for (const fs::path& file : outputs.models) check_output(file, a.overwrite());
+    check_output(outputs.manifest, a.overwrite());
     if (a.history.empty()) return;
-    check_output(a.history, {a.in}, a.overwrite());
+    check_output(a.history, a.overwrite());
     std::vector<fs::path> others = outputs.models;
     others.push_back(outputs.manifest);
     for (const fs::path& other : others) {
@@ -243,8 +249,7 @@ int run(const LodArguments& arguments) {
         levels.push_back(parse_lod_level(text, arguments.view_settings));
     check_shared_textures(arguments, options);
     const Outputs outputs(arguments);
-    make_folder(arguments.out);
-    check_outputs(arguments, outputs);
+    prepare_outputs(arguments, outputs);
     install_signal_handlers();
     Asset source;
     LodWriter writer(arguments, outputs, source, levels, options);

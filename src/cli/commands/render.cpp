@@ -8,6 +8,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_file.hpp"
+#include "cli/protected_files.hpp"
 #include "render/contact_sheet.hpp"
 #include "render/views.hpp"
 
@@ -26,7 +27,8 @@ int run(const RenderArguments& arguments) {
     const std::string& out = arguments.files.back();
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     check_extension(out, {".png"});
-    check_output(out, {models.begin(), models.end()}, overwrite);
+    for (const std::string& model : models) protect_input(model);
+    check_output(out, overwrite);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 

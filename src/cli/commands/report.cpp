@@ -10,6 +10,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/output_file.hpp"
+#include "cli/protected_files.hpp"
 #include "cli/referenced_files.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
@@ -38,7 +39,7 @@ struct ReportArguments {
 };
 
 ReportedModel describe_model(const FlattenedModel& model, const MeshInfo& info) {
-    std::vector<std::filesystem::path> files = referenced_files(model.file);
+    std::vector<std::filesystem::path> files = referenced_files(model.file, References::readable);
     files.emplace_back(model.file);
     return {model.file, total_file_size(files), info, model.asset.materials.size(),
             model.asset.images.size()};
@@ -102,7 +103,8 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
 int run(const ReportArguments& arguments) {
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     check_extension(arguments.out, {".html", ".htm"});
-    check_output(arguments.out, {arguments.a, arguments.b}, overwrite);
+    for (const std::string& model : {arguments.a, arguments.b}) protect_input(model);
+    check_output(arguments.out, overwrite);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 

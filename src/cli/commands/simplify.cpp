@@ -19,6 +19,7 @@
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/protected_files.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -44,13 +45,16 @@ struct SimplifyCommandArguments : SimplifyArguments {
 /// Checks all output files before the work starts, which may take hours.
 void check_outputs(const SimplifyCommandArguments& arguments) {
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
-    std::vector<std::filesystem::path> taken = {arguments.in};
+    protect_input(arguments.in);
+    std::vector<std::filesystem::path> taken;
     for (const std::string& file :
          {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
         if (file.empty()) continue;
-        check_output(file, taken, arguments.overwrite());
+        check_output(file, arguments.overwrite());
         for (const auto& other : taken) {
-            if (std::filesystem::path(file).lexically_normal() == other.lexically_normal()) {
+            std::error_code error;
+            if (std::filesystem::path(file).lexically_normal() == other.lexically_normal() ||
+                std::filesystem::equivalent(file, other, error)) {
                 throw OptionError(file + ": is given for two files");
             }
         }
@@ -120,15 +124,16 @@ int cancelled() {
     return exit_cancelled;
 }
 
-/// Writes the history, the correspondence and then the model. The report is written later, because it has the
-/// time that saving took.
+/// Writes the model, the history and the correspondence. The model is first: save() rejects names of images
+/// that would overwrite files of the input, and then nothing is written. The report is written later, because
+/// it has the time that saving took.
 void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified) {
     const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
-    if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
-    if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
     const std::vector<std::string> save_warnings =
         save(simplified.asset, arguments.out, arguments.overwrite());
+    if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
+    if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
     simplified.report.warnings.insert(simplified.report.warnings.end(), save_warnings.begin(),
                                       save_warnings.end());
     simplified.report.seconds.save = watch.seconds();

@@ -12,6 +12,7 @@
 #include "cli/options/common_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
+#include "cli/protected_files.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
@@ -74,9 +75,9 @@ int run(const TruncateArguments& arguments) {
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
-    std::vector<std::filesystem::path> inputs = {arguments.history};
-    if (!arguments.source.empty()) inputs.emplace_back(arguments.source);
-    check_output(arguments.out, inputs, arguments.overwrite());
+    protect_input(arguments.history);
+    if (!arguments.source.empty()) protect_input(arguments.source);
+    check_output(arguments.out, arguments.overwrite());
     const SimplifiedParts simplified_parts =
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));
     if (simplified_parts.report.faces_out > arguments.faces) {

@@ -7,6 +7,7 @@
 
 #include "asset/io/file.hpp"
 #include "cli/json.hpp"
+#include "cli/protected_files.hpp"
 #include "cli/shell/deprecated_names.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
@@ -125,6 +126,7 @@ std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std
     const std::optional<std::string> file = value_of("--config", words);
     if (!has_config_option || !file || file->empty()) return words;
 
+    protect_input(*file);
     const Json profile = parse_profile(*file);
     check_version(profile, *file);
     std::vector<std::string> added;

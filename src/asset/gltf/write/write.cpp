@@ -13,6 +13,8 @@
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
+#include "asset/io/file_format.hpp"
+#include "asset/io/side_files.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -86,11 +88,6 @@ std::string percent_encoded(const std::string& name) {
     return uri;
 }
 
-bool has_gltf_extension(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    return extension.size() == 5 && (extension[1] | 0x20) == 'g' && (extension[4] | 0x20) == 'f';
-}
-
 void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     write_file(file, glb_bytes(writer, file.string()), overwrite);
 }
@@ -101,15 +98,15 @@ void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite o
     std::vector<FileContent> files;
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
-        const std::string name = stem + "_" + std::to_string(i) + file_extension(image.mime_type);
+        const std::string name = image_file_name(stem, i, file_extension(image.mime_type));
         writer.out["images"][i]["uri"] = percent_encoded(name);
         if (!image.mime_type.empty()) writer.out["images"][i]["mimeType"] = image.mime_type;
         files.push_back({file.parent_path() / name, image.encoded});
     }
     const std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
     if (!buffer.empty()) {
-        writer.out["buffers"][0]["uri"] = percent_encoded(stem + ".bin");
-        files.push_back({file.parent_path() / (stem + ".bin"), buffer});
+        writer.out["buffers"][0]["uri"] = percent_encoded(buffer_file_name(stem));
+        files.push_back({file.parent_path() / buffer_file_name(stem), buffer});
     }
     const std::string json = json_text(writer.out, 2);
     files.push_back({file, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()}});
@@ -118,7 +115,7 @@ void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite o
 
 void write_output(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     write_extension_lists(writer);
-    if (has_gltf_extension(file))
+    if (lower_case_extension(file) == ".gltf")
         write_json_with_files(writer, file, overwrite);
     else
         write_glb(writer, file, overwrite);

@@ -1,0 +1,72 @@
+#include "asset/io/side_files.hpp"
+
+#include <map>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "asset/io/file_format.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the part of a file name that follows the stem of a model if the file may be one of its images, with
+/// the extension in lower case: `_12.png` of `urn_12.PNG`. Empty if the name has no such end.
+std::string image_suffix(const fs::path& file) {
+    const std::string name = file.stem().string(), extension = lower_case_extension(file);
+    const std::size_t line = name.rfind('_');
+    if (line == std::string::npos || extension.empty()) return {};
+    const std::string_view number = std::string_view(name).substr(line + 1);
+    if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) return {};
+    if (number.size() > 1 && number[0] == '0') return {};  // numbers are written without leading zeros
+    return name.substr(line) + extension;
+}
+
+std::set<std::string> image_suffixes(const fs::path& folder) {
+    std::set<std::string> suffixes;
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        std::string suffix = image_suffix(entry->path());
+        if (!suffix.empty()) suffixes.insert(std::move(suffix));
+    }
+    if (error && error != std::errc::no_such_file_or_directory)
+        throw WriteError(folder.string() +
+                         ": cannot list the files that would be overwritten: " + error.message());
+    return suffixes;
+}
+
+}  // namespace
+
+std::string buffer_file_name(const std::string& stem) { return stem + ".bin"; }
+
+std::string library_file_name(const std::string& stem) { return stem + ".mtl"; }
+
+std::string image_file_name(const std::string& stem, std::size_t number, const std::string& extension) {
+    return stem + "_" + std::to_string(number) + extension;
+}
+
+std::vector<fs::path> existing_side_files(const std::vector<fs::path>& models) {
+    std::vector<fs::path> found;
+    std::map<fs::path, std::set<std::string>> suffixes;  // by folder
+    for (const fs::path& model : models) {
+        const std::string extension = lower_case_extension(model), stem = model.stem().string();
+        if (extension != ".gltf" && extension != ".obj") continue;
+        const fs::path folder = model.parent_path();
+        const auto add_if_exists = [&](const std::string& name) {
+            std::error_code error;
+            if (fs::exists(folder / name, error)) found.push_back(folder / name);
+        };
+        add_if_exists(extension == ".gltf" ? buffer_file_name(stem) : library_file_name(stem));
+        const auto [in_folder, is_new] = suffixes.try_emplace(folder);
+        if (is_new) in_folder->second = image_suffixes(folder.empty() ? "." : folder);
+        // The stem is not compared with the names in the folder: only the file system knows which are equal.
+        for (const std::string& suffix : in_folder->second) add_if_exists(stem + suffix);
+    }
+    return found;
+}
+
+}  // namespace faqem::detail

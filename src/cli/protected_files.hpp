@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Protection of the input files: nothing that an input of the command is or refers to is overwritten.
+
+#include <filesystem>
+#include <vector>
+
+namespace faqem::cli {
+
+/// Protects an input file of the command and all files that it refers to (References::all). From now on no
+/// file that is the same as one of them can be written, neither by write_output() nor by save(): files are
+/// compared by device and inode, so that links, relative paths and letter case do not matter. Files that do
+/// not exist need no protection. Call this before the first output is checked or written.
+///
+/// The input is examined when the first existing file is about to be overwritten: for most runs, never.
+void protect_input(const std::filesystem::path& input);
+
+/// Checks that a file may be written. write_output() and save() check their files too; commands that write
+/// several files call this before they write the first one. Thread-safe.
+/// \throws OptionError  the file is an input
+/// \throws WriteError   an input refers to the file; the message names both
+void check_unprotected(const std::filesystem::path& file);
+
+/// Checks models that save() will write, with the files beside them. How many images a model will have is not
+/// known before it is baked, so this rejects every protected file with the name of an image of the model.
+/// For commands that write files while others are not known yet.
+/// \throws OptionError, WriteError  as check_unprotected()
+void check_models_unprotected(const std::vector<std::filesystem::path>& models);
+
+}  // namespace faqem::cli
