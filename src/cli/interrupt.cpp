@@ -13,11 +13,11 @@ namespace faqem::cli {
 namespace {
 
 // Atomic because a batch calls is_interrupted() on several threads.
-std::atomic<int> signal_count = 0, exit_on_interrupt = 0;
+std::atomic<int> signal_count = 0, exit_requests = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
 void on_signal(int) {
-    if (exit_on_interrupt == 0 && signal_count == 0) {
+    if (exit_requests == 0 && signal_count == 0) {
         signal_count = 1;
         return;
     }
@@ -41,9 +41,9 @@ void install_signal_handlers() {
 bool is_interrupted() { return signal_count != 0; }
 
 ExitOnInterrupt::ExitOnInterrupt() {
-    ++exit_on_interrupt;
+    ++exit_requests;
     if (signal_count != 0) _exit(exit_cancelled);  // received since the last call of is_interrupted()
 }
-ExitOnInterrupt::~ExitOnInterrupt() { --exit_on_interrupt; }
+ExitOnInterrupt::~ExitOnInterrupt() { --exit_requests; }
 
 }  // namespace faqem::cli

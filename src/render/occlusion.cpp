@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "render/rasterizer.hpp"
 
@@ -14,7 +15,6 @@ constexpr int directions = 12;
 constexpr std::array<double, 3> radii = {0.006, 0.017, 0.04};  // fractions of the image size
 constexpr double strength = 0.85;
 constexpr double min_elevation_sine = 0.08;  // avoids occlusion on nearly flat surfaces of small faces
-constexpr double two_pi = 6.283185307179586;
 
 /// Position of the surface at a pixel, relative to the eye.
 Vector3 point(const SurfelImage& surfels, const Camera& camera, std::int64_t x, std::int64_t y,
@@ -38,7 +38,8 @@ std::array<Pattern, rotations> patterns(std::uint32_t size) {
     for (int r = 0; r < rotations; ++r) {
         for (const double radius : radii) {
             for (int d = 0; d < directions; ++d) {
-                const double angle = two_pi / directions * (d + static_cast<double>(r) / rotations);
+                const double angle =
+                    2 * std::numbers::pi / directions * (d + static_cast<double>(r) / rotations);
                 result[static_cast<std::size_t>(r)].push_back({std::lround(radius * size * std::cos(angle)),
                                                                std::lround(radius * size * std::sin(angle)),
                                                                radius});

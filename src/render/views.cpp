@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/error.hpp"
@@ -10,7 +11,7 @@ namespace faqem::render {
 
 namespace {
 
-constexpr double two_pi = 6.283185307179586, first_azimuth = 0.35, margin = 1.04;
+constexpr double first_azimuth = 0.35, margin = 1.04;
 constexpr std::array<double, 2> elevations = {0.16, 0.42};  // radians: alternating low and higher views
 
 }  // namespace
@@ -22,8 +23,8 @@ std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, 
     std::vector<Camera> result;
     double distance = 0;
     for (std::uint32_t i = 0; i < views; ++i) {
-        result.push_back(
-            orbit_camera(centre, first_azimuth + two_pi * i / views, elevations[i % elevations.size()]));
+        result.push_back(orbit_camera(centre, first_azimuth + 2 * std::numbers::pi * i / views,
+                                      elevations[i % elevations.size()]));
         distance = std::max(distance, fitting_distance(scene, result.back(), centre));
     }
     if (!(distance > 0)) distance = 1;

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t image_side = 2048;
-constexpr std::uint64_t target_faces = 10'000;
+constexpr std::uint64_t pipeline_faces = 10'000;
 
 /// Returns an image with a pattern that does not compress extremely well.
 Image pattern() {
@@ -109,7 +109,7 @@ void measure_pipeline(const FloatMesh& mesh, const fs::path& folder, const Write
         for (const std::uint32_t samples : {1u, 2u}) {
             Options options;
             options.preset = preset;
-            options.target = faces(target_faces);
+            options.target = faces(pipeline_faces);
             options.bake.texture_size = image_side;
             options.bake.samples = samples;
             const double cpu = cpu_now();

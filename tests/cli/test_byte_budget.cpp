@@ -6,7 +6,6 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -31,7 +30,9 @@ std::uintmax_t bytes_in(const fs::path& folder) {
     return sum;
 }
 
-std::string warnings(const Folder& folder) { return Json::parse(read(folder / "r.json"))["warnings"].dump(); }
+std::string warnings(const Folder& folder) {
+    return nlohmann::json::parse(read(folder / "r.json"))["warnings"].dump();
+}
 
 }  // namespace
 

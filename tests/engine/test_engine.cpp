@@ -20,9 +20,9 @@ struct PresetRules {
     Rules rules;
 };
 
-PresetRules qem() { return {{}, {LinkCondition::on, 0, 0}}; }
+PresetRules qem_rules() { return {{}, {LinkCondition::on, 0, 0}}; }
 
-PresetRules paper() {
+PresetRules paper_rules() {
     PresetRules n;
     n.weights.base = BaseWeight::inverse_area;
     n.weights.boundary = 500;
@@ -31,7 +31,7 @@ PresetRules paper() {
     return n;
 }
 
-PresetRules stmw() {
+PresetRules stmw_rules() {
     PresetRules n;
     n.weights.base = BaseWeight::area;
     n.weights.area = 1;
@@ -51,7 +51,7 @@ TEST_CASE("engine: collapses agree with a brute-force implementation of the pape
         test::soup(7, 25, 40),
         test::soup(8, 40, 30)};
     for (const TriangleMesh& mesh : meshes) {
-        for (const PresetRules& preset : {qem(), paper(), stmw()}) {
+        for (const PresetRules& preset : {qem_rules(), paper_rules(), stmw_rules()}) {
             // On open meshes qem has several pairs of cost 0, whose order would depend on rounding.
             if (preset.rules.link == LinkCondition::on && !test::closed_manifold(mesh.triangles)) continue;
             const std::size_t target = mesh.triangles.size() / 5;
@@ -82,13 +82,13 @@ TEST_CASE("engine: on a flat hexagon qem takes the first equal pair, other metri
     // collapsed to the first of the equally good positions, the centre 0. The area term of the others is 0
     // only at the boundary vertex.
     const TriangleMesh hexagon = test::fan(6);
-    Play<AccumulatedMetric> plain(hexagon, AccumulatedMetric(qem().weights));
-    CHECK(plain.run(4, qem().rules).collapses == 1);
+    Play<AccumulatedMetric> plain(hexagon, AccumulatedMetric(qem_rules().weights));
+    CHECK(plain.run(4, qem_rules().rules).collapses == 1);
     const CollapseHistory history = plain.recorder.take();
     CHECK(history.collapses[0].first == 0);
     CHECK(history.collapses[0].second == 1);
     CHECK(history.collapses[0].position == Vec3{0, 0, 0});
-    for (const PresetRules& preset : {paper(), stmw()}) {
+    for (const PresetRules& preset : {paper_rules(), stmw_rules()}) {
         Play<AccumulatedMetric> play(hexagon, AccumulatedMetric(preset.weights));
         CHECK(play.run(4, preset.rules).collapses == 1);
         const Collapse first = play.recorder.take().collapses.at(0);

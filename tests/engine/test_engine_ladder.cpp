@@ -13,9 +13,9 @@ using namespace faqem::engine;
 using namespace faqem::test;
 
 TEST_CASE("ladder: flips to a cosine of -1/2 are allowed first, then all flips, and each rung is counted") {
-    Play<Script> gentle(hinge, turn_hinge(80));
+    Play<Script> gentle(hinge(), turn_hinge(80));
     CHECK(gentle.run(1, {LinkCondition::off, 0, 0}).rungs == decltype(LoopResult::rungs){});
-    Play<Script> half(hinge, turn_hinge(100));
+    Play<Script> half(hinge(), turn_hinge(100));
     const LoopResult& first = half.run(1, {LinkCondition::off, 0, 0});
     CHECK(first.stop == StopReason::reached_target);
     CHECK(taken(first, Rung::reseed) == 1);
@@ -23,7 +23,7 @@ TEST_CASE("ladder: flips to a cosine of -1/2 are allowed first, then all flips, 
     CHECK(taken(first, Rung::flip_half) == 1);
     CHECK(taken(first, Rung::flip_any) == 0);
     CHECK(refused(first, Refusal::flip) == 2);
-    Play<Script> any(hinge, turn_hinge(150));
+    Play<Script> any(hinge(), turn_hinge(150));
     const LoopResult& second = any.run(1, {LinkCondition::off, 0, 0});
     CHECK(second.stop == StopReason::reached_target);
     CHECK(taken(second, Rung::flip_half) == 1);
@@ -134,7 +134,7 @@ TEST_CASE("ladder: pairs below the minimum length are not collapsed until all fl
 }
 
 TEST_CASE("ladder: pairs below the minimum length are collapsed if all faces around them are as small") {
-    Play<Script> play(hinge, turn_hinge(10));
+    Play<Script> play(hinge(), turn_hinge(10));
     const LoopResult& result = play.run(1, {LinkCondition::off, 0, 100});
     CHECK(result.rungs == decltype(LoopResult::rungs){});
     CHECK(refused(result, Refusal::zero_length) == 0);

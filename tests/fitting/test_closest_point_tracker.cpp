@@ -10,21 +10,15 @@ using detail::MeshToReferenceTracker;
 using detail::ReferenceSurface;
 using detail::ReferenceToMeshTracker;
 using engine::Vector3;
-
-namespace {
-
-// The unit square in the plane z = 0 as two triangles.
-const std::vector<Vector3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
-
-}  // namespace
+using test::quad_faces;
+using test::quad_positions;
 
 TEST_CASE("closest point tracker: residuals of a lifted square in both directions") {
-    const ReferenceSurface original({square, halves});
-    std::vector<Vector3> lifted = square;
+    const ReferenceSurface original({quad_positions, quad_faces});
+    std::vector<Vector3> lifted = quad_positions;
     for (Vector3& p : lifted) p.z() = 0.25;
-    MeshToReferenceTracker there(original, halves, {{0, {0.5, 0.25, 0.25}}, {1, {0, 0.5, 0.5}}});
-    ReferenceToMeshTracker back({{{0.5, 0.25, 0}, {0, 0, 1}}}, halves);
+    MeshToReferenceTracker there(original, quad_faces, {{0, {0.5, 0.25, 0.25}}, {1, {0, 0.5, 0.5}}});
+    ReferenceToMeshTracker back({{{0.5, 0.25, 0}, {0, 0, 1}}}, quad_faces);
     there.update(lifted, 1);
     back.update(lifted, 1);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -33,11 +27,11 @@ TEST_CASE("closest point tracker: residuals of a lifted square in both direction
     }
     CHECK((back.residual(0) - Vector3(0, 0, -0.25)).norm() < 1e-15);
     CHECK(back.sample(0).face == 0);
-    CHECK((back.sample(0).position(lifted, halves) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
+    CHECK((back.sample(0).position(lifted, quad_faces) - Vector3(0.5, 0.25, 0.25)).norm() < 1e-15);
 }
 
 TEST_CASE("closest point tracker: samples of flipped faces are replaced, others are kept") {
-    const ReferenceSurface original({square, halves});
+    const ReferenceSurface original({quad_positions, quad_faces});
     const std::vector<Vector3> bent = {{0, 0, 0.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}};
     MeshToReferenceTracker there(original, faces, {{0, {1, 0, 0}}, {2, {0, 0, 1}}, {1, {0.5, 0.5, 0}}});
@@ -76,10 +70,10 @@ TEST_CASE("closest point tracker: the normal deviation at an edge is the smalles
 
 TEST_CASE("closest point tracker: of two coincident opposite faces, the one with the same normal is used") {
     const std::vector<Triangle> back_first = {{0, 2, 1}, {0, 1, 2}};
-    const ReferenceSurface original({square, back_first});
+    const ReferenceSurface original({quad_positions, back_first});
     const std::vector<Triangle> one = {{0, 1, 2}};
     MeshToReferenceTracker there(original, one, {{0, {0.5, 0.25, 0.25}}});
-    there.update(square, 1);
+    there.update(quad_positions, 1);
     there.measure_normal_deviations(1e-9, 1);
     CHECK(there.normal_deviation(0) == Approx(0).margin(1e-7));
 }

@@ -16,8 +16,8 @@ std::vector<Vector3> opened(double degrees) {
     const double a = degrees * test::pi / 180;
     return {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {std::cos(a), 0.5, std::sin(a)}};
 }
-const std::vector<Triangle> book = {{0, 2, 1}, {0, 1, 3}};
-const std::vector<Triangle> inconsistent = {{0, 2, 1}, {1, 0, 3}};
+const std::vector<Triangle> consistent_faces = {{0, 2, 1}, {0, 1, 3}};
+const std::vector<Triangle> inconsistent_faces = {{0, 2, 1}, {1, 0, 3}};
 
 int folds(const FoldGuard& guard, const std::vector<Vector3>& positions) {
     int count = 0;
@@ -29,7 +29,7 @@ int folds(const FoldGuard& guard, const std::vector<Vector3>& positions) {
 
 TEST_CASE("fold guard: an edge is folded if its dihedral angle is below the limit") {
     // A cosine of -0.9 between the normals: 25.8 degrees.
-    for (const auto& triangles : {book, inconsistent}) {
+    for (const auto& triangles : {consistent_faces, inconsistent_faces}) {
         const std::vector<Vector3> flat = opened(180);
         const FoldGuard guard({flat, triangles}, -0.9);
         CHECK(folds(guard, flat) == 0);
@@ -41,7 +41,7 @@ TEST_CASE("fold guard: an edge is folded if its dihedral angle is below the limi
 
 TEST_CASE("fold guard: edges that are folded initially are ignored") {
     const std::vector<Vector3> closed = opened(5);
-    const FoldGuard guard({closed, book}, -0.9);
+    const FoldGuard guard({closed, consistent_faces}, -0.9);
     CHECK(folds(guard, opened(3)) == 0);
 }
 

@@ -12,7 +12,7 @@ using engine::Vector3;
 
 namespace {
 
-const std::vector<Triangle> one = {{0, 1, 2}};
+const std::vector<Triangle> one_face = {{0, 1, 2}};
 const Vector3 up(0, 0, 1);
 
 }  // namespace
@@ -25,7 +25,7 @@ TEST_CASE("gauss-newton: equal residuals at all corners move the triangle by tha
         correspondences.push_back(correspondence);
     }
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::gauss_newton_step(one, correspondences, free, 0.5, 1)) {
+    for (const Vector3& step : detail::gauss_newton_step(one_face, correspondences, free, 0.5, 1)) {
         // For each vertex, (w + damping) step = w residual, with damping = (0.02 + 2e-4) * 1.2 w / 3.
         CHECK(step.z() == Approx(0.5 / (1 + 0.0202 * 1.2 / 3)).epsilon(1e-3));
         CHECK(step.head<2>().norm() < 1e-12);
@@ -35,7 +35,7 @@ TEST_CASE("gauss-newton: equal residuals at all corners move the triangle by tha
 TEST_CASE("gauss-newton: fixed vertices do not move, and the others compensate") {
     const std::vector<Correspondence> correspondences = {{{0, {0.5, 0.5, 0}}, up, up}};
     const std::vector<std::uint8_t> fixed = {1, 0, 0};
-    const std::vector<Vector3> steps = detail::gauss_newton_step(one, correspondences, fixed, 0.5, 1);
+    const std::vector<Vector3> steps = detail::gauss_newton_step(one_face, correspondences, fixed, 0.5, 1);
     CHECK(steps[0] == Vector3::Zero());
     // The step is twice the residual: the midpoint of the edge moves by half of the step of one vertex.
     CHECK(steps[1].z() == Approx(2).epsilon(0.02));
@@ -47,13 +47,13 @@ TEST_CASE("gauss-newton: distant correspondences have a larger weight") {
     const std::vector<Correspondence> correspondences = {{{0, {1, 0, 0}}, 4 * up, up},
                                                          {{0, {1, 0, 0}}, -1 * up, up}};
     const std::vector<std::uint8_t> free(3, 0);
-    CHECK(detail::gauss_newton_step(one, correspondences, free, 0.5, 1)[0].z() ==
+    CHECK(detail::gauss_newton_step(one_face, correspondences, free, 0.5, 1)[0].z() ==
           Approx(7.0 / 3).epsilon(0.02));
 }
 
 TEST_CASE("gauss-newton: without correspondences the step is zero") {
     const std::vector<std::uint8_t> free(3, 0);
-    for (const Vector3& step : detail::gauss_newton_step(one, {}, free, 0.5, 1))
+    for (const Vector3& step : detail::gauss_newton_step(one_face, {}, free, 0.5, 1))
         CHECK(step == Vector3::Zero());
 }
 
@@ -108,6 +108,6 @@ TEST_CASE("gauss-newton: the step solves the dense system") {
 
 TEST_CASE("gauss-newton: the position of a sample is the weighted mean of the corners") {
     const std::vector<Vector3> x = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
-    CHECK((detail::SurfaceSample{0, {0.25, 0.25, 0.5}}.position(x, one) - Vector3(0.25, 1, 0)).norm() <
+    CHECK((detail::SurfaceSample{0, {0.25, 0.25, 0.5}}.position(x, one_face) - Vector3(0.25, 1, 0)).norm() <
           1e-15);
 }

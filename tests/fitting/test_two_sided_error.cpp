@@ -10,6 +10,8 @@ using detail::FaceDeviation;
 using detail::ReferenceSurface;
 using detail::TwoSidedError;
 using engine::Vector3;
+using test::quad_faces;
+using test::quad_positions;
 
 namespace {
 
@@ -19,17 +21,13 @@ FaceDeviation sum(const std::vector<FaceDeviation>& deviations) {
     return all;
 }
 
-// The unit square in the plane z = 0 as two triangles.
-const std::vector<Vector3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const std::vector<Triangle> halves = {{0, 1, 2}, {0, 2, 3}};
-
 }  // namespace
 
 TEST_CASE("two-sided error: a square moved along its normal has that distance in both directions") {
-    const ReferenceSurface original({square, halves});
-    std::vector<Vector3> lifted = square;
+    const ReferenceSurface original({quad_positions, quad_faces});
+    std::vector<Vector3> lifted = quad_positions;
     for (Vector3& p : lifted) p.z() = 0.25;
-    TwoSidedError error(original, halves, lifted, 1);
+    TwoSidedError error(original, quad_faces, lifted, 1);
     REQUIRE_FALSE(error.empty());
     const std::vector<FaceDeviation> deviations = error.measure(lifted);
     REQUIRE(deviations.size() == 2);

@@ -21,7 +21,7 @@ TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& simplified
     return result;
 }
 
-Comparison distance(const TriangleMesh& a, const TriangleMesh& b) {
+Comparison compared(const TriangleMesh& a, const TriangleMesh& b) {
     return compare(a.view(), b.view(), {.samples = 20'000});
 }
 
@@ -30,7 +30,7 @@ Comparison distance(const TriangleMesh& a, const TriangleMesh& b) {
 TEST_CASE("vertex fitting: an inscribed icosphere is moved closer to the sphere") {
     const TriangleMesh sphere = test::icosphere(4), simplified = test::icosphere(1);
     const TriangleMesh result = fitted(sphere, simplified);
-    const Comparison before = distance(sphere, simplified), after = distance(sphere, result);
+    const Comparison before = compared(sphere, simplified), after = compared(sphere, result);
     CHECK(after.chamfer < 0.6 * before.chamfer);
     CHECK(after.hausdorff <= before.hausdorff);
     CHECK(result.triangles == simplified.triangles);
@@ -69,7 +69,7 @@ TEST_CASE("vertex fitting: a decrease in distance must outweigh the increase in 
         for (double& x : p) x = std::clamp(1.1 * x / largest, -1.0, 1.0);
     }
     const TriangleMesh cube = test::moved(test::scaled(test::cube(), 2), {-1, -1, -1});
-    const Comparison before = distance(rounded, cube), after = distance(rounded, fitted(rounded, cube));
+    const Comparison before = compared(rounded, cube), after = compared(rounded, fitted(rounded, cube));
     const double distances = after.chamfer / before.chamfer;
     const double normals = after.mean_normal_degrees / before.mean_normal_degrees;
     CHECK(distances * normals * normals <= 1.001);
@@ -96,7 +96,7 @@ TEST_CASE("vertex fitting: no face is inverted or loses its area") {
         REQUIRE(before.dot(after) >= 0.299 * before.norm() * after.norm());
         REQUIRE(after.norm() > 0);
     }
-    CHECK(distance(rough, moved).chamfer < distance(rough, balanced.mesh).chamfer);
+    CHECK(compared(rough, moved).chamfer < compared(rough, balanced.mesh).chamfer);
 }
 
 TEST_CASE("vertex fitting: edge flips decrease the distance further and keep the surface closed") {
@@ -112,7 +112,7 @@ TEST_CASE("vertex fitting: edge flips decrease the distance further and keep the
     CHECK(test::euler(best.mesh.triangles) == test::euler(balanced.mesh.triangles));
     CHECK(info(best.mesh.view()).boundary_edges == 0);
     const TriangleMesh moved = fitted(rough, balanced.mesh);
-    CHECK(distance(rough, best.mesh).chamfer < distance(rough, moved).chamfer);
+    CHECK(compared(rough, best.mesh).chamfer < compared(rough, moved).chamfer);
 }
 
 TEST_CASE("vertex fitting: the history stores the final positions and keeps those of the versions") {

@@ -24,7 +24,7 @@ namespace {
 //     | \       Its interior, edges and corners are queried from above
 //     |   \     (height 3) and from the sides.
 //     a --- b (4,0,0)
-const Vector3 a(0, 0, 0), b(4, 0, 0), c(0, 2, 0);
+const Vector3 corner_a(0, 0, 0), corner_b(4, 0, 0), corner_c(0, 2, 0);
 
 void check_consistent(const ClosestPoint& hit, const Vector3& p, const Vector3& x, const Vector3& y,
                       const Vector3& z) {
@@ -35,7 +35,8 @@ void check_consistent(const ClosestPoint& hit, const Vector3& p, const Vector3& 
     CHECK(hit.distance_squared == Approx((p - hit.point).squaredNorm()));
 }
 
-ClosestPoint query(const Vector3& p, const Vector3& x = a, const Vector3& y = b, const Vector3& z = c) {
+ClosestPoint query(const Vector3& p, const Vector3& x = corner_a, const Vector3& y = corner_b,
+                   const Vector3& z = corner_c) {
     const ClosestPoint hit = closest_point_on_triangle(p, x, y, z);
     check_consistent(hit, p, x, y, z);
     return hit;
@@ -77,9 +78,9 @@ struct Soup {
 TEST_CASE("closest point on a triangle: each Voronoi region") {
     CHECK(query({1, 0.5, 3}).point == Vector3(1, 0.5, 0));
     CHECK(query({1, 0.5, 3}).distance_squared == 9);
-    CHECK(query({-1, -2, 0}).point == a);
-    CHECK(query({6, -1, 2}).point == b);
-    CHECK(query({-1, 5, 0}).point == c);
+    CHECK(query({-1, -2, 0}).point == corner_a);
+    CHECK(query({6, -1, 2}).point == corner_b);
+    CHECK(query({-1, 5, 0}).point == corner_c);
     CHECK(query({2, -3, 1}).point.isApprox(Vector3(2, 0, 0)));
     CHECK(query({-3, 1, 1}).point.isApprox(Vector3(0, 1, 0)));
     // Beyond bc, whose normal is (1, 2), in front of its midpoint (2, 1).
@@ -97,11 +98,11 @@ TEST_CASE("closest point on a triangle: a corner is returned bitwise exactly") {
 }
 
 TEST_CASE("closest point on a triangle: degenerate triangles count as segments or points") {
-    CHECK(query({1, 2, 0}, a, b, b).point.isApprox(Vector3(1, 0, 0)));
-    CHECK(query({1, 2, 0}, b, a, Vector3(2, 0, 0)).point.isApprox(Vector3(1, 0, 0)));
-    CHECK(query({1, 2, 0}, a, a, a).point == a);
-    CHECK(query({1, 2, 2}, a, a, a).distance_squared == 9);
-    CHECK(query({5, 1, 0}, a, Vector3(1, 0, 0), b).point == b);
+    CHECK(query({1, 2, 0}, corner_a, corner_b, corner_b).point.isApprox(Vector3(1, 0, 0)));
+    CHECK(query({1, 2, 0}, corner_b, corner_a, Vector3(2, 0, 0)).point.isApprox(Vector3(1, 0, 0)));
+    CHECK(query({1, 2, 0}, corner_a, corner_a, corner_a).point == corner_a);
+    CHECK(query({1, 2, 2}, corner_a, corner_a, corner_a).distance_squared == 9);
+    CHECK(query({5, 1, 0}, corner_a, Vector3(1, 0, 0), corner_b).point == corner_b);
 }
 
 TEST_CASE("closest point on a triangle: needles are handled without loss of accuracy") {

@@ -11,15 +11,15 @@ using detail::Surface;
 
 namespace {
 
-constexpr std::uint64_t n = 2000;
+constexpr std::uint64_t sample_count = 2000;
 
 }  // namespace
 
 TEST_CASE("random samples: positions agree with the barycentric coordinates") {
     const TriangleMesh mesh = test::icosphere(1);
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
-    for (std::uint64_t i = 0; i < n; ++i) {
-        const RandomSample s = detail::sample(surface, i, n, 1);
+    for (std::uint64_t i = 0; i < sample_count; ++i) {
+        const RandomSample s = detail::sample(surface, i, sample_count, 1);
         REQUIRE(s.face < surface.triangles.size());
         engine::Vector3 p = engine::Vector3::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
@@ -37,8 +37,9 @@ TEST_CASE("random samples: stratified by area, so that the samples of a face are
                                          {{0, 1, 2}, {4, 3, 5}});
     const Surface surface = detail::extract_nonempty_surface(mesh.view(), "mesh");
     std::uint64_t first = 0;
-    for (std::uint64_t i = 0; i < n; ++i) first += detail::sample(surface, i, n, 3).face == 0;
-    CHECK(first == n / 4);
+    for (std::uint64_t i = 0; i < sample_count; ++i)
+        first += detail::sample(surface, i, sample_count, 3).face == 0;
+    CHECK(first == sample_count / 4);
 }
 
 TEST_CASE("random samples: determined by index and seed") {

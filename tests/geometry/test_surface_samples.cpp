@@ -15,13 +15,14 @@ namespace {
 // | \     The area of abc is three times that of bde.
 // |   \ /e
 // a----b--d
-const std::vector<Vector3> positions = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {5, 0, 0}, {4, 1, 0}};
-const std::vector<Triangle> faces = {{0, 1, 2}, {no_index, no_index, no_index}, {1, 3, 4}};
+const std::vector<Vector3> sampled_positions = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {5, 0, 0}, {4, 1, 0}};
+const std::vector<Triangle> sampled_faces = {{0, 1, 2}, {no_index, no_index, no_index}, {1, 3, 4}};
 
 }  // namespace
 
 TEST_CASE("surface samples: distributed uniformly by area and sorted by face") {
-    const std::vector<SurfaceSample> samples = detail::area_uniform_samples({positions, faces}, 400);
+    const std::vector<SurfaceSample> samples =
+        detail::area_uniform_samples({sampled_positions, sampled_faces}, 400);
     REQUIRE(samples.size() == 400);
     CHECK(std::count_if(samples.begin(), samples.end(), [](const SurfaceSample& s) { return s.face == 0; }) ==
           300);
@@ -32,26 +33,26 @@ TEST_CASE("surface samples: distributed uniformly by area and sorted by face") {
         CHECK(sample.face != 1);
         CHECK(std::min({sample.barycentric[0], sample.barycentric[1], sample.barycentric[2]}) >= 0);
         CHECK(sample.barycentric[0] + sample.barycentric[1] + sample.barycentric[2] == Approx(1));
-        if (sample.face == 0) mean += sample.position(positions, faces) / 300;
+        if (sample.face == 0) mean += sample.position(sampled_positions, sampled_faces) / 300;
     }
     CHECK((mean - Vector3(1, 2.0 / 3, 0)).norm() < 0.01);
 }
 
 TEST_CASE("surface samples: none without area") {
     const std::vector<Triangle> flat = {{0, 1, 3}};
-    CHECK(detail::area_uniform_samples({positions, flat}, 10).empty());
-    CHECK(detail::area_uniform_samples({positions, {}}, 10).empty());
+    CHECK(detail::area_uniform_samples({sampled_positions, flat}, 10).empty());
+    CHECK(detail::area_uniform_samples({sampled_positions, {}}, 10).empty());
 }
 
 TEST_CASE("surface samples: each vertex once, each edge midpoint once per face") {
-    const std::vector<SurfaceSample> samples = detail::vertex_and_midpoint_samples(faces);
+    const std::vector<SurfaceSample> samples = detail::vertex_and_midpoint_samples(sampled_faces);
     CHECK(samples.size() == 5 + 6);
     const auto at = [&](const Vector3& p) {
         return std::count_if(samples.begin(), samples.end(), [&](const SurfaceSample& s) {
-            return (s.position(positions, faces) - p).norm() < 1e-15;
+            return (s.position(sampled_positions, sampled_faces) - p).norm() < 1e-15;
         });
     };
-    for (const Vector3& p : positions) CHECK(at(p) == 1);
+    for (const Vector3& p : sampled_positions) CHECK(at(p) == 1);
     CHECK(at({1.5, 1, 0}) == 1);
     CHECK(at({4.5, 0.5, 0}) == 1);
 }

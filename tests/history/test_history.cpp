@@ -10,8 +10,10 @@
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/results.hpp"
 
 using namespace faqem;
+using test::file_bytes;
 
 namespace {
 
@@ -52,12 +54,6 @@ CollapseHistory flipped() {
     return h;
 }
 
-std::string bytes(const CollapseHistory& history) {
-    std::ostringstream out;
-    write(history, out);
-    return out.str();
-}
-
 CollapseHistory read(const std::string& text) {
     std::istringstream in(text);
     return read_history(in);
@@ -77,11 +73,11 @@ std::string changed(const std::function<void(CollapseHistory&)>& change) {
     CollapseHistory h = with_deleted_part();
     change(h);
     const std::string message = error_message([&] { validate(h); });
-    CHECK(error_message([&] { read(bytes(h)); }) == message);
+    CHECK(error_message([&] { read(file_bytes(h)); }) == message);
     return message;
 }
 
-bool same(const TriangleMesh& a, const TriangleMesh& b) {
+bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
     return a.positions == b.positions && a.triangles == b.triangles && a.face_groups == b.face_groups;
 }
 
@@ -105,9 +101,9 @@ TEST_CASE("history: replay reconstructs the simplified mesh") {
 
 TEST_CASE("history: writing and reading restores the same bytes") {
     for (const CollapseHistory& h : {small(), with_deleted_part(), CollapseHistory()}) {
-        const std::string text = bytes(h);
+        const std::string text = file_bytes(h);
         const CollapseHistory again = read(text);
-        CHECK(bytes(again) == text);
+        CHECK(file_bytes(again) == text);
         CHECK(again.positions == h.positions);
         CHECK(again.triangles == h.triangles);
         CHECK(again.kept_versions == h.kept_versions);
@@ -117,7 +113,7 @@ TEST_CASE("history: writing and reading restores the same bytes") {
 }
 
 TEST_CASE("history: a truncated file is an error that names the section") {
-    const std::string text = bytes(with_deleted_part());
+    const std::string text = file_bytes(with_deleted_part());
     for (std::size_t size = 0; size < text.size(); ++size) {
         const std::string message = error_message([&] { read(text.substr(0, size)); });
         if (message.find("history: ") != 0 || message.find("ends too early") == std::string::npos)
@@ -137,7 +133,7 @@ TEST_CASE("history: a file of another format is an error") {
 TEST_CASE("history: an invalid element count does not allocate memory") {
     // Each count in turn is set to 2^60 and 2^64 - 1; allocating that much would throw bad_alloc or
     // length_error.
-    const std::string text = bytes(with_deleted_part());
+    const std::string text = file_bytes(with_deleted_part());
     const std::uint64_t elements[] = {24, 12, 4, 4, 4, 24, 8, 4, 24, 8, 4, 4, 4};
     std::size_t at = 8;
     for (const std::uint64_t size : elements) {
@@ -158,7 +154,7 @@ TEST_CASE("history: kept positions are written and read, and a wrong number of t
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         history.kept_positions.push_back({1.0 + i, 2, 3});
     }
-    std::istringstream in(bytes(history));
+    std::istringstream in(file_bytes(history));
     const CollapseHistory again = read_history(in);
     CHECK(again.kept_positions == history.kept_positions);
     CHECK(replay(again).positions == history.kept_positions);
@@ -169,7 +165,7 @@ TEST_CASE("history: kept positions are written and read, and a wrong number of t
 
 TEST_CASE("history: edge flips are written, read and replayed") {
     CollapseHistory history = flipped();
-    const TriangleMesh mesh = replay(read(bytes(history)));
+    const TriangleMesh mesh = replay(read(file_bytes(history)));
     //  3---2        3---2
     //  | / |   ->   | \ |
     //  0---1        0---1
@@ -197,7 +193,7 @@ TEST_CASE("history: an edge flip needs two kept faces with a common edge") {
 }
 
 TEST_CASE("history: arrays of different lengths are an error, also empty ones") {
-    const std::string text = bytes(with_deleted_part());
+    const std::string text = file_bytes(with_deleted_part());
     // From the end: kept_faces 1, kept_versions 3, deleted faces 1, their times 1.
     const std::size_t times = text.size() - (8 + 4) - (8 + 12) - (8 + 4) - (8 + 8);
     std::string forged = text;
@@ -283,7 +279,7 @@ TEST_CASE("history: an empty history must not have elements that refer to others
 TEST_CASE("history: random byte errors give an InputError or a valid mesh") {
     const auto result = simplify(test::shaken(test::icosphere(1), 0.05, 1).view(),
                                  {.target = ratio(0.4), .preset = Preset::qem, .history = Recording::on});
-    const std::string text = bytes(result.history);
+    const std::string text = file_bytes(result.history);
     test::Random random(9);
     std::size_t refused = 0;
     for (int round = 0; round < 3000; ++round) {
@@ -317,8 +313,8 @@ TEST_CASE("history: the history of a run replays to its result, also after writi
                 options.history = Recording::on;
                 const SimplifyResult result = simplify(mesh.view(), options);
                 validate(result.history);
-                CHECK(same(replay(result.history), result.mesh));
-                CHECK(same(replay(read(bytes(result.history))), result.mesh));
+                CHECK(same_mesh(replay(result.history), result.mesh));
+                CHECK(same_mesh(replay(read(file_bytes(result.history))), result.mesh));
                 CHECK(result.history.collapses.size() == result.report.collapses);
                 CHECK(result.history.kept_faces == result.face_origin);
             }

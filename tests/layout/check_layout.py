@@ -67,6 +67,7 @@ SMALL = {
     "include/faqem/detail/geometry/vertex_faces",
     "include/faqem/detail/history/final_versions",
     "src/asset/image/srgb",
+    "src/asset/io/little_endian",
     "src/bake/scene/step_progress",
     "src/bake/transfer/vector_conversion",
     # Bodies and declarations of an interface.

@@ -12,8 +12,6 @@ using namespace faqem;
 
 namespace {
 
-TriangleMesh lump(int level = 4) { return test::shaken(test::icosphere(level), 0.01, 3); }
-
 Options with(Preset preset, Recording history = Recording::off) {
     Options options;
     options.preset = preset;
@@ -21,7 +19,7 @@ Options with(Preset preset, Recording history = Recording::off) {
     return options;
 }
 
-void check_same(const SimplifyResult& a, const SimplifyResult& b) {
+void check_same_level(const SimplifyResult& a, const SimplifyResult& b) {
     CHECK(a.mesh.positions == b.mesh.positions);
     CHECK(a.mesh.triangles == b.mesh.triangles);
     CHECK(a.mesh.attributes.values == b.mesh.attributes.values);
@@ -36,18 +34,18 @@ void check_same(const SimplifyResult& a, const SimplifyResult& b) {
 }  // namespace
 
 TEST_CASE("levels: a single level equals the result of simplify()") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : all_presets) {
         Options options = with(preset, Recording::on);
         const std::vector<SimplifiedLevel> levels = simplify_levels(mesh.view(), {ratio(0.1)}, options);
         REQUIRE(levels.size() == 1);
         options.target = ratio(0.1);
-        check_same(levels[0].result, simplify(mesh.view(), options));
+        check_same_level(levels[0].result, simplify(mesh.view(), options));
     }
 }
 
 TEST_CASE("levels: with accumulated quadrics, each level equals a separate run") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
         Options options = with(preset, Recording::on);
         const auto levels = simplify_levels(mesh.view(), {ratio(0.5), faces(1000), ratio(0.05)}, options);
@@ -55,13 +53,13 @@ TEST_CASE("levels: with accumulated quadrics, each level equals a separate run")
         const Target targets[] = {ratio(0.5), faces(1000), ratio(0.05)};
         for (std::size_t i = 0; i < 3; ++i) {
             options.target = targets[i];
-            check_same(levels[i].result, simplify(mesh.view(), options));
+            check_same_level(levels[i].result, simplify(mesh.view(), options));
         }
     }
 }
 
 TEST_CASE("levels: each level reaches its face count, and errors are valid bounds and do not decrease") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     const std::vector<Level> wanted = {ratio(0.5), ratio(0.25), ratio(0.1), faces(100), faces(20)};
     for (const Preset preset : {Preset::fast, Preset::balanced, Preset::best, Preset::qem}) {
         const auto levels = simplify_levels(mesh.view(), wanted, with(preset));
@@ -86,7 +84,7 @@ TEST_CASE("levels: each level reaches its face count, and errors are valid bound
 }
 
 TEST_CASE("levels: the history of each level starts at the original and replays to its mesh") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::balanced, Preset::best, Preset::qem}) {
         const auto levels =
             simplify_levels(mesh.view(), {ratio(0.5), ratio(0.2), ratio(0.04)}, with(preset, Recording::on));
@@ -109,7 +107,7 @@ TEST_CASE("levels: the history of each level starts at the original and replays 
 }
 
 TEST_CASE("levels: results do not depend on recording, number of threads or later levels") {
-    const TriangleMesh mesh = lump(6);  // 40962 vertices: simplified in blocks
+    const TriangleMesh mesh = test::lump(6);  // 40962 vertices: simplified in blocks
     const auto all = simplify_levels(mesh.view(), {ratio(0.5), ratio(0.1)}, with(Preset::balanced));
     Options other = with(Preset::balanced, Recording::on);
     other.threads = 1;
@@ -126,7 +124,7 @@ TEST_CASE("levels: results do not depend on recording, number of threads or late
 }
 
 TEST_CASE("levels: vertex fitting of one level does not affect the next one") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     const std::vector<Level> wanted = {ratio(0.3), ratio(0.1), ratio(0.02)};
     const auto unfitted = simplify_levels(mesh.view(), wanted, with(Preset::balanced));
     const auto fitted = simplify_levels(mesh.view(), wanted, with(Preset::best, Recording::on));
@@ -141,7 +139,7 @@ TEST_CASE("levels: vertex fitting of one level does not affect the next one") {
 }
 
 TEST_CASE("levels: attributes, groups and vertex weights are kept in all levels") {
-    TriangleMesh mesh = lump();
+    TriangleMesh mesh = test::lump(4);
     mesh.attributes.width = 2;
     for (const Triangle& t : mesh.triangles) {
         mesh.face_groups.push_back(mesh.positions[t[0]][2] > 0 ? 1 : 0);
@@ -171,7 +169,7 @@ TEST_CASE("levels: attributes, groups and vertex weights are kept in all levels"
 }
 
 TEST_CASE("levels: locked vertices are kept in all levels") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
     for (std::size_t v = 0; v < 10; ++v) locks[50 * v] = 1;
     MeshView view = mesh.view();
@@ -185,7 +183,7 @@ TEST_CASE("levels: locked vertices are kept in all levels") {
 }
 
 TEST_CASE("levels: distances and face counts may be mixed") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     const std::vector<Level> wanted = {ratio(0.5), model_units(0.03), faces(60), of_diagonal(0.1)};
     const auto levels = simplify_levels(mesh.view(), wanted, with(Preset::fast));
     REQUIRE(levels.size() == 4);
@@ -207,7 +205,7 @@ TEST_CASE("levels: distances and face counts may be mixed") {
 }
 
 TEST_CASE("levels: a level finer than the previous one repeats its mesh") {
-    const TriangleMesh mesh = lump(3);
+    const TriangleMesh mesh = test::lump(3);
     const auto levels =
         simplify_levels(mesh.view(), {faces(100), model_units(1e-6), faces(100)}, with(Preset::balanced));
     REQUIRE(levels.size() == 3);
@@ -220,7 +218,7 @@ TEST_CASE("levels: a level finer than the previous one repeats its mesh") {
 }
 
 TEST_CASE("levels: ratio 1 keeps all faces, and an empty mesh gives empty levels") {
-    const TriangleMesh mesh = lump(2);
+    const TriangleMesh mesh = test::lump(2);
     const auto levels = simplify_levels(mesh.view(), {ratio(1), ratio(0.5)});
     CHECK(levels[0].result.mesh.positions == mesh.positions);
     CHECK(levels[0].error == 0);
@@ -262,7 +260,7 @@ TEST_CASE("levels: values out of range or order are errors that name the level")
 }
 
 TEST_CASE("levels: progress increases to 1, and cancellation ends the chain") {
-    const TriangleMesh mesh = lump();
+    const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::balanced, Preset::qem}) {
         const std::vector<Level> wanted = {ratio(0.5), of_diagonal(0.02), faces(20)};
         Options options = with(preset);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "faqem/compare.hpp"
 #include "faqem/detail/measure/hausdorff.hpp"
@@ -13,8 +12,6 @@ using namespace faqem;
 using test::square;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A sphere of rings x 2 rings quads, stretched and bent so that it has no symmetries.
 TriangleMesh egg(Index rings) {
@@ -146,14 +143,14 @@ TEST_CASE("hausdorff: with limited work, the bounds are wider but valid") {
         CHECK(d.value >= last.value);
         last = d;
     }
-    const DistanceBound none = hausdorff(a.view(), b.view(), {.tolerance = infinity});
+    const DistanceBound none = hausdorff(a.view(), b.view(), {.tolerance = test::infinity});
     CHECK(none.pieces == 0);
     CHECK(none.bound >= full.value);
-    CHECK(none.bound < infinity);
-    const Comparison c = compare(a.view(), b.view(), {.samples = 100, .tolerance = infinity});
+    CHECK(none.bound < test::infinity);
+    const Comparison c = compare(a.view(), b.view(), {.samples = 100, .tolerance = test::infinity});
     CHECK(c.hausdorff <= full.bound);
     CHECK(c.hausdorff_bound >= full.value);
-    CHECK(c.hausdorff_bound < infinity);
+    CHECK(c.hausdorff_bound < test::infinity);
 }
 
 TEST_CASE("hausdorff: within() compares with a distance, and stop_above and stop_below end the search") {
@@ -181,5 +178,5 @@ TEST_CASE("hausdorff: invalid tolerances and empty meshes are errors, very dista
     CHECK_THROWS_AS(hausdorff(a.view(), a.view(), {.tolerance = std::nan("")}), OptionError);
     CHECK_THROWS_AS(compare(a.view(), a.view(), {.tolerance = -0.1}), OptionError);
     CHECK_THROWS_AS(hausdorff(a.view(), MeshView{}), InputError);
-    CHECK(hausdorff(a.view(), square(1, 1, 1e200).view()).bound == infinity);
+    CHECK(hausdorff(a.view(), square(1, 1, 1e200).view()).bound == test::infinity);
 }

@@ -34,7 +34,7 @@ double top(const TriangleMesh& mesh) {
     return z;
 }
 
-bool same(const TriangleMesh& a, const TriangleMesh& b) {
+bool same_geometry(const TriangleMesh& a, const TriangleMesh& b) {
     return a.positions == b.positions && a.triangles == b.triangles;
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("max_error of_diagonal is equivalent to max_error in model units") {
     const SimplifyResult share = simplify(mesh.view(), within(of_diagonal(0.01)));
     const SimplifyResult units = simplify(mesh.view(), within(model_units(0.01 * diagonal)));
     CHECK(share.mesh.triangles.size() < mesh.triangles.size() / 2);
-    CHECK(same(share.mesh, units.mesh));
+    CHECK(same_geometry(share.mesh, units.mesh));
     CHECK(share.report.max_error->allowed == Approx(0.01 * diagonal));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("with a target and max_error there is one run and one measurement") {
         CHECK(!plain.report.max_error);
         options.max_error = model_units(allowed);
         const SimplifyResult result = simplify(mesh.view(), options);
-        CHECK(same(result.mesh, plain.mesh));
+        CHECK(same_geometry(result.mesh, plain.mesh));
         CHECK(result.report.stop == StopReason::reached_target);
         CHECK(result.report.target_faces == plain.report.target_faces);
         REQUIRE(result.report.max_error);
@@ -135,7 +135,7 @@ TEST_CASE("a max_error too small for any collapse gives the input as the result"
     const TriangleMesh mesh = test::shaken(test::grid(6), 0.1, 2);
     for (const double allowed : {1e-9, 1e-300}) {
         const SimplifyResult result = simplify(mesh.view(), within(model_units(allowed)));
-        CHECK(same(result.mesh, mesh));
+        CHECK(same_geometry(result.mesh, mesh));
         CHECK(result.report.stop == StopReason::reached_max_error);
         CHECK(result.report.max_error->bound == 0);
         CHECK(result.report.max_error->within());
@@ -161,7 +161,7 @@ TEST_CASE("locked boundaries and vertices are kept with any max_error") {
     std::vector<std::uint8_t> all(mesh.positions.size(), 1);
     MeshView view = mesh.view();
     view.vertex_locks = all;
-    CHECK(same(simplify(view, options).mesh, mesh));
+    CHECK(same_geometry(simplify(view, options).mesh, mesh));
 }
 
 TEST_CASE("an error search reports if welding alone exceeds max_error") {
@@ -209,10 +209,10 @@ TEST_CASE("an error search does not depend on the number of threads and its hist
     options.history = Recording::on;
     options.threads = 1;
     const SimplifyResult one = simplify(mesh.view(), options);
-    CHECK(same(replay(one.history), one.mesh));
+    CHECK(same_geometry(replay(one.history), one.mesh));
     options.threads = 3;
     const SimplifyResult three = simplify(mesh.view(), options);
-    CHECK(same(one.mesh, three.mesh));
+    CHECK(same_geometry(one.mesh, three.mesh));
     CHECK(one.report.max_error->value == three.report.max_error->value);
     CHECK(one.report.max_error->bound == three.report.max_error->bound);
     CHECK(one.report.max_error->runs == three.report.max_error->runs);

@@ -65,24 +65,24 @@ struct InterleavedVertex {
     float position[3];
     std::uint8_t colour[4];
 };
-const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0.5}};
-const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}};
+const std::vector<Vec3> corner_positions = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0.5}};
+const std::vector<Triangle> two_faces = {{0, 1, 2}, {0, 2, 3}};
 
 void check_corners(const PositionView& view) {
-    REQUIRE(view.size() == corners.size());
-    for (std::size_t v = 0; v < corners.size(); ++v) CHECK(view[v] == corners[v]);
+    REQUIRE(view.size() == corner_positions.size());
+    for (std::size_t v = 0; v < corner_positions.size(); ++v) CHECK(view[v] == corner_positions[v]);
 }
 
 void check_faces(const TriangleView& view) {
-    REQUIRE(view.size() == faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) CHECK(view[f] == faces[f]);
+    REQUIRE(view.size() == two_faces.size());
+    for (std::size_t f = 0; f < two_faces.size(); ++f) CHECK(view[f] == two_faces[f]);
 }
 
 }  // namespace
 
 TEST_CASE("PositionView reads interleaved positions") {
     std::vector<InterleavedVertex> vertices;
-    for (const Vec3& p : corners)
+    for (const Vec3& p : corner_positions)
         vertices.push_back({{7, 7, 7}, {float(p[0]), float(p[1]), float(p[2])}, {9, 9, 9, 9}});
     check_corners({vertices[0].position, vertices.size(), sizeof(InterleavedVertex)});
 }
@@ -90,15 +90,16 @@ TEST_CASE("PositionView reads interleaved positions") {
 TEST_CASE("PositionView reads column-major matrices with one row per vertex") {
     std::vector<double> columns;
     for (std::size_t k = 0; k < 3; ++k) {
-        for (const Vec3& p : corners) columns.push_back(p[k]);
+        for (const Vec3& p : corner_positions) columns.push_back(p[k]);
     }
-    check_corners({columns.data(), corners.size(), sizeof(double), corners.size() * sizeof(double)});
+    check_corners(
+        {columns.data(), corner_positions.size(), sizeof(double), corner_positions.size() * sizeof(double)});
 }
 
 TEST_CASE("PositionView reads unaligned positions") {
-    std::vector<unsigned char> bytes(1 + corners.size() * sizeof(Vec3));
-    std::memcpy(bytes.data() + 1, corners.data(), corners.size() * sizeof(Vec3));
-    check_corners({reinterpret_cast<const double*>(bytes.data() + 1), corners.size(), sizeof(Vec3)});
+    std::vector<unsigned char> bytes(1 + corner_positions.size() * sizeof(Vec3));
+    std::memcpy(bytes.data() + 1, corner_positions.data(), corner_positions.size() * sizeof(Vec3));
+    check_corners({reinterpret_cast<const double*>(bytes.data() + 1), corner_positions.size(), sizeof(Vec3)});
 }
 
 TEST_CASE("TriangleView reads 16-bit, signed, padded and column-major indices") {
@@ -116,7 +117,7 @@ TEST_CASE("TriangleView reads 16-bit, signed, padded and column-major indices") 
 
 TEST_CASE("simplify refuses negative vertex indices") {
     const std::vector<std::int32_t> triangles = {0, 1, 2, 0, -2, 3};
-    const MeshView mesh{corners, {triangles.data(), 2, 3 * sizeof(std::int32_t)}};
+    const MeshView mesh{corner_positions, {triangles.data(), 2, 3 * sizeof(std::int32_t)}};
     CHECK_THROWS_WITH(simplify(mesh), "face 1: vertex index out of range");
 }
 

@@ -4,17 +4,17 @@
 
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 
 namespace {
 
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-const double infinity = std::numeric_limits<double>::infinity();
 
 // The error message of validate() for options changed by `change`, or "accepted".
 template <class Change>
-std::string complaint(Change change) {
+std::string option_complaint(Change change) {
     Options options;
     change(options);
     try {
@@ -28,34 +28,35 @@ std::string complaint(Change change) {
 }  // namespace
 
 TEST_CASE("the default options are valid") {
-    CHECK(complaint([](Options&) {}) == "accepted");
+    CHECK(option_complaint([](Options&) {}) == "accepted");
 }
 
 TEST_CASE("a target ratio must be above 0 and at most 1 and a face count at least 1") {
-    for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, infinity}) {
-        CHECK(complaint([&](Options& o) { o.target = ratio(bad); }) == "target ratio must be in (0, 1]");
+    for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, test::infinity}) {
+        CHECK(option_complaint([&](Options& o) { o.target = ratio(bad); }) ==
+              "target ratio must be in (0, 1]");
     }
-    CHECK(complaint([](Options& o) { o.target = ratio(1); }) == "accepted");
-    CHECK(complaint([](Options& o) { o.target = ratio(1e-300); }) == "accepted");
-    CHECK(complaint([](Options& o) { o.target = faces(0); }) == "target face count must be >= 1");
-    for (const double bad : {0.5, not_a_number, infinity}) {
-        CHECK(complaint([&](Options& o) {
+    CHECK(option_complaint([](Options& o) { o.target = ratio(1); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.target = ratio(1e-300); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.target = faces(0); }) == "target face count must be >= 1");
+    for (const double bad : {0.5, not_a_number, test::infinity}) {
+        CHECK(option_complaint([&](Options& o) {
                   o.target = {Target::Kind::faces, bad};
               }) == "target face count must be >= 1");
     }
-    CHECK(complaint([](Options& o) { o.target = faces(1); }) == "accepted");
-    CHECK(complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.target = faces(1); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
 }
 
 TEST_CASE("max_error must be finite and positive in either unit") {
-    for (const double bad : {0.0, -1e-9, not_a_number, infinity}) {
-        CHECK(complaint([&](Options& o) { o.max_error = model_units(bad); }) ==
+    for (const double bad : {0.0, -1e-9, not_a_number, test::infinity}) {
+        CHECK(option_complaint([&](Options& o) { o.max_error = model_units(bad); }) ==
               "max_error must be finite and > 0");
-        CHECK(complaint([&](Options& o) { o.max_error = of_diagonal(bad); }) ==
+        CHECK(option_complaint([&](Options& o) { o.max_error = of_diagonal(bad); }) ==
               "max_error must be finite and > 0");
     }
-    CHECK(complaint([](Options& o) { o.max_error = model_units(1e-300); }) == "accepted");
-    CHECK(complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.max_error = model_units(1e-300); }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
 }
 
 TEST_CASE("weighted visibility with max_error needs a target") {
@@ -63,16 +64,16 @@ TEST_CASE("weighted visibility with max_error needs a target") {
         o.max_error = of_diagonal(0.1);
         o.visibility = Visibility::weighted;
     };
-    CHECK(complaint(both) ==
+    CHECK(option_complaint(both) ==
           "visibility must be ignored if max_error is given without a target: distances are not weighted");
-    CHECK(complaint([&](Options& o) { both(o), o.target = faces(10); }) == "accepted");
-    CHECK(complaint([&](Options& o) { both(o), o.visibility = Visibility::ignored; }) == "accepted");
+    CHECK(option_complaint([&](Options& o) { both(o), o.target = faces(10); }) == "accepted");
+    CHECK(option_complaint([&](Options& o) { both(o), o.visibility = Visibility::ignored; }) == "accepted");
 }
 
 TEST_CASE("the default target is a ratio of 0.1") {
     CHECK(Options{}.target.kind == Target::Kind::unset);
     CHECK(Options{}.target.value == 0.1);
-    CHECK(complaint([](Options& o) { o.target.value = 0; }) == "target ratio must be in (0, 1]");
+    CHECK(option_complaint([](Options& o) { o.target.value = 0; }) == "target ratio must be in (0, 1]");
 }
 
 TEST_CASE("weights must be finite and not negative and errors name the weight") {
@@ -81,48 +82,48 @@ TEST_CASE("weights must be finite and not negative and errors name the weight") 
         {&Weights::uv, "uv"},     {&Weights::plane_area, "plane_area"},
     };
     for (const auto& [member, name] : members) {
-        for (const double bad : {-1e-9, not_a_number, infinity}) {
-            CHECK(complaint([&, at = member](Options& o) { o.weights.*at = bad; }) ==
+        for (const double bad : {-1e-9, not_a_number, test::infinity}) {
+            CHECK(option_complaint([&, at = member](Options& o) { o.weights.*at = bad; }) ==
                   "weights." + name + " must be finite and >= 0");
         }
-        CHECK(complaint([&, at = member](Options& o) { o.weights.*at = 0; }) == "accepted");
+        CHECK(option_complaint([&, at = member](Options& o) { o.weights.*at = 0; }) == "accepted");
     }
 }
 
 TEST_CASE("weld and virtual edge distances must be in their ranges") {
-    for (const double bad : {-1e-9, not_a_number, infinity}) {
-        CHECK(complaint([&](Options& o) { o.topology.weld_distance = bad; }) ==
+    for (const double bad : {-1e-9, not_a_number, test::infinity}) {
+        CHECK(option_complaint([&](Options& o) { o.topology.weld_distance = bad; }) ==
               "weld_distance must be finite and >= 0");
     }
-    CHECK(complaint([](Options& o) { o.topology.weld_distance = 0; }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.topology.weld_distance = 0; }) == "accepted");
     for (const double bad : {0.0, -0.1, 1.1, not_a_number}) {
-        CHECK(complaint([&](Options& o) { o.topology.virtual_edge_distance = bad; }) ==
+        CHECK(option_complaint([&](Options& o) { o.topology.virtual_edge_distance = bad; }) ==
               "virtual_edge_distance must be in (0, 1]");
     }
-    CHECK(complaint([](Options& o) { o.topology.virtual_edge_distance = 1; }) == "accepted");
+    CHECK(option_complaint([](Options& o) { o.topology.virtual_edge_distance = 1; }) == "accepted");
 }
 
 TEST_CASE("baking options must be in their ranges") {
     for (const std::uint32_t bad : {0u, 32u, 100u, 2047u, 32768u, ~0u}) {
-        CHECK(complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
+        CHECK(option_complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
               "texture_size must be a power of two in [64, 16384]");
     }
     for (const double bad : {0.0, 0.124, 8.1, not_a_number}) {
-        CHECK(complaint([&](Options& o) { o.bake.texel_density = bad; }) ==
+        CHECK(option_complaint([&](Options& o) { o.bake.texel_density = bad; }) ==
               "texel_density must be in [0.125, 8]");
     }
     for (const std::uint32_t bad : {0u, 9u}) {
-        CHECK(complaint([&](Options& o) { o.bake.samples = bad; }) == "samples must be in [1, 8]");
+        CHECK(option_complaint([&](Options& o) { o.bake.samples = bad; }) == "samples must be in [1, 8]");
     }
     for (const double bad : {-1.0, 181.0, not_a_number}) {
-        CHECK(complaint([&](Options& o) { o.bake.crease_angle = bad; }) ==
+        CHECK(option_complaint([&](Options& o) { o.bake.crease_angle = bad; }) ==
               "crease_angle must be in [0, 180] degrees");
     }
     for (const std::uint32_t bad : {0u, 101u}) {
-        CHECK(complaint([&](Options& o) { o.bake.jpeg_quality = bad; }) ==
+        CHECK(option_complaint([&](Options& o) { o.bake.jpeg_quality = bad; }) ==
               "jpeg_quality must be in [1, 100]");
     }
-    CHECK(complaint([](Options& o) {
+    CHECK(option_complaint([](Options& o) {
               o.bake = {.kind = Bake::none,
                         .texture_size = 64,
                         .texel_density = 8,

@@ -11,10 +11,9 @@
 using namespace faqem;
 using detail::PreprocessedMesh;
 using detail::Settings;
+using test::removed_face;
 
 namespace {
-
-constexpr Triangle dead = {no_index, no_index, no_index};
 
 PreprocessedMesh preprocess(const MeshView& mesh, double diagonal = 1, double weld = 0) {
     Settings settings;
@@ -23,7 +22,7 @@ PreprocessedMesh preprocess(const MeshView& mesh, double diagonal = 1, double we
     return detail::preprocess(mesh, settings);
 }
 
-std::string complaint(const MeshView& mesh) {
+std::string mesh_complaint(const MeshView& mesh) {
     try {
         preprocess(mesh);
     } catch (const InputError& error) {
@@ -52,7 +51,7 @@ TEST_CASE("preprocessing removes faces that become degenerate by welding") {
     CHECK(preprocess(mesh.view()).dropped_faces == 0);
     const PreprocessedMesh p = preprocess(mesh.view(), 1, 1e-6);
     CHECK(p.dropped_faces == 1);
-    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead});
+    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, removed_face});
     CHECK(p.positions.size() == 3);
 }
 
@@ -60,11 +59,12 @@ TEST_CASE("duplicate faces are removed unless their winding or group differs") {
     TriangleMesh mesh = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                    {{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {2, 0, 1}, {2, 1, 0}, {1, 1, 2}});
     const PreprocessedMesh p = preprocess(mesh.view());
-    CHECK(p.triangles == std::vector<Triangle>{{0, 1, 2}, dead, {0, 2, 1}, dead, dead, dead});
+    CHECK(p.triangles == std::vector<Triangle>{
+                             {0, 1, 2}, removed_face, {0, 2, 1}, removed_face, removed_face, removed_face});
     CHECK(p.dropped_faces == 4);
     mesh.face_groups = {0, 1, 0, 1, 0, 0};
     CHECK(preprocess(mesh.view()).triangles ==
-          std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, dead, dead, dead});
+          std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {0, 2, 1}, removed_face, removed_face, removed_face});
 }
 
 TEST_CASE("preprocessing centres and scales the bounding box of the referenced vertices") {
@@ -114,33 +114,33 @@ TEST_CASE("has_no_area finds degenerate triangles at any scale") {
 
 TEST_CASE("input errors name the element and the reason") {
     TriangleMesh mesh = test::quad();
-    CHECK(complaint(mesh.view()) == "accepted");
+    CHECK(mesh_complaint(mesh.view()) == "accepted");
     mesh.triangles[1][2] = 4;
-    CHECK(complaint(mesh.view()) == "face 1: vertex index out of range");
+    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index out of range");
     mesh.triangles[1][2] = no_index;
-    CHECK(complaint(mesh.view()) == "face 1: vertex index out of range");
+    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index out of range");
     mesh = test::quad();
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         mesh.positions[2][1] = bad;
-        CHECK(complaint(mesh.view()) == "vertex 2: position is not finite");
+        CHECK(mesh_complaint(mesh.view()) == "vertex 2: position is not finite");
     }
     mesh = test::quad();
     mesh.face_groups = {0};
-    CHECK(complaint(mesh.view()) == "face_groups: needs one entry per face or none");
+    CHECK(mesh_complaint(mesh.view()) == "face_groups: needs one entry per face or none");
     mesh.face_groups.clear();
     MeshView view = mesh.view();
     const std::vector<std::uint8_t> locks(3, 0);
     view.vertex_locks = locks;
-    CHECK(complaint(view) == "vertex_locks: needs one entry per vertex or none");
+    CHECK(mesh_complaint(view) == "vertex_locks: needs one entry per vertex or none");
     view.vertex_locks = {};
     CornerAttributes uv;
     view.attributes = &uv;
-    CHECK(complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    CHECK(mesh_complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
     uv = {std::vector<float>(11), 2};
-    CHECK(complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    CHECK(mesh_complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
     uv.values.resize(12);
-    CHECK(complaint(view) == "accepted");
+    CHECK(mesh_complaint(view) == "accepted");
     uv.values[5] = std::numeric_limits<float>::quiet_NaN();
-    CHECK(complaint(view) == "attributes, corner 2: value is not finite");
+    CHECK(mesh_complaint(view) == "attributes, corner 2: value is not finite");
 }

@@ -1,14 +1,17 @@
 #include "faqem/simplify.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/results.hpp"
 
 using namespace faqem;
+using test::refused;
+using test::same_bits;
+using test::taken;
 
 namespace {
 
@@ -17,22 +20,6 @@ Options options(Preset preset, Target target) {
     o.preset = preset;
     o.target = target;
     return o;
-}
-
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-bool same_bits(const TriangleMesh& a, const TriangleMesh& b) {
-    return same_bits(a.positions, b.positions) && same_bits(a.triangles, b.triangles) &&
-           same_bits(a.face_groups, b.face_groups) && same_bits(a.attributes.values, b.attributes.values) &&
-           a.attributes.width == b.attributes.width;
-}
-
-std::uint64_t taken(const Report& report, Rung rung) { return report.rungs[static_cast<std::size_t>(rung)]; }
-std::uint64_t refused(const Report& report, Refusal why) {
-    return report.refusals[static_cast<std::size_t>(why)];
 }
 
 // x and y of each corner as its UV, shifted by 10 for faces with x > cut.

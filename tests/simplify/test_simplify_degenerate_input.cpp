@@ -22,7 +22,7 @@ Options to_ratio(Preset preset, double share) {
 }
 
 /// Checks that positions are finite, corners distinct and in range, and that the report fits the mesh.
-void is_sound(const SimplifyResult& result) {
+void check_sound(const SimplifyResult& result) {
     for (const Vec3& p : result.mesh.positions)
         for (const double x : p) REQUIRE(std::isfinite(x));
     for (const Triangle& t : result.mesh.triangles) {
@@ -40,13 +40,13 @@ void every_preset(const TriangleMesh& mesh, double share, Check check) {
     for (const Preset preset : all_presets) {
         INFO(name(preset));
         const SimplifyResult result = simplify(mesh.view(), to_ratio(preset, share));
-        is_sound(result);
+        check_sound(result);
         check(result);
     }
 }
 
 /// Hausdorff distance of the surfaces (sampled), relative to the diagonal.
-double distance(const TriangleMesh& a, const TriangleMesh& b) {
+double relative_distance(const TriangleMesh& a, const TriangleMesh& b) {
     CompareOptions options;
     options.samples = 1000;
     const Comparison c = compare(a.view(), b.view(), options);
@@ -119,7 +119,7 @@ TEST_CASE("degenerate input: a thin surface with faces on both sides keeps its s
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
         CHECK(result.report.stop == StopReason::reached_target);
         const bool holds_outlines = result.report.preset >= Preset::fast;
-        CHECK(distance(mesh, result.mesh) < (holds_outlines ? 0.1 : 0.3));
+        CHECK(relative_distance(mesh, result.mesh) < (holds_outlines ? 0.1 : 0.3));
     });
 }
 
@@ -127,15 +127,16 @@ TEST_CASE("degenerate input: a two-sided thin surface with 30% reversed faces ke
     const TriangleMesh mesh = some_reversed(two_sided_grid(16), 0.3, 7);
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
         CHECK(result.report.stop == StopReason::reached_target);
-        CHECK(distance(mesh, result.mesh) < 0.3);
+        CHECK(relative_distance(mesh, result.mesh) < 0.3);
     });
 }
 
 TEST_CASE("degenerate input: a sphere with mixed or inverted winding keeps its shape") {
     for (const TriangleMesh& mesh :
          {some_reversed(test::icosphere(3), 0.3, 3), test::inside_out(test::icosphere(3))})
-        every_preset(mesh, 0.1,
-                     [&](const SimplifyResult& result) { CHECK(distance(mesh, result.mesh) < 0.1); });
+        every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
+            CHECK(relative_distance(mesh, result.mesh) < 0.1);
+        });
 }
 
 TEST_CASE("degenerate input: non-orientable surfaces keep their topology under the link condition") {
@@ -189,7 +190,7 @@ TEST_CASE("degenerate input: the target is reached with thousands of components"
     for (const Preset preset : all_presets) {
         INFO(name(preset));
         const SimplifyResult result = simplify(mesh.view(), to_ratio(preset, 0.1));
-        is_sound(result);
+        check_sound(result);
         CHECK(result.report.faces_out <= 800);
     }
 }
@@ -205,7 +206,7 @@ TEST_CASE("degenerate input: coincident and touching boxes with virtual edges gi
             options.topology.weld = weld;
             options.topology.virtual_edges = VirtualEdges::on;
             const SimplifyResult result = simplify(mesh.view(), options);
-            is_sound(result);
+            check_sound(result);
             CHECK(!result.mesh.triangles.empty());
         }
     }
@@ -231,11 +232,11 @@ TEST_CASE("degenerate input: faces of zero area have little effect on the shape"
     }
     every_preset(mesh, 0.1, [&](const SimplifyResult& result) {
         // The paper divides by areas, so that a needle has more weight than the faces around it.
-        CHECK(distance(mesh, result.mesh) < (result.report.preset == Preset::paper ? 0.5 : 0.2));
+        CHECK(relative_distance(mesh, result.mesh) < (result.report.preset == Preset::paper ? 0.5 : 0.2));
     });
     Options options = to_ratio(Preset::paper, 0.1);
     options.weights.plane_area = 2;
-    is_sound(simplify(mesh.view(), options));
+    check_sound(simplify(mesh.view(), options));
 }
 
 TEST_CASE("degenerate input: nearly parallel planes do not move vertices far outside the bounding box") {

@@ -1,14 +1,16 @@
 // Invariants of simplify() for seeded random triangle soups and surfaces, with every preset and three ratios.
 
-#include <cstring>
 #include <set>
 #include <thread>
 
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/results.hpp"
 
 using namespace faqem;
+using test::same_bits;
+using test::taken;
 
 namespace {
 
@@ -94,13 +96,6 @@ template <class T>
 bool ascending(const std::vector<T>& values) {
     return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
-
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
-}
-
-std::uint64_t taken(const Report& report, Rung rung) { return report.rungs[static_cast<std::size_t>(rung)]; }
 
 bool climbed(const Report& report) {
     for (std::size_t i = 1; i < rung_kinds; ++i) {

@@ -15,8 +15,8 @@ ReorderedMesh arranged(const TriangleMesh& mesh) {
 }
 
 // Positions of the corners of all faces, independent of the vertex numbering.
-std::vector<Vec3> corners(const std::vector<engine::Vector3>& positions,
-                          const std::vector<Triangle>& triangles) {
+std::vector<Vec3> face_corners(const std::vector<engine::Vector3>& positions,
+                               const std::vector<Triangle>& triangles) {
     std::vector<Vec3> all;
     for (const Triangle& t : triangles) {
         for (const Index v : t) all.push_back(engine::to_array(positions[v]));
@@ -66,7 +66,7 @@ TEST_CASE("spatial order: the reordered mesh does not depend on the vertex order
         for (Index& v : t) v = static_cast<Index>(mesh.positions.size()) - 1 - v;
     }
     const ReorderedMesh a = arranged(mesh), b = arranged(turned);
-    CHECK(corners(a.positions, a.triangles) == corners(b.positions, b.triangles));
+    CHECK(face_corners(a.positions, a.triangles) == face_corners(b.positions, b.triangles));
 }
 
 TEST_CASE("spatial order: unreferenced vertices and removed faces have no slot") {

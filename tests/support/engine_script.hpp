@@ -15,10 +15,6 @@ namespace faqem::test {
 
 using namespace engine;
 
-using Ends = std::pair<Index, Index>;
-
-inline Ends ends(Index a, Index b) { return std::minmax(a, b); }
-
 inline std::uint64_t taken(const LoopResult& result, Rung rung) {
     return result.rungs[static_cast<std::size_t>(rung)];
 }
@@ -79,9 +75,7 @@ struct Play {
     LoopResult result;
 };
 
-// Vertices 2 and 3 are collapsed, and triangle 0 1 2 remains; the new position rotates it about the x axis.
-inline const TriangleMesh hinge = make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
-
+// Vertices 2 and 3 of hinge() are collapsed; the new position rotates triangle 0 1 2 about the x axis.
 inline Script turn_hinge(double degrees) {
     const double a = degrees * pi / 180;
     return Script({{{2, 3}, {1, std::cos(a), std::sin(a)}}});

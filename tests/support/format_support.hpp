@@ -53,6 +53,21 @@ inline std::span<const std::uint8_t> bytes_of(std::string_view text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+/// Three vertices, as in OFF and ASCII PLY files.
+inline const std::string three_vertices = "0 0 0\n1 0 0\n1 1 0\n";
+
+/// Files whose format is detected, but which are not valid images.
+inline const std::string png_signature = "\x89PNG\r\n\x1a\n and so on";
+inline const std::string jpeg_signature = "\xFF\xD8\xFF and so on";
+
+/// An image file in memory.
+inline Image image_of(const std::string& bytes, const std::string& name = "") {
+    Image image;
+    image.name = name;
+    image.encoded.assign(bytes.begin(), bytes.end());
+    return image;
+}
+
 /// Message of the Exception that the call throws. Other exceptions are passed on.
 template <class Exception = InputError, class Call>
 std::string message_of(Call&& call) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -19,6 +20,15 @@
 namespace faqem::test {
 
 inline const double pi = std::acos(-1.0);
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The entry of a face that was removed.
+inline constexpr Triangle removed_face = {no_index, no_index, no_index};
+
+/// The vertices of an edge or a pair in ascending order.
+using Ends = std::pair<Index, Index>;
+
+inline Ends ends(Index a, Index b) { return std::minmax(a, b); }
 
 /// Random numbers that are the same with every standard library.
 class Random {
@@ -208,6 +218,15 @@ inline TriangleMesh quad() {
     return make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
+/// The arrays of quad().
+inline const std::vector<engine::Vector3> quad_positions = vectors(quad());
+inline const std::vector<Triangle> quad_faces = quad().triangles;
+
+/// Two triangles of which 0 1 2 is kept when vertices 2 and 3 are merged.
+inline TriangleMesh hinge() {
+    return make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+}
+
 /// Two triangles that share only vertex 0.
 inline TriangleMesh bow_tie() {
     return make({{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
@@ -242,6 +261,9 @@ inline TriangleMesh shaken(TriangleMesh mesh, double amount, std::uint32_t seed)
     }
     return mesh;
 }
+
+/// A sphere without symmetries: every vertex of icosphere(level) is moved a little.
+inline TriangleMesh lump(int level) { return shaken(icosphere(level), 0.01, 3); }
 
 inline TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
     for (Vec3& p : mesh.positions) p = {p[0] + by[0], p[1] + by[1], p[2] + by[2]};

@@ -14,10 +14,8 @@
 namespace faqem::detail {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 template <class T>
-void put(Bytes& bytes, T value) {
+void put(std::vector<std::uint8_t>& bytes, T value) {
     auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
     if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
     bytes.insert(bytes.end(), raw.begin(), raw.end());
@@ -49,7 +47,8 @@ std::string header(const Part& part, const PlyVertexLayout& layout) {
            (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
 }
 
-void put_vertex(Bytes& bytes, const Part& part, const PlyVertexLayout& layout, std::size_t v) {
+void put_vertex(std::vector<std::uint8_t>& bytes, const Part& part, const PlyVertexLayout& layout,
+                std::size_t v) {
     for (const double x : part.positions[v]) {
         if (layout.doubles)
             put(bytes, x);
@@ -84,7 +83,7 @@ std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::pa
                                [](const Vec4f& c) { return quantized(c[3]) != 255; });
     layout.uvs = !flat.uvs.empty();
     const std::string text = header(flat, layout);
-    Bytes bytes(text.begin(), text.end());
+    std::vector<std::uint8_t> bytes(text.begin(), text.end());
     const std::size_t row = (layout.doubles ? 24 : 12) + (layout.normals ? 12 : 0) + (layout.colors ? 4 : 0) +
                             (layout.uvs ? 8 : 0);
     bytes.reserve(bytes.size() + row * flat.positions.size() + 13 * flat.triangles.size());

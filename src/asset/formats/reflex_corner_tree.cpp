@@ -8,7 +8,7 @@ namespace faqem::detail {
 namespace {
 
 constexpr Index leaf_size = 4;
-constexpr double margin = 1e-12;  // far above the rounding errors of coordinates in [-1, 1]
+constexpr double rounding_margin = 1e-12;  // far above the rounding errors of coordinates in [-1, 1]
 
 }  // namespace
 
@@ -111,8 +111,8 @@ Index ReflexCornerTree::find_in(const std::array<PlanarPoint, 3>& triangle) cons
     const auto& [a, b, c] = triangle;
     Box bounds;
     for (std::size_t k = 0; k < 2; ++k) {
-        bounds.low[k] = std::min({a[k], b[k], c[k]}) - margin;
-        bounds.high[k] = std::max({a[k], b[k], c[k]}) + margin;
+        bounds.low[k] = std::min({a[k], b[k], c[k]}) - rounding_margin;
+        bounds.high[k] = std::max({a[k], b[k], c[k]}) + rounding_margin;
     }
     return find_below(nodes_[0], triangle, bounds);
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "asset/io/file.hpp"
+#include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/value_numbers.hpp"
@@ -20,12 +21,7 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::size_t header_size = 84, facet_size = 50;
-
-std::uint32_t read_u32(const std::uint8_t* p) {
-    return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8 |
-           static_cast<std::uint32_t>(p[2]) << 16 | static_cast<std::uint32_t>(p[3]) << 24;
-}
+constexpr std::size_t stl_header_bytes = 84, facet_bytes = 50;
 
 /// Builds a part from facets and merges vertices at equal positions.
 class Welder {
@@ -58,14 +54,14 @@ Part read_binary(std::span<const std::uint8_t> bytes, const std::string& file,
                  std::vector<std::string>& warnings) {
     const std::string_view header(reinterpret_cast<const char*>(bytes.data()), 80);
     if (header.find("COLOR=") != std::string_view::npos) warnings.push_back("facet colours are ignored");
-    const std::size_t count = (bytes.size() - header_size) / facet_size;
+    const std::size_t count = (bytes.size() - stl_header_bytes) / facet_bytes;
     Welder welder;
     for (std::size_t f = 0; f < count; ++f) {
-        const std::uint8_t* at = bytes.data() + header_size + f * facet_size + 12;
+        std::size_t at = stl_header_bytes + f * facet_bytes + 12;
         std::array<Vec3, 3> corners;
         for (Vec3& p : corners)
             for (double& x : p) {
-                x = std::bit_cast<float>(read_u32(at));
+                x = std::bit_cast<float>(u32_at(bytes, at));
                 at += 4;
             }
         welder.add(corners);
@@ -120,22 +116,18 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file) {
 }
 
 [[noreturn]] void fail_binary(std::span<const std::uint8_t> bytes, const std::string& file) {
-    if (bytes.size() < header_size)
+    if (bytes.size() < stl_header_bytes)
         throw InputError(file, "header", "is neither ASCII STL nor long enough for binary STL");
-    const std::uint64_t facets = read_u32(bytes.data() + 80);
+    const std::uint64_t facets = u32_at(bytes, 80);
     throw InputError(file, "header",
                      pluralized(facets, "facet") + " need " +
-                         std::to_string(header_size + facet_size * facets) + " bytes, the file has " +
+                         std::to_string(stl_header_bytes + facet_bytes * facets) + " bytes, the file has " +
                          std::to_string(bytes.size()));
 }
 
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
     const std::span<const std::uint8_t> start = bytes.first(std::min<std::size_t>(bytes.size(), 512));
     return std::find(start.begin(), start.end(), 0) == start.end();
-}
-
-void put_u32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
 void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
@@ -157,9 +149,8 @@ void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
 
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
     Asset asset;
-    const bool is_binary =
-        bytes.size() >= header_size &&
-        bytes.size() == header_size + facet_size * std::uint64_t{read_u32(bytes.data() + 80)};
+    const bool is_binary = bytes.size() >= stl_header_bytes &&
+                           bytes.size() == stl_header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, 80)};
     if (!is_binary && !looks_like_text(bytes)) fail_binary(bytes, file.string());
     asset.parts.push_back(is_binary ? read_binary(bytes, file.string(), asset.warnings)
                                     : read_ascii(bytes, file.string()));
@@ -187,7 +178,7 @@ std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::pa
     if (!asset.materials.empty()) losses.push_back("STL cannot hold materials");
 
     std::vector<std::uint8_t> bytes(80, ' ');
-    bytes.reserve(header_size + facet_size * flat.triangles.size());
+    bytes.reserve(stl_header_bytes + facet_bytes * flat.triangles.size());
     put_u32(bytes, static_cast<std::uint32_t>(flat.triangles.size()));
     for (const Triangle& t : flat.triangles)
         put_facet(bytes, {flat.positions[t[0]], flat.positions[t[1]], flat.positions[t[2]]});

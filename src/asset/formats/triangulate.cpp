@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "asset/formats/reflex_corner_tree.hpp"
+#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -237,8 +238,6 @@ private:
     ReflexCornerTree reflex_;
 };
 
-bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
-
 }  // namespace
 
 void triangulate(std::span<const Vec3> ring, std::vector<Triangle>& triangles) {
@@ -272,7 +271,7 @@ TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<co
         }
         ring.clear();
         for (const Index v : corners) ring.push_back(positions[v]);
-        const bool finite = std::all_of(ring.begin(), ring.end(), is_finite);
+        const bool finite = std::all_of(ring.begin(), ring.end(), is_finite<double, 3>);
         split.too_few_corners += corners.size() < 3;
         split.non_finite += corners.size() >= 3 && !finite;
         if (corners.size() < 3 || !finite) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "asset/io/little_endian.hpp"
+#include "asset/scene/messages.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -11,23 +13,12 @@ namespace {
 constexpr std::uint32_t glb_magic = 0x46546C67;   // glTF
 constexpr std::uint32_t json_chunk = 0x4E4F534A;  // JSON
 constexpr std::uint32_t bin_chunk = 0x004E4942;   // BIN
-constexpr std::uint64_t header_size = 12, chunk_header_size = 8;
-
-std::uint32_t u32_at(std::span<const std::uint8_t> bytes, std::uint64_t at) {
-    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8 |
-           static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
-}
-
-void put_u32(std::vector<std::uint8_t>& out, std::uint64_t value) {
-    for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
+constexpr std::uint64_t glb_header_bytes = 12, chunk_header_bytes = 8;
 
 /// Length of the GLB in its header, checked against the size of the file.
 std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::string& file,
                              std::vector<std::string>& warnings) {
-    if (bytes.size() < header_size)
+    if (bytes.size() < glb_header_bytes)
         throw InputError(file, "GLB header", "needs 12 bytes, the file has " + std::to_string(bytes.size()));
     const std::uint32_t version = u32_at(bytes, 4);
     if (version != 2)
@@ -38,7 +29,7 @@ std::uint64_t checked_length(std::span<const std::uint8_t> bytes, const std::str
         throw InputError(
             file, "GLB header",
             "declares " + bytes_text(length) + ", the file has " + bytes_text(bytes.size()) + ": truncated");
-    if (length < header_size + chunk_header_size)
+    if (length < glb_header_bytes + chunk_header_bytes)
         throw InputError(file, "GLB header", "declares " + bytes_text(length) + ", too few for a JSON chunk");
     if (length < bytes.size())
         warnings.push_back(bytes_text(bytes.size() - length) + " after the end of the GLB were ignored");
@@ -56,15 +47,15 @@ GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string&
     }
     container.is_binary = true;
     const std::uint64_t length = checked_length(bytes, file, warnings);
-    std::uint64_t at = header_size;
+    std::uint64_t at = glb_header_bytes;
     for (std::uint64_t chunk = 0; at < length; ++chunk) {
         const std::string where = "GLB chunk " + std::to_string(chunk);
-        if (length - at < chunk_header_size)
+        if (length - at < chunk_header_bytes)
             throw InputError(file, where,
                              "needs a header of 8 bytes, " + bytes_text(length - at) + " are left");
         const std::uint64_t size = u32_at(bytes, at);
         const std::uint32_t type = u32_at(bytes, at + 4);
-        at += chunk_header_size;
+        at += chunk_header_bytes;
         if (size > length - at)
             throw InputError(file, where,
                              "needs " + bytes_text(size) + ", " + bytes_text(length - at) + " are left");
@@ -108,7 +99,7 @@ std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::u
     const std::uint64_t json_size = (json.size() + 3) / 4 * 4;
     const std::uint64_t bin_size = (bin.size() + std::uint64_t{3}) / 4 * 4;
     const std::uint64_t total =
-        header_size + chunk_header_size + json_size + (bin.empty() ? 0 : chunk_header_size + bin_size);
+        glb_header_bytes + chunk_header_bytes + json_size + (bin.empty() ? 0 : chunk_header_bytes + bin_size);
     if (total > std::numeric_limits<std::uint32_t>::max())
         throw WriteError(file + ": a GLB of " + bytes_text(total) +
                          " exceeds the limit of 4 GiB; use .gltf instead");
@@ -116,13 +107,13 @@ std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::u
     out.reserve(total);
     put_u32(out, glb_magic);
     put_u32(out, 2);
-    put_u32(out, total);
-    put_u32(out, json_size);
+    put_u32(out, static_cast<std::uint32_t>(total));
+    put_u32(out, static_cast<std::uint32_t>(json_size));
     put_u32(out, json_chunk);
     out.insert(out.end(), json.begin(), json.end());
-    out.resize(header_size + chunk_header_size + json_size, ' ');
+    out.resize(glb_header_bytes + chunk_header_bytes + json_size, ' ');
     if (!bin.empty()) {
-        put_u32(out, bin_size);
+        put_u32(out, static_cast<std::uint32_t>(bin_size));
         put_u32(out, bin_chunk);
         out.insert(out.end(), bin.begin(), bin.end());
         out.resize(total, 0);

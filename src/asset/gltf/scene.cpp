@@ -3,13 +3,12 @@
 
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/source_document.hpp"
+#include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {
 namespace {
 
 using Matrix = std::array<double, 16>;
-
-constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 /// Product of column-major matrices.
 Matrix product(const Matrix& a, const Matrix& b) {
@@ -30,7 +29,7 @@ std::array<double, N> number_array(const Json& object, const char* key, std::arr
 
 /// T * R * S with R from a unit quaternion (glTF 2.0, section 3.5.3).
 Matrix local_transform(const Json& node) {
-    if (node.contains("matrix")) return number_array<16>(node, "matrix", identity);
+    if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
     const auto t = number_array<3>(node, "translation", {0, 0, 0});
     const auto s = number_array<3>(node, "scale", {1, 1, 1});
     auto [x, y, z, w] = number_array<4>(node, "rotation", {0, 0, 0, 1});
@@ -93,7 +92,8 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
     // An explicit stack: nodes may be nested deeper than the call stack allows.
     std::vector<std::pair<Index, Matrix>> stack;
     const std::vector<Index> roots = root_nodes(document);
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, identity});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        stack.push_back({*root, identity_transform});
     while (!stack.empty()) {
         const auto [index, parent] = stack.back();
         stack.pop_back();
@@ -106,7 +106,7 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             stack.push_back({child->get<Index>(), world});
     }
-    for (const Index part : unassigned_parts) instances.push_back({part, identity});
+    for (const Index part : unassigned_parts) instances.push_back({part, identity_transform});
     return instances;
 }
 

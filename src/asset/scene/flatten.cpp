@@ -12,8 +12,6 @@ namespace {
 
 using Transform = std::array<double, 16>;
 
-constexpr Transform identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
 Vec3 transformed(const Transform& m, const Vec3& p) {
     Vec3 q;
     for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
@@ -64,7 +62,7 @@ void append(std::vector<Value>& to, const std::vector<Value>& values, std::size_
 void append(Part& flat, const Part& part, const Transform& m, const VertexLayout& layout) {
     const auto first = static_cast<Index>(flat.positions.size());
     const std::size_t vertices = part.positions.size();
-    const bool is_identity = m == identity;
+    const bool is_identity = m == identity_transform;
     const double sign = determinant(m) < 0 ? -1 : 1;
     for (const Vec3& p : part.positions) flat.positions.push_back(is_identity ? p : transformed(m, p));
     if (layout.normals) {

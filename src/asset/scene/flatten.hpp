@@ -2,6 +2,7 @@
 /// \file
 /// Flattening of a scene to one part in world space, for formats without a scene graph.
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
+
+/// The transform of an instance that is not moved (Instance::transform).
+inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 /// Concatenates all instances of all parts, transformed to world space. Normals are transformed by the
 /// inverse transpose and normalised; the winding of mirrored instances is reversed. Attributes that only some

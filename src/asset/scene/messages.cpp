@@ -8,6 +8,8 @@ std::string pluralized(std::uint64_t count, const std::string& noun) {
     return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + (es ? "es" : "s"));
 }
 
+std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
+
 std::string material_title(const Asset& asset, Index material) {
     if (material == no_index) return "the default material";
     const std::string& name = asset.materials[material].name;

@@ -14,6 +14,9 @@ namespace faqem::detail {
 /// `1 face`, `2 faces`.
 FAQEM_EXPORT std::string pluralized(std::uint64_t count, const std::string& noun);
 
+/// `12 bytes`.
+std::string bytes_text(std::uint64_t count);
+
 /// `material 'red'`, or `material 3` if it has no name.
 FAQEM_EXPORT std::string material_title(const Asset& asset, Index material);
 

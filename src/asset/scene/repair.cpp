@@ -3,18 +3,12 @@
 #include "asset/scene/messages.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
-
-template <class Vector>
-bool is_finite(const Vector& v) {
-    return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(x); });
-}
 
 template <class Vector>
 void reset(std::vector<Vector>& values, const Vector& neutral, const char* noun, const char* what,

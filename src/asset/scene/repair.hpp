@@ -2,6 +2,10 @@
 /// \file
 /// Repair of non-finite values and checks of element counts, common to all formats.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +16,12 @@ namespace faqem::detail {
 
 /// Maximum number of vertices, and of faces, of a part.
 inline constexpr std::uint64_t max_index_count = no_index;
+
+/// Whether no coordinate is infinite or NaN.
+template <class T, std::size_t N>
+bool is_finite(const std::array<T, N>& v) {
+    return std::all_of(v.begin(), v.end(), [](T x) { return std::isfinite(x); });
+}
 
 /// Checks a number of vertices or faces.
 /// \param file     path for messages

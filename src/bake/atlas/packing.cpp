@@ -10,7 +10,6 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint32_t max_block_size = 16;
 // Largest block size relative to a chart's size, which is the square root of its texels.
 constexpr double max_block_size_ratio = 1.0 / 8;
 

@@ -5,10 +5,10 @@
 #include <limits>
 #include <tuple>
 
+#include "bake/atlas/triangle_pairs.hpp"
+
 namespace faqem::detail {
 namespace {
-
-constexpr std::uint32_t max_block_size = 16;
 
 // Size class of a cell at a given scale. The legs are parallel to the sides of the cell, the longer one to
 // its width.
@@ -74,8 +74,6 @@ struct Unit {
     bool has_shared_hypotenuse = false;
 };
 
-double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
-
 // Places the corners of the first or the second triangle of a cell; the second is rotated by 180 degrees.
 // Triangles are clockwise on the page in (u, v) with v down, as in glTF textures that are not mirrored.
 TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, const AtlasTriangle& triangle,
@@ -134,8 +132,8 @@ public:
             const AtlasTriangle& a = triangles[i];
             if (a.partner != no_index) {
                 const AtlasTriangle& b = triangles[a.partner];
-                const std::array<double, 2> legs = {root_mean_square(a.legs[0], b.legs[0]),
-                                                    root_mean_square(a.legs[1], b.legs[1])};
+                const std::array<double, 2> legs = {shared_side(a.legs[0], b.legs[0]),
+                                                    shared_side(a.legs[1], b.legs[1])};
                 const CellShape shape = cell_shape(legs, scale, true);
                 if (!shape.is_single_texel) {
                     if (t < a.partner) units_.push_back({shape, t, a.partner, a.order, true});

@@ -14,6 +14,10 @@
 
 namespace faqem::detail {
 
+/// Largest size in texels of the blocks to which triangles and charts are aligned on a page. Mip levels coarser
+/// than such a block mix texels of neighbours.
+inline constexpr std::uint32_t max_block_size = 16;
+
 /// Input triangle of the per-triangle atlas. It becomes a right triangle on the page.
 struct AtlasTriangle {
     /// The corner that gets the right angle: opposite the edge to the partner, else with the largest angle.

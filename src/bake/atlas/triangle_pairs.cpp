@@ -6,7 +6,7 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint8_t unpaired = 3;
+constexpr std::uint8_t no_partner = 3;
 
 // Lengths of the edges from a corner to the next one and to the one after it.
 std::array<double, 2> legs_at(const PairTriangle& triangle, std::size_t corner) {
@@ -21,14 +21,12 @@ double unpaired_texels(const PairTriangle& triangle) {
     return longest > 0 ? e[0] * e[1] * e[2] / longest / 2 : 0;
 }
 
-double root_mean_square(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
-
 // Sides of the rectangle for a triangle and its neighbour across the edge opposite `corner`.
 std::array<double, 2> pair_sides(std::span<const PairTriangle> triangles, Index triangle,
                                  std::uint8_t corner) {
     const AdjacentTriangle& other = triangles[triangle].adjacent[corner];
     const auto a = legs_at(triangles[triangle], corner), b = legs_at(triangles[other.triangle], other.corner);
-    return {root_mean_square(a[0], b[0]), root_mean_square(a[1], b[1])};
+    return {shared_side(a[0], b[0]), shared_side(a[1], b[1])};
 }
 
 // Texels of the rectangle divided by those of the separate triangles; infinite where no pair is allowed.
@@ -45,7 +43,7 @@ class Matching {
 public:
     Matching(std::span<const PairTriangle> triangles, engine::CancellationCheck check_cancelled)
         : triangles_(triangles),
-          corner_(triangles.size(), unpaired),
+          corner_(triangles.size(), no_partner),
           waste_(triangles.size()),
           check_cancelled_(check_cancelled) {
         for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -75,8 +73,8 @@ public:
             return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
         });
         for (const Candidate& c : candidates) {
-            if (corner_[c.triangle] == unpaired &&
-                corner_[triangles_[c.triangle].adjacent[c.corner].triangle] == unpaired) {
+            if (corner_[c.triangle] == no_partner &&
+                corner_[triangles_[c.triangle].adjacent[c.corner].triangle] == no_partner) {
                 join(c.triangle, c.corner);
             }
         }
@@ -85,7 +83,7 @@ public:
     // Matches triangles without partners over augmenting paths: unpaired, pair, pair, ..., unpaired.
     void augment() {
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            if (corner_[t] == unpaired) find_augmenting_path(static_cast<Index>(t), 3);
+            if (corner_[t] == no_partner) find_augmenting_path(static_cast<Index>(t), 3);
         }
     }
 
@@ -109,7 +107,7 @@ private:
         for (std::uint8_t c : by_waste(t)) {
             const Index other = triangles_[t].adjacent[c].triangle;
             if (!(waste_[t][c] < HUGE_VAL) || on_path(other)) continue;
-            if (corner_[other] != unpaired) {
+            if (corner_[other] != no_partner) {
                 if (pairs == 0) continue;
                 const Index third = triangles_[other].adjacent[corner_[other]].triangle;
                 if (on_path(third)) continue;

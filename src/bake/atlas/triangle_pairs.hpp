@@ -3,6 +3,7 @@
 /// Matching of triangles across mesh edges: partners share a cell of the per-triangle atlas.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,9 @@ struct PairTriangle {
 /// Largest ratio of a pair's rectangle to the texels of the two triangles in cells of their own. For example,
 /// two slivers that share a short edge need fewer texels in cells of their own.
 inline constexpr double max_waste = 1.3;
+
+/// Side of a pair's rectangle for two triangles with legs a and b along it: their root mean square.
+inline double shared_side(double a, double b) { return std::sqrt((a * a + b * b) / 2); }
 
 /// Matches adjacent triangles in pairs. A pair fills a rectangle whose diagonal is the shared edge.
 /// Pairs are matched greedily in ascending order of waste (texels of the rectangle divided by those of the

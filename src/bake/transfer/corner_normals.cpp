@@ -13,7 +13,7 @@ namespace {
 using engine::to_eigen;
 using engine::Vector3;
 
-constexpr double inset = 0.02;
+constexpr double corner_inset = 0.02;
 // Largest number of clusters of a vertex that are searched for a corner. It bounds the work: if there are
 // more creases, the remaining corners are not clustered.
 constexpr std::size_t max_clusters = 64;
@@ -131,7 +131,7 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Wor
                             raw[c] = face_normal;
                             if (transfers) {
                                 const SurfacePoint point = part.map->map(
-                                    static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, inset));
+                                    static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset));
                                 const Vector3 original = interpolated_normal(*part.source, point);
                                 if (!original.isZero(0)) raw[c] = original;
                             }

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
 
 Vector3f to_vector3f(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
@@ -64,8 +64,8 @@ public:
           corners_(corners),
           vertex_(weld(corners, check_cancelled)),
           faces_(corners.size() / 3),
-          adjacent_face_(corners.size(), none),
-          group_(corners.size(), none) {
+          adjacent_face_(corners.size(), absent),
+          group_(corners.size(), absent) {
         for (std::size_t f = 0; f < faces_.size(); ++f) measure(f);
         find_neighbours();
     }
@@ -73,13 +73,13 @@ public:
     std::vector<Vec4f> operator()() {
         for (std::uint32_t c = 0; c < group_.size(); ++c) {
             const Face& face = faces_[c / 3];
-            if (face.is_degenerate || !face.has_tangent || group_[c] != none) continue;
+            if (face.is_degenerate || !face.has_tangent || group_[c] != absent) continue;
             grow_group(c);
         }
         std::vector<Vec4f> result(corners_.size());
         for (std::size_t c = 0; c < result.size(); ++c) {
             check_cancelled_();
-            result[c] = group_[c] == none ? any_tangent(normal(c)) : tangents_[group_[c]];
+            result[c] = group_[c] == absent ? any_tangent(normal(c)) : tangents_[group_[c]];
         }
         copy_to_degenerate_faces(result);
         return result;
@@ -170,7 +170,7 @@ private:
             stack.pop_back();
             std::size_t c = 3 * std::size_t{f};
             while (vertex_[c] != vertex) ++c;
-            if (group_[c] != none) continue;
+            if (group_[c] != absent) continue;
             Face& face = faces_[f];
             if (!face.has_tangent && has_no_group(f))
                 face.is_orientation_preserving = is_orientation_preserving;
@@ -180,7 +180,7 @@ private:
             // Depth-first, in the order of the reference implementation: the order decides which group faces
             // without a tangent join.
             for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]}) {
-                if (other != none) stack.push_back(other);
+                if (other != absent) stack.push_back(other);
             }
         }
         const Vector3f tangent = unit(sum);
@@ -191,7 +191,7 @@ private:
     }
 
     bool has_no_group(std::size_t f) const {
-        return group_[3 * f] == none && group_[3 * f + 1] == none && group_[3 * f + 2] == none;
+        return group_[3 * f] == absent && group_[3 * f + 1] == absent && group_[3 * f + 2] == absent;
     }
 
     // The direction of u on the face of corner c, in the tangent plane of the corner's normal, weighted by
@@ -205,13 +205,13 @@ private:
 
     // Degenerate triangles get the tangents of other triangles at the same vertices.
     void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
-        std::vector<std::uint32_t> donor(corners_.size(), none);
+        std::vector<std::uint32_t> donor(corners_.size(), absent);
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
             check_cancelled_();
-            if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == none) donor[vertex_[c]] = c;
+            if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == absent) donor[vertex_[c]] = c;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) {
-            if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != none)
+            if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != absent)
                 result[c] = result[donor[vertex_[c]]];
         }
     }

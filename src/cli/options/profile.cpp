@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* version_key = "faqem-profile";
 constexpr const char* schema_key = "$schema";  // used by editors, ignored by faqem
-constexpr int version = 1;
+constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
 /// Returns the value of an option on the command line; empty if the option is the last word; nothing if it is
@@ -102,7 +102,7 @@ bool is_overridden(const OptionInfo& option, const std::vector<std::string>& wor
 void check_version(const Json& profile, const std::string& file) {
     if (!profile.contains(version_key))
         throw OptionError(file + ": is not a profile: \"" + version_key + "\": 1 is missing");
-    if (profile[version_key] != version)
+    if (profile[version_key] != profile_version)
         throw OptionError(file + ": " + version_key + ": version " + profile[version_key].dump() +
                           " is not supported, only version 1");
 }

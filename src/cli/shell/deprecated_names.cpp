@@ -11,14 +11,14 @@ struct Renamed {
     std::string_view old_name, name;
 };
 
-constexpr std::array commands = {Renamed{"cut", "truncate"}};
-constexpr std::array options = {Renamed{"--lock-border", "--lock-boundary"}};
+constexpr std::array renamed_commands = {Renamed{"cut", "truncate"}};
+constexpr std::array renamed_options = {Renamed{"--lock-border", "--lock-boundary"}};
 
 struct RenamedValue {
     std::string_view option, old_value, value;
 };
 
-constexpr std::array values = {RenamedValue{"--visibility", "weighs", "weighted"}};
+constexpr std::array renamed_values = {RenamedValue{"--visibility", "weighs", "weighted"}};
 
 void replace(std::string& word, std::string_view name, std::vector<std::string>& warnings) {
     warnings.push_back("'" + word + "' is deprecated: use '" + std::string(name) + "'");
@@ -37,7 +37,7 @@ void replace_value(const RenamedValue& renamed, std::string& word, const std::st
 }  // namespace
 
 std::string current_option_name(const std::string& option) {
-    for (const Renamed& renamed : options) {
+    for (const Renamed& renamed : renamed_options) {
         if (option == renamed.old_name) return std::string(renamed.name);
     }
     return option;
@@ -45,14 +45,15 @@ std::string current_option_name(const std::string& option) {
 
 std::vector<std::string> replace_deprecated_names(std::vector<std::string> words,
                                                   std::vector<std::string>& warnings) {
-    for (const Renamed& renamed : commands) {
+    for (const Renamed& renamed : renamed_commands) {
         if (!words.empty() && words.front() == renamed.old_name)
             replace(words.front(), renamed.name, warnings);
     }
     for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
         const std::string current = current_option_name(words[i]);
         if (current != words[i]) replace(words[i], current, warnings);
-        for (const RenamedValue& renamed : values) replace_value(renamed, words[i], words[i - 1], warnings);
+        for (const RenamedValue& renamed : renamed_values)
+            replace_value(renamed, words[i], words[i - 1], warnings);
     }
     return words;
 }

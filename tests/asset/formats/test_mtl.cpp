@@ -14,9 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string png = "\x89PNG\r\n\x1a\n and so on";
-const std::string jpeg = "\xFF\xD8\xFF and so on";
-const std::string triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+const std::string textured_triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
 
 /// Reads a library with exactly one material.
 MtlMaterial one(const std::string& text, std::vector<std::string>* warnings = nullptr) {
@@ -113,9 +111,9 @@ TEST_CASE("unused statements are ignored, unknown ones counted and invalid numbe
 
 TEST_CASE("the offset and scale of a texture are converted to v pointing down", "[mtl]") {
     const TemporaryFolder folder;
-    put(folder / "t.png", png);
+    put(folder / "t.png", png_signature);
     put(folder / "a.mtl", "newmtl m\nmap_Kd -s 2 4 -o 0.5 0.25 t.png\n");
-    put(folder / "a.obj", "mtllib a.mtl\nusemtl m\n" + triangle);
+    put(folder / "a.obj", "mtllib a.mtl\nusemtl m\n" + textured_triangle);
     const Asset asset = read_obj(folder / "a.obj");
     const TextureRef& ref = asset.materials.at(0).base_color_texture;
     REQUIRE(ref);
@@ -128,14 +126,14 @@ TEST_CASE("the offset and scale of a texture are converted to v pointing down", 
 TEST_CASE("used materials and images are loaded once in the order of use", "[mtl]") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "tex");
-    put(folder / "tex/wood.png", png);
-    put(folder / "tex/stone.dat", jpeg);
+    put(folder / "tex/wood.png", png_signature);
+    put(folder / "tex/stone.dat", jpeg_signature);
     put(folder / "my lib.mtl",
         "newmtl unused\nmap_Kd tex/none.png\nnewmtl wood\nmap_Kd tex\\wood.png\nmap_d tex\\wood.png\n"
         "newmtl wood again\nmap_Kd ./tex/wood.png\n");
     put(folder / "other.mtl", "newmtl stone\nmap_Kd tex/stone.dat\nmap_d mask.png\n");
     put(folder / "a.obj",
-        "mtllib my lib.mtl\nmtllib other.mtl\n" + triangle +
+        "mtllib my lib.mtl\nmtllib other.mtl\n" + textured_triangle +
             "usemtl stone\nf 1/1 2/1 3/1\nusemtl wood\nf 1/1 2/1 3/1\nusemtl wood again\nf 1/1 2/1 3/1\n");
     const Asset asset = read_obj(folder / "a.obj");
     CHECK(asset.parts[0].face_material == std::vector<Index>{no_index, 0, 1, 2});
@@ -147,7 +145,7 @@ TEST_CASE("used materials and images are loaded once in the order of use", "[mtl
     CHECK(asset.images[0].mime_type == "image/jpeg");
     CHECK(asset.images[0].uri == "tex/stone.dat");
     CHECK(asset.images[1].mime_type == "image/png");
-    CHECK(std::string(asset.images[1].encoded.begin(), asset.images[1].encoded.end()) == png);
+    CHECK(std::string(asset.images[1].encoded.begin(), asset.images[1].encoded.end()) == png_signature);
     CHECK(asset.materials[2].base_color_texture.image == 1);
     CHECK(asset.warnings.size() == 1);
     CHECK(any_contains(asset.warnings, "map_d is supported only if it is the same image as map_Kd"));
@@ -157,7 +155,7 @@ TEST_CASE("one mtllib statement may name several libraries", "[mtl]") {
     const TemporaryFolder folder;
     put(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
     put(folder / "b c.mtl", "newmtl b\nKd 0 1 0\n");
-    put(folder / "a.obj", "mtllib a.mtl b c.mtl\nusemtl a\n" + triangle + "usemtl b\nf 1 2 3\n");
+    put(folder / "a.obj", "mtllib a.mtl b c.mtl\nusemtl a\n" + textured_triangle + "usemtl b\nf 1 2 3\n");
     const Asset asset = read_obj(folder / "a.obj");
     CHECK(asset.materials.at(0).base_color == Vec4f{1, 0, 0, 1});
     CHECK(asset.materials.at(1).base_color == Vec4f{0, 1, 0, 1});
@@ -166,7 +164,7 @@ TEST_CASE("one mtllib statement may name several libraries", "[mtl]") {
 
 TEST_CASE("a missing library, material or texture is a warning", "[mtl]") {
     const TemporaryFolder folder;
-    put(folder / "a.obj", "mtllib none.mtl\nusemtl m\n" + triangle);
+    put(folder / "a.obj", "mtllib none.mtl\nusemtl m\n" + textured_triangle);
     const Asset no_library = read_obj(folder / "a.obj");
     CHECK(any_contains(no_library.warnings, "none.mtl"));
     CHECK(any_contains(no_library.warnings, "material 'm'"));
@@ -183,9 +181,9 @@ TEST_CASE("a missing library, material or texture is a warning", "[mtl]") {
 TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "in/lib");
-    put(folder / "secret.png", png);
+    put(folder / "secret.png", png_signature);
     put(folder / "secret.mtl", "newmtl m\nKd 1 0 0\n");
-    put(folder / "in/inside.png", png);
+    put(folder / "in/inside.png", png_signature);
     fs::create_symlink("../secret.png", folder / "in/link.png");
     const std::vector<std::string> names = {
         "../secret.png",  "..\\secret.png", (folder / "secret.png").string(),
@@ -193,16 +191,16 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
     for (const std::string& name : names) {
         CAPTURE(name);
         put(folder / "in/a.mtl", "newmtl m\nmap_Kd " + name + "\n");
-        put(folder / "in/a.obj", "mtllib a.mtl\nusemtl m\n" + triangle);
+        put(folder / "in/a.obj", "mtllib a.mtl\nusemtl m\n" + textured_triangle);
         const Asset asset = read_obj(folder / "in/a.obj");
         CHECK(asset.images.empty());
         CHECK(asset.warnings.size() == 1);
     }
-    put(folder / "in/a.obj", "mtllib ../secret.mtl\nusemtl m\n" + triangle);
+    put(folder / "in/a.obj", "mtllib ../secret.mtl\nusemtl m\n" + textured_triangle);
     CHECK(read_obj(folder / "in/a.obj").materials.at(0).base_color == Vec4f{1, 1, 1, 1});
     // A library in a subfolder may refer to files above it that are inside the folder of the model.
     put(folder / "in/lib/a.mtl", "newmtl m\nmap_Kd ../inside.png\n");
-    put(folder / "in/a.obj", "mtllib lib/a.mtl\nusemtl m\n" + triangle);
+    put(folder / "in/a.obj", "mtllib lib/a.mtl\nusemtl m\n" + textured_triangle);
     const Asset asset = read_obj(folder / "in/a.obj");
     REQUIRE(asset.images.size() == 1);
     CHECK(asset.images[0].uri == "inside.png");
@@ -212,7 +210,7 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
 TEST_CASE("a material library without used materials gives a warning", "[mtl]") {
     const TemporaryFolder folder;
     put(folder / "a.mtl", "newmtl m\nKd 1 0 0\n");
-    put(folder / "a.obj", "mtllib a.mtl\n" + triangle);
+    put(folder / "a.obj", "mtllib a.mtl\n" + textured_triangle);
     const Asset asset = read_obj(folder / "a.obj");
     CHECK(asset.materials.empty());
     REQUIRE(asset.warnings.size() == 1);

@@ -14,9 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string png = "\x89PNG\r\n\x1a\n first";
-const std::string jpeg = "\xFF\xD8\xFF second";
-
 Image image(const std::string& type, const std::string& bytes) {
     Image result;
     result.mime_type = type;
@@ -33,7 +30,7 @@ Asset textured() {
     part.face_material = {1, 0};
     part.normals.assign(6, {0, 0, 1});
     part.uvs = {{{0, 0.25f}, {0.5f, 1}, {0.125f, 0}, {0.75f, 0}, {1, 1}, {0, 0.5f}}};
-    asset.images = {image("image/png", png), image("image/jpeg", jpeg)};
+    asset.images = {image("image/png", png_signature), image("image/jpeg", jpeg_signature)};
     asset.materials.resize(2);
     asset.materials[0].name = "same name";
     asset.materials[0].base_color = {0.5f, 0.25f, 0.125f, 0.5f};
@@ -69,8 +66,8 @@ TEST_CASE("an OBJ file is written with its material library and images", "[obj_w
     CHECK(count_lines(obj, "vn ") == 1);
     CHECK(contains(obj, "vt 0 0.75\n"));  // v points up
     CHECK(contains(obj, "usemtl same name\nf 1/1/1 2/2/1 3/3/1\nusemtl same name_2\nf 1/4/1 3/5/1 4/6/1\n"));
-    CHECK(get(folder / "my model_0.jpg") == jpeg);
-    CHECK(get(folder / "my model_1.png") == png);
+    CHECK(get(folder / "my model_0.jpg") == jpeg_signature);
+    CHECK(get(folder / "my model_1.png") == png_signature);
     const std::string mtl = get(folder / "my model.mtl");
     CHECK(contains(mtl, "map_Kd -clamp on my model_0.jpg\nmap_Ke my model_1.png\nnorm my model_1.png\n"));
     CHECK(contains(mtl, "d 0.5\nPr 0.3\nPm 0.1\nmap_Kd my model_1.png\nmap_d my model_1.png\n"));

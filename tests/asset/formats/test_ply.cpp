@@ -15,10 +15,10 @@ using namespace faqem::testing;
 
 namespace {
 
-Asset parse(const std::string& text) { return read_ply(bytes_of(text), "a.ply"); }
+Asset parse_ply(const std::string& text) { return read_ply(bytes_of(text), "a.ply"); }
 
-std::string error_of(const std::string& text) {
-    return message_of([&] { parse(text); });
+std::string ply_error(const std::string& text) {
+    return message_of([&] { parse_ply(text); });
 }
 
 /// Concatenates the bytes of values in little-endian or big-endian order.
@@ -48,12 +48,11 @@ std::string ascii(const std::string& vertex, const std::string& face, const std:
 }
 
 const std::string indices = "property list uchar int vertex_indices\n";
-const std::string three = "0 0 0\n1 0 0\n1 1 0\n";
 
 }  // namespace
 
 TEST_CASE("an ASCII PLY file is read", "[ply]") {
-    const Asset asset = parse(ascii("", indices, three + "3 0 1 2\n"));
+    const Asset asset = parse_ply(ascii("", indices, three_vertices + "3 0 1 2\n"));
     CHECK(asset.parts.at(0).positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
     CHECK(asset.parts[0].triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(asset.parts[0].face_material == std::vector<Index>{no_index});
@@ -69,7 +68,7 @@ TEST_CASE("PLY headers with other line ends, comments, obj_info and other type n
     for (const std::string end : {"\n", "\r\n", "\r"}) {
         std::string copy;
         for (const char c : text) copy += c == '\n' ? end : std::string(1, c);
-        const Part part = parse(copy).parts.at(0);
+        const Part part = parse_ply(copy).parts.at(0);
         CHECK(part.positions[0] == Vec3{0.1, 0, 0});
         CHECK(part.triangles.size() == 1);
     }
@@ -99,7 +98,7 @@ TEST_CASE("binary PLY files of both byte orders with all number and list types a
         data.put(1.0f).put<std::uint32_t>(4);
         for (const std::uint16_t i : {0, 1, 2, 3}) data.put(i);
         data.put<std::int16_t>(0);
-        const Asset asset = parse(header + data.text());
+        const Asset asset = parse_ply(header + data.text());
         const Part& part = asset.parts.at(0);
         for (std::size_t v = 0; v < 4; ++v) CHECK(part.positions[v] == points[v]);
         CHECK(part.triangles.size() == 3);
@@ -113,7 +112,7 @@ TEST_CASE("PLY data after a header with CR line ends may start with a line feed"
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
         "property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
     std::replace(header.begin(), header.end(), '\n', '\r');
-    const Part part = parse(header + std::string("\x0A\0\0\1\0\0\0\1\0\3\0\1\2", 13)).parts.at(0);
+    const Part part = parse_ply(header + std::string("\x0A\0\0\1\0\0\0\1\0\3\0\1\2", 13)).parts.at(0);
     CHECK(part.positions[0] == Vec3{10, 0, 0});
 }
 
@@ -121,9 +120,9 @@ TEST_CASE("PLY vertex normals, colours and UVs are read", "[ply]") {
     const std::string properties =
         "property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n"
         "property uchar blue\nproperty uchar alpha\nproperty float s\nproperty float t\n";
-    const Part part = parse(ascii(properties, indices,
-                                  "0 0 0 0 0 1 255 128 0 51 0.5 0.25\n1 0 0 0 0 1 0 0 0 255 0 0\n"
-                                  "1 1 0 0 0 1 0 0 0 255 0 0\n3 0 1 2\n"))
+    const Part part = parse_ply(ascii(properties, indices,
+                                      "0 0 0 0 0 1 255 128 0 51 0.5 0.25\n1 0 0 0 0 1 0 0 0 255 0 0\n"
+                                      "1 1 0 0 0 1 0 0 0 255 0 0\n3 0 1 2\n"))
                           .parts.at(0);
     CHECK(part.normals.at(0) == Vec3f{0, 0, 1});
     CHECK(part.colors.at(0) == Vec4f{1, static_cast<float>(linear_from_srgb(128 / 255.0)), 0, 0.2f});
@@ -136,27 +135,28 @@ TEST_CASE("alternative names and types of PLY colours and UVs are read", "[ply]"
          {"r g b u v", "red green blue texture_u texture_v", "diffuse_red diffuse_green diffuse_blue s t"}) {
         std::string properties = "property float ";
         for (const char c : names) properties += c == ' ' ? "\nproperty float " : std::string(1, c);
-        const Part part = parse(ascii(properties + "\n", indices, data)).parts.at(0);
+        const Part part = parse_ply(ascii(properties + "\n", indices, data)).parts.at(0);
         CHECK(part.colors.at(0) == Vec4f{1, static_cast<float>(linear_from_srgb(0.5)), 0, 1});
         CHECK(part.uvs.at(0).at(0) == Vec2f{0.5f, 0});
     }
-    const Part wide = parse(ascii("property ushort red\nproperty ushort green\nproperty ushort blue\n",
-                                  indices, "0 0 0 65535 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n3 0 1 2\n"))
+    const Part wide = parse_ply(ascii("property ushort red\nproperty ushort green\nproperty ushort blue\n",
+                                      indices, "0 0 0 65535 0 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n3 0 1 2\n"))
                           .parts.at(0);
     CHECK(wide.colors.at(0) == Vec4f{1, 0, 0, 1});
 }
 
 TEST_CASE("PLY face colours and face UVs give a warning", "[ply]") {
-    const Asset asset = parse(ascii("", indices + "property list uchar float texcoord\nproperty uchar red\n",
-                                    three + "3 0 1 2 2 0.5 0.5 255\n"));
+    const Asset asset =
+        parse_ply(ascii("", indices + "property list uchar float texcoord\nproperty uchar red\n",
+                        three_vertices + "3 0 1 2 2 0.5 0.5 255\n"));
     CHECK(asset.warnings.size() == 2);
     CHECK(any_contains(asset.warnings, "texcoord"));
     CHECK(any_contains(asset.warnings, "red"));
 }
 
 TEST_CASE("PLY polygons are triangulated, and faces may precede vertices", "[ply]") {
-    const Asset asset = parse("ply\nformat ascii 1.0\nelement face 2\n" + indices + "element vertex 4\n" +
-                              xyz + "end_header\n4 0 1 2 3\n2 0 1\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n");
+    const Asset asset = parse_ply("ply\nformat ascii 1.0\nelement face 2\n" + indices + "element vertex 4\n" +
+                                  xyz + "end_header\n4 0 1 2 3\n2 0 1\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n");
     REQUIRE(asset.parts.at(0).triangles.size() == 2);
     CHECK(any_contains(asset.warnings, "1 face with fewer than three"));
     // Corner 2 is reflex: the diagonal starts at it and does not connect 1 and 3.
@@ -170,9 +170,10 @@ TEST_CASE("PLY triangle strips are read with consistent winding", "[ply]") {
     const std::string header = "ply\nformat ascii 1.0\nelement vertex 6\n" + xyz +
                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
     const Part part =
-        parse(header + "0 1 0\n0 0 0\n1 1 0\n1 0 0\n2 1 0\n2 0 0\n10 0 1 2 3 4 5 -1 3 4 5\n").parts.at(0);
+        parse_ply(header + "0 1 0\n0 0 0\n1 1 0\n1 0 0\n2 1 0\n2 0 0\n10 0 1 2 3 4 5 -1 3 4 5\n").parts.at(0);
     CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}, {3, 4, 5}});
-    CHECK(contains(error_of(header + three + three + "3 0 1 -2\n"), "vertex -2 is out of range"));
+    CHECK(contains(ply_error(header + three_vertices + three_vertices + "3 0 1 -2\n"),
+                   "vertex -2 is out of range"));
 }
 
 TEST_CASE("PLY counts are checked against the file size before memory is allocated", "[ply]") {
@@ -181,49 +182,51 @@ TEST_CASE("PLY counts are checked against the file size before memory is allocat
                faces + "\n" + indices + "end_header\n";
     };
     for (const std::string format : {"ascii", "binary_little_endian"}) {
-        CHECK(contains(error_of(file(format, "4000000000", "1")),
+        CHECK(contains(ply_error(file(format, "4000000000", "1")),
                        "a.ply: element vertex: the file is too short"));
-        CHECK(contains(error_of(file(format, "0", "4000000000")),
+        CHECK(contains(ply_error(file(format, "0", "4000000000")),
                        "a.ply: element face: the file is too short"));
-        CHECK(contains(error_of(file(format, "4294967296", "1")), "more than the 4294967295"));
-        CHECK(contains(error_of(file(format, "18446744073709551615", "1")), "more than the 4294967295"));
-        CHECK(contains(error_of(file(format, "99999999999999999999", "1")), "a.ply: line 3: "));
-        CHECK(contains(error_of(file(format, "-1", "1")), "a.ply: line 3: "));
+        CHECK(contains(ply_error(file(format, "4294967296", "1")), "more than the 4294967295"));
+        CHECK(contains(ply_error(file(format, "18446744073709551615", "1")), "more than the 4294967295"));
+        CHECK(contains(ply_error(file(format, "99999999999999999999", "1")), "a.ply: line 3: "));
+        CHECK(contains(ply_error(file(format, "-1", "1")), "a.ply: line 3: "));
     }
     const std::string long_list = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + xyz +
                                   "element face 1\nproperty list uint double vertex\nproperty list uint int "
                                   "vertex_indices\nend_header\n";
-    CHECK(contains(error_of(long_list + std::string("\xFF\xFF\xFF\xFF\0\0\0\0", 8)),
+    CHECK(contains(ply_error(long_list + std::string("\xFF\xFF\xFF\xFF\0\0\0\0", 8)),
                    "a.ply: the file is too short for a list of 4294967295 (face 0)"));
     // Rows without properties take no bytes, so any number of them is valid.
-    CHECK(parse("ply\nformat ascii 1.0\nelement nothing 4000000000\nelement vertex 3\n" + xyz +
-                "element face 1\n" + indices + "end_header\n" + three + "3 0 1 2\n")
+    CHECK(parse_ply("ply\nformat ascii 1.0\nelement nothing 4000000000\nelement vertex 3\n" + xyz +
+                    "element face 1\n" + indices + "end_header\n" + three_vertices + "3 0 1 2\n")
               .parts.size() == 1);
 }
 
 TEST_CASE("PLY errors name the element and its index", "[ply]") {
-    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")),
+    CHECK(contains(ply_error(ascii("", indices, "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")),
                    "a.ply: line 11: 'x' is not a number (vertex 1)"));
-    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0\n1 1 0\n3 0 1 2\n")), "(vertex 1)"));
-    CHECK(contains(error_of(ascii("", indices, "0 0 0\n1 0 0 7\n1 1 0\n3 0 1 2\n")),
+    CHECK(contains(ply_error(ascii("", indices, "0 0 0\n1 0\n1 1 0\n3 0 1 2\n")), "(vertex 1)"));
+    CHECK(contains(ply_error(ascii("", indices, "0 0 0\n1 0 0 7\n1 1 0\n3 0 1 2\n")),
                    "unexpected '7' (vertex 1)"));
-    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 3\n")),
+    CHECK(contains(ply_error(ascii("", indices, three_vertices + "3 0 1 3\n")),
                    "vertex 3 is out of range: there are 3 (face 0)"));
-    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 -1\n")), "vertex -1 is out of range"));
-    CHECK(contains(error_of(ascii("", indices, three + "300 0 1 2\n")), "does not fit"));
-    CHECK(contains(error_of(ascii("", indices, three + "3 0 1 2.0\n")), "(face 0)"));
-    CHECK(contains(error_of(ascii("", "property list char int vertex_indices\n", three + "-3 0 1 2\n")),
-                   "negative length (face 0)"));
+    CHECK(
+        contains(ply_error(ascii("", indices, three_vertices + "3 0 1 -1\n")), "vertex -1 is out of range"));
+    CHECK(contains(ply_error(ascii("", indices, three_vertices + "300 0 1 2\n")), "does not fit"));
+    CHECK(contains(ply_error(ascii("", indices, three_vertices + "3 0 1 2.0\n")), "(face 0)"));
+    CHECK(contains(
+        ply_error(ascii("", "property list char int vertex_indices\n", three_vertices + "-3 0 1 2\n")),
+        "negative length (face 0)"));
 }
 
 TEST_CASE("invalid PLY headers are errors that name the line", "[ply]") {
-    const std::string good = ascii("", indices, three + "3 0 1 2\n");
+    const std::string good = ascii("", indices, three_vertices + "3 0 1 2\n");
     const auto with = [&](const std::string& what, const std::string& by) {
         std::string text = good;
         text.replace(text.find(what), what.size(), by);
-        return error_of(text);
+        return ply_error(text);
     };
-    CHECK(contains(error_of("solid"), "does not start with 'ply'"));
+    CHECK(contains(ply_error("solid"), "does not start with 'ply'"));
     CHECK(contains(with("ascii 1.0", "ascii 2.0"), "line 2: only version 1.0"));
     CHECK(contains(with("ascii", "text"), "line 2: unknown format 'text'"));
     CHECK(contains(with("format ascii 1.0\n", ""), "no format"));
@@ -237,19 +240,22 @@ TEST_CASE("invalid PLY headers are errors that name the line", "[ply]") {
     CHECK(contains(with("list uchar int", "list uchar float"),
                    "must have an integer list property vertex_indices"));
     CHECK(contains(with("vertex_indices", "indices"), "must have an integer list property"));
-    CHECK(contains(error_of("ply\nformat ascii 1.0\n"), "no end_header"));
+    CHECK(contains(ply_error("ply\nformat ascii 1.0\n"), "no end_header"));
 }
 
 TEST_CASE("trailing bytes of a PLY file give a warning", "[ply]") {
-    CHECK(any_contains(parse(ascii("", indices, three + "3 0 1 2\n3 0 1 2\n")).warnings, "8 bytes after"));
-    CHECK(parse(ascii("", indices, three + "3 0 1 2\n\n \n")).warnings.empty());
+    CHECK(any_contains(parse_ply(ascii("", indices, three_vertices + "3 0 1 2\n3 0 1 2\n")).warnings,
+                       "8 bytes after"));
+    CHECK(parse_ply(ascii("", indices, three_vertices + "3 0 1 2\n\n \n")).warnings.empty());
 }
 
 TEST_CASE("a PLY file without faces is an error and non-finite positions are repaired", "[ply]") {
-    CHECK(contains(error_of(ascii("", indices, three, 3, 0)), "a.ply: no faces"));
-    CHECK(contains(error_of("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "end_header\n" + three),
-                   "a.ply: no faces"));
-    const Asset asset = parse(ascii("", indices, "0 0 0\n1 0 0\n1 1 0\nnan 0 0\n3 0 1 2\n4 0 1 2 3\n", 4, 2));
+    CHECK(contains(ply_error(ascii("", indices, three_vertices, 3, 0)), "a.ply: no faces"));
+    CHECK(contains(
+        ply_error("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "end_header\n" + three_vertices),
+        "a.ply: no faces"));
+    const Asset asset =
+        parse_ply(ascii("", indices, "0 0 0\n1 0 0\n1 1 0\nnan 0 0\n3 0 1 2\n4 0 1 2 3\n", 4, 2));
     CHECK(asset.parts[0].triangles.size() == 1);
     CHECK(asset.parts[0].positions.size() == 3);
     CHECK(any_contains(asset.warnings, "1 vertex with a non-finite position and 1 adjacent face left out"));

@@ -13,13 +13,13 @@ using namespace faqem::testing;
 
 namespace {
 
-Asset parse(const std::string& text) { return read_stl(bytes_of(text), "a.stl"); }
+Asset parse_stl(const std::string& text) { return read_stl(bytes_of(text), "a.stl"); }
 
-std::string error_of(const std::string& text) {
-    return message_of([&] { parse(text); });
+std::string stl_error(const std::string& text) {
+    return message_of([&] { parse_stl(text); });
 }
 
-std::string u32(std::uint32_t value) {
+std::string u32_text(std::uint32_t value) {
     std::string text;
     for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(value >> shift);
     return text;
@@ -27,13 +27,13 @@ std::string u32(std::uint32_t value) {
 
 std::string facet(const std::vector<float>& corners) {
     std::string text(12, '\0');
-    for (const float x : corners) text += u32(std::bit_cast<std::uint32_t>(x));
+    for (const float x : corners) text += u32_text(std::bit_cast<std::uint32_t>(x));
     return text + std::string(2, '\0');
 }
 
 std::string binary(const std::string& start, const std::vector<std::string>& facets) {
     std::string text =
-        start + std::string(80 - start.size(), ' ') + u32(static_cast<std::uint32_t>(facets.size()));
+        start + std::string(80 - start.size(), ' ') + u32_text(static_cast<std::uint32_t>(facets.size()));
     for (const std::string& f : facets) text += f;
     return text;
 }
@@ -46,7 +46,7 @@ const std::string ascii_facet =
 
 TEST_CASE("binary STL corners at equal positions share a vertex, and -0 equals 0", "[stl]") {
     for (const std::string start : {"", "solid like a text"}) {
-        const Asset asset = parse(
+        const Asset asset = parse_stl(
             binary(start, {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({-0.0f, 0, -0.0f, 1, 1, 0, 0, 1, 0})}));
         const Part& part = asset.parts.at(0);
         CHECK(part.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
@@ -59,15 +59,15 @@ TEST_CASE("binary STL corners at equal positions share a vertex, and -0 equals 0
 
 TEST_CASE("a binary STL file whose size does not match its facet count is an error", "[stl]") {
     const std::string good = binary("x", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0})});
-    CHECK(contains(error_of(good.substr(0, good.size() - 1)),
+    CHECK(contains(stl_error(good.substr(0, good.size() - 1)),
                    "a.stl: header: 1 facet need 134 bytes, the file has 133"));
-    CHECK(contains(error_of(good + "x"), "the file has 135"));
-    CHECK(contains(error_of(binary("solid x", {}) + "rest"), "0 facets need 84 bytes, the file has 88"));
+    CHECK(contains(stl_error(good + "x"), "the file has 135"));
+    CHECK(contains(stl_error(binary("solid x", {}) + "rest"), "0 facets need 84 bytes, the file has 88"));
     std::string many = good;
     many.replace(80, 4, "\xFF\xFF\xFF\xFF");
-    CHECK(contains(error_of(many), "4294967295 facets need 214748364834 bytes"));
-    CHECK(contains(error_of(std::string(20, '\0')), "neither ASCII STL nor long enough"));
-    CHECK(contains(error_of(binary("", {})), "a.stl: no faces"));
+    CHECK(contains(stl_error(many), "4294967295 facets need 214748364834 bytes"));
+    CHECK(contains(stl_error(std::string(20, '\0')), "neither ASCII STL nor long enough"));
+    CHECK(contains(stl_error(binary("", {})), "a.stl: no faces"));
 }
 
 TEST_CASE("ASCII STL files with several solids, any letter case and any line end are read", "[stl]") {
@@ -78,13 +78,13 @@ TEST_CASE("ASCII STL files with several solids, any letter case and any line end
     std::string cr = text;
     for (char& c : cr) c = c == '\n' ? '\r' : c;
     for (const std::string& variant : {text, upper, cr, "\xEF\xBB\xBF" + text}) {
-        const Part part = parse(variant).parts.at(0);
+        const Part part = parse_stl(variant).parts.at(0);
         CHECK(part.triangles.size() == 3);
         CHECK(part.positions.size() == 3);
     }
-    CHECK(parse("solid\nfacet normal nan nan nan\nouter loop\nvertex 1e-3 0 0\nvertex +1 0 0\nvertex 1 1 "
-                "0\nendloop\n"
-                "endfacet\nendsolid\n")
+    CHECK(parse_stl("solid\nfacet normal nan nan nan\nouter loop\nvertex 1e-3 0 0\nvertex +1 0 0\nvertex 1 1 "
+                    "0\nendloop\n"
+                    "endfacet\nendsolid\n")
               .parts[0]
               .positions[0] == Vec3{0.001, 0, 0});
 }
@@ -94,20 +94,20 @@ TEST_CASE("invalid ASCII STL is an error that names the line", "[stl]") {
     const auto with = [&](const std::string& what, const std::string& by) {
         std::string text = good;
         text.replace(text.find(what), what.size(), by);
-        return error_of(text);
+        return stl_error(text);
     };
     CHECK(contains(with("vertex 1 0 0", "vertex 1,5 0 0"), "a.stl: line 5: '1,5' is not a number"));
     CHECK(contains(with("   vertex 1 1 0\n", ""), "line 6: 'endloop' instead of 'vertex'"));
     CHECK(contains(with("  endloop", "vertex 0 1 0\n  endloop"), "instead of 'endloop'"));
     CHECK(contains(with("endsolid\n", ""), "the file ends where 'endsolid'"));
-    CHECK(contains(error_of("solid\nendsolid\n"), "a.stl: no faces"));
-    CHECK(contains(error_of(""), "the file ends where 'solid'"));
-    CHECK(contains(error_of("hello"), "'hello' instead of 'solid'"));
+    CHECK(contains(stl_error("solid\nendsolid\n"), "a.stl: no faces"));
+    CHECK(contains(stl_error(""), "the file ends where 'solid'"));
+    CHECK(contains(stl_error("hello"), "'hello' instead of 'solid'"));
 }
 
 TEST_CASE("non-finite STL positions are repaired and facet colours give a warning", "[stl]") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Asset asset = parse(
+    const Asset asset = parse_stl(
         binary("COLOR=abcd", {facet({0, 0, 0, 1, 0, 0, 1, 1, 0}), facet({0, 0, 0, 1, 0, 0, nan, 1, 0})}));
     CHECK(asset.parts[0].triangles.size() == 1);
     CHECK(asset.parts[0].positions.size() == 3);
@@ -120,7 +120,8 @@ TEST_CASE("an STL file is unchanged by reading and writing", "[stl]") {
     CHECK(write_stl(asset, folder / "a.stl", Overwrite::no).empty());
     const std::string bytes = get(folder / "a.stl");
     CHECK(bytes.size() == 84 + 2 * 50);
-    CHECK(bytes.substr(84, 12) == u32(0) + u32(0) + u32(std::bit_cast<std::uint32_t>(1.0f)));  // facet normal
+    CHECK(bytes.substr(84, 12) ==
+          u32_text(0) + u32_text(0) + u32_text(std::bit_cast<std::uint32_t>(1.0f)));  // facet normal
     const Asset back = read_stl(folder / "a.stl");
     CHECK(back.parts[0].positions == asset.parts[0].positions);
     CHECK(back.parts[0].triangles == asset.parts[0].triangles);

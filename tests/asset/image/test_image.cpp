@@ -11,12 +11,7 @@ using namespace faqem::testing;
 
 namespace {
 
-Image image_of(const std::string& bytes) {
-    Image image;
-    image.name.push_back('x');
-    image.encoded.assign(bytes.begin(), bytes.end());
-    return image;
-}
+Image image_x(const std::string& bytes) { return image_of(bytes, "x"); }
 
 std::string bytes_of_hex(const std::string& hex) {
     std::string bytes;
@@ -121,58 +116,58 @@ TEST_CASE("PNG encoding is deterministic and writes no metadata") {
 }
 
 TEST_CASE("grey, grey with alpha, 16-bit and palette images are decoded to 8-bit RGBA") {
-    CHECK(decode(image_of(png(2, 1, 8, 0,
-                              bytes_of_hex("00"
-                                           "40"
-                                           "ff"))))
+    CHECK(decode(image_x(png(2, 1, 8, 0,
+                             bytes_of_hex("00"
+                                          "40"
+                                          "ff"))))
               .rgba == Bytes{0x40, 0x40, 0x40, 255, 255, 255, 255, 255});
-    const Pixels grey_alpha = decode(image_of(png(1, 1, 8, 4,
-                                                  bytes_of_hex("00"
-                                                               "c880"))));
+    const Pixels grey_alpha = decode(image_x(png(1, 1, 8, 4,
+                                                 bytes_of_hex("00"
+                                                              "c880"))));
     CHECK(grey_alpha.rgba == Bytes{0xc8, 0xc8, 0xc8, 0x80});
     CHECK(grey_alpha.has_alpha);
-    CHECK(decode(image_of(png(1, 1, 16, 2,
-                              bytes_of_hex("00"
-                                           "ffff"
-                                           "8080"
-                                           "0000"))))
+    CHECK(decode(image_x(png(1, 1, 16, 2,
+                             bytes_of_hex("00"
+                                          "ffff"
+                                          "8080"
+                                          "0000"))))
               .rgba == Bytes{255, 128, 0, 255});
     const std::string palette = chunk("PLTE", bytes_of_hex("0a0b0c"
                                                            "14151e"));
-    CHECK(decode(image_of(png(2, 1, 8, 3,
-                              bytes_of_hex("00"
-                                           "01"
-                                           "00"),
-                              palette)))
+    CHECK(decode(image_x(png(2, 1, 8, 3,
+                             bytes_of_hex("00"
+                                          "01"
+                                          "00"),
+                             palette)))
               .rgba == Bytes{0x14, 0x15, 0x1e, 255, 0x0a, 0x0b, 0x0c, 255});
-    const Pixels keyed = decode(image_of(png(2, 1, 8, 3,
-                                             bytes_of_hex("00"
-                                                          "01"
-                                                          "00"),
-                                             palette + chunk("tRNS", bytes_of_hex("00")))));
+    const Pixels keyed = decode(image_x(png(2, 1, 8, 3,
+                                            bytes_of_hex("00"
+                                                         "01"
+                                                         "00"),
+                                            palette + chunk("tRNS", bytes_of_hex("00")))));
     CHECK(keyed.rgba == Bytes{0x14, 0x15, 0x1e, 255, 0x0a, 0x0b, 0x0c, 0});
 }
 
 TEST_CASE("gamma chunks do not change the decoded colours") {
     const std::string gamma = chunk("gAMA", big_endian(100000));
-    CHECK(decode(image_of(png(1, 1, 8, 6,
-                              bytes_of_hex("00"
-                                           "64c8fa80"),
-                              gamma)))
+    CHECK(decode(image_x(png(1, 1, 8, 6,
+                             bytes_of_hex("00"
+                                          "64c8fa80"),
+                             gamma)))
               .rgba == Bytes{0x64, 0xc8, 0xfa, 0x80});
 }
 
 TEST_CASE("a PNG whose header exceeds the size limit is rejected before memory is allocated") {
     const std::string message =
-        message_of<InputError>([] { decode(image_of(png(100000, 100000, 8, 6, ""))); });
+        message_of<InputError>([] { decode(image_x(png(100000, 100000, 8, 6, ""))); });
     CHECK(contains(message, "image 'x'"));
     CHECK(contains(message, "16384"));
-    CHECK(contains(message_of<InputError>([] { decode(image_of(png(16385, 1, 8, 0, ""))); }), "16385 x 1"));
+    CHECK(contains(message_of<InputError>([] { decode(image_x(png(16385, 1, 8, 0, ""))); }), "16385 x 1"));
 }
 
 TEST_CASE("a PNG too short for its pixels is rejected before memory is allocated") {
     const std::string message =
-        message_of<InputError>([] { decode(image_of(png(16384, 16384, 8, 6, std::string(1000, 'x')))); });
+        message_of<InputError>([] { decode(image_x(png(16384, 16384, 8, 6, std::string(1000, 'x')))); });
     CHECK(contains(message, "image 'x'"));
     CHECK(contains(message, "cannot hold 16384 x 16384 pixels"));
 }
@@ -188,7 +183,7 @@ TEST_CASE("a JPEG or WebP too short for its pixels is rejected before memory is 
                std::string(100, '\0');
     };
     const auto refused = [](const std::string& bytes) {
-        return message_of<InputError>([&] { decode(image_of(bytes)); });
+        return message_of<InputError>([&] { decode(image_x(bytes)); });
     };
     CHECK(contains(refused(jpeg("40003fff")), "image 'x': is damaged: 122 bytes cannot hold 16383 x 16384"));
     CHECK(contains(refused(jpeg("4001"
@@ -228,13 +223,13 @@ TEST_CASE("damaged images are rejected") {
 
 TEST_CASE("unsupported image formats are rejected with their name") {
     if (detail::can_decode_image("image/webp"))
-        CHECK_THROWS_AS(decode(image_of("RIFF1234WEBPVP8 ")), InputError);
+        CHECK_THROWS_AS(decode(image_x("RIFF1234WEBPVP8 ")), InputError);
     else
-        CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("RIFF1234WEBPVP8 ")); }),
+        CHECK(contains(message_of<UnsupportedError>([] { decode(image_x("RIFF1234WEBPVP8 ")); }),
                        "image/webp"));
-    CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("\xabKTX 20\xbb\r\n\x1a\n")); }),
+    CHECK(contains(message_of<UnsupportedError>([] { decode(image_x("\xabKTX 20\xbb\r\n\x1a\n")); }),
                    "image/ktx2"));
-    CHECK(contains(message_of<UnsupportedError>([] { decode(image_of("")); }), "has an unknown format"));
+    CHECK(contains(message_of<UnsupportedError>([] { decode(image_x("")); }), "has an unknown format"));
 }
 
 TEST_CASE("pixel arrays that do not match the image size are rejected") {
@@ -295,13 +290,13 @@ TEST_CASE("a JPEG is decoded, and rejected if it is truncated") {
     jpeg.append(
         bytes_of_hex("3f"
                      "ffd9"));
-    const Pixels pixels = decode(image_of(jpeg));
+    const Pixels pixels = decode(image_x(jpeg));
     CHECK(pixels.width == 8);
     CHECK(pixels.height == 8);
     CHECK_FALSE(pixels.has_alpha);
     REQUIRE(pixels.rgba.size() == 256);
     for (std::size_t i = 0; i < 256; ++i) CHECK(pixels.rgba[i] == (i % 4 == 3 ? 255 : 128));
-    CHECK(message_of<InputError>([&] { decode(image_of(jpeg.substr(0, 100))); }) != "(nothing thrown)");
-    CHECK(message_of<InputError>([&] { decode(image_of(jpeg.substr(0, jpeg.size() - 3))); }) !=
+    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, 100))); }) != "(nothing thrown)");
+    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, jpeg.size() - 3))); }) !=
           "(nothing thrown)");
 }

@@ -71,12 +71,6 @@ private:
     detail::ImageCodecProvider previous_;
 };
 
-Image image_of(const std::string& bytes) {
-    Image image;
-    image.encoded.assign(bytes.begin(), bytes.end());
-    return image;
-}
-
 /// The bytes of a PNG of 1 x 1 pixels up to the end of its header.
 Image png_header() {
     using namespace std::string_literals;

@@ -30,7 +30,7 @@ std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangl
 }
 
 // n x n squares of side 10, each split by its diagonal.
-std::vector<PairTriangle> grid(Index n) {
+std::vector<PairTriangle> split_squares(Index n) {
     Points points;
     Corners triangles;
     for (Index y = 0; y <= n; ++y) {
@@ -59,7 +59,7 @@ void check_mutual(const std::vector<PairTriangle>& triangles, const std::vector<
 }  // namespace
 
 TEST_CASE("the two triangles of every square are paired") {
-    const auto triangles = grid(6);
+    const auto triangles = split_squares(6);
     const auto corner = pair_triangles(triangles);
     check_mutual(triangles, corner);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -92,7 +92,7 @@ TEST_CASE("triangles without neighbours or area are not paired") {
     CHECK(pair_triangles({}).empty());
     const std::vector<PairTriangle> lone(3);
     for (std::uint8_t c : pair_triangles(lone)) CHECK(c == 3);
-    std::vector<PairTriangle> points = grid(1);
+    std::vector<PairTriangle> points = split_squares(1);
     for (PairTriangle& t : points) t.edges = {0, 0, 0};
     for (std::uint8_t c : pair_triangles(points)) CHECK(c == 3);
 }

@@ -25,7 +25,7 @@ double worst(const Part& source, const Pixels& painted, const Part& baked, const
     return result;
 }
 
-Pixels base_image(const SimplifiedAsset& simplified, std::size_t material = 0) {
+Pixels base_pixels(const SimplifiedAsset& simplified, std::size_t material = 0) {
     return decode(simplified.asset.images[simplified.asset.materials[material].base_color_texture.image]);
 }
 
@@ -39,7 +39,7 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
 TEST_CASE("a baked square has the colours of the source up to the boundaries of its triangles") {
     const Asset asset = textured_square(ramp(128));
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     CHECK(std::has_single_bit(atlas.width));
     CHECK(worst(asset.parts[0], ramp(128), simplified.asset.parts[0], atlas) < 2.5);
     const Material& m = simplified.asset.materials[0];
@@ -65,7 +65,7 @@ TEST_CASE("adjacent triangles in the atlas do not bleed into each other") {
     Options options;
     options.bake.texture_size = GENERATE(64u, 256u);
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
-    CHECK(worst(part, split, simplified.asset.parts[0], base_image(simplified)) < 0.01);
+    CHECK(worst(part, split, simplified.asset.parts[0], base_pixels(simplified)) < 0.01);
 }
 
 TEST_CASE("base colour factor and vertex colours are applied in linear light") {
@@ -75,7 +75,7 @@ TEST_CASE("base colour factor and vertex colours are applied in linear light") {
     asset.materials[0].base_color = {0.5f, 0.25f, 1, 1};
     asset.parts[0].colors.assign(4, {1, 1, 0.5f, 1});
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
     CHECK(c[0] == Approx(137).margin(1));  // sRGB 188 is 0.503 in linear light, half of which is sRGB 137
     CHECK(c[1] == Approx(137).margin(1));
@@ -88,7 +88,7 @@ TEST_CASE("all texels of a page are filled") {
         return Rgba{9, 99, 199, 255};
     }));
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     for (std::size_t t = 0; t < atlas.rgba.size(); t += 4) {
         REQUIRE(atlas.rgba[t] == 9);
         REQUIRE(atlas.rgba[t + 1] == 99);
@@ -103,7 +103,7 @@ TEST_CASE("textures with repeat wrap mode are unrolled") {
     use.wrap_u = use.wrap_v = Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {3 * uv[0] - 1, 2 * uv[1]};
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified), painted = ramp(32);
+    const Pixels atlas = base_pixels(simplified), painted = ramp(32);
     std::size_t compared = 0;
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(30)) {
@@ -137,7 +137,7 @@ TEST_CASE("materials share a page only if their alpha modes are equal") {
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
     REQUIRE(simplified.asset.materials.size() == 2);
     CHECK(simplified.asset.parts[0].face_material == std::vector<Index>{0, 0, 1});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     const auto green = look(simplified.asset.parts[0], atlas, 1, {0.3, 0.3, 0.4});
     CHECK(green[0] == 0);
     CHECK(green[1] == 255);
@@ -169,7 +169,7 @@ TEST_CASE("alpha masks are preserved and transparent texels do not darken their 
     asset.materials[0].alpha_mode = AlphaMode::mask;
     asset.materials[0].alpha_cutoff = 0.3f;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     CHECK(atlas.has_alpha);
     CHECK(simplified.asset.materials[0].alpha_mode == AlphaMode::mask);
     CHECK(simplified.asset.materials[0].alpha_cutoff == 0.3f);
@@ -190,7 +190,7 @@ TEST_CASE("the alpha of an opaque material is ignored") {
         return Rgba{10, 20, 30, 0};
     }));
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     for (std::size_t i = 3; i < atlas.rgba.size(); i += 4) REQUIRE(atlas.rgba[i] == 255);
     const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
     CHECK(c[1] == Approx(20));
@@ -242,7 +242,7 @@ TEST_CASE("parts share a page and images do not depend on the number of threads"
         const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
         REQUIRE(simplified.asset.images.size() == 1);
         REQUIRE(simplified.asset.parts.size() == 2);
-        const Pixels atlas = base_image(simplified);
+        const Pixels atlas = base_pixels(simplified);
         CHECK(worst(asset.parts[1], ramp(64), simplified.asset.parts[1], atlas) < 4);
         if (first.empty()) first = simplified.asset.images[0].encoded;
         CHECK(simplified.asset.images[0].encoded == first);
@@ -254,7 +254,7 @@ TEST_CASE("pages are not larger than texture_size") {
     Options options;
     options.bake.texture_size = 64;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     CHECK(atlas.width <= 64);
     CHECK(atlas.height <= 64);
     CHECK(worst(asset.parts[0], ramp(256), simplified.asset.parts[0], atlas) < 6);
@@ -269,7 +269,7 @@ TEST_CASE("minified textures are averaged") {
     Options options;
     options.bake.texture_size = 64;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
-    const Pixels atlas = base_image(simplified);
+    const Pixels atlas = base_pixels(simplified);
     for (std::size_t f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(12))
             CHECK(look(simplified.asset.parts[0], atlas, f, w)[0] == Approx(188).margin(25));

@@ -12,7 +12,7 @@ using namespace faqem::test;
 
 namespace {
 
-Part waves(Index n, double height, double x) {
+Part rolling_sheet(Index n, double height, double x) {
     return sheet(n, [=](double u, double v) {
         return Vec3{x + u / n, v / n, height * std::sin(6 * u / n) * std::sin(5 * v / n)};
     });
@@ -25,7 +25,7 @@ Options plain() {
 }
 
 /// A sphere with a texture that is projected along z, so that red and green identify x and y.
-Asset painted_ball() {
+Asset ball_painted_along_z() {
     Asset asset = textured_square(ramp(64));
     const TriangleMesh ball = icosphere(3);
     Part& part = asset.parts[0];
@@ -56,17 +56,17 @@ double color_error(const SimplifiedAsset& simplified, const Asset& original) {
     return sum / count;
 }
 
-const std::vector<Level> wanted = {ratio(0.5), ratio(0.2), faces(60)};
+const std::vector<Level> wanted_levels = {ratio(0.5), ratio(0.2), faces(60)};
 
 }  // namespace
 
 TEST_CASE("levels of an asset come from one run and the first is equal to that of simplify_parts") {
     Asset asset;
-    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
+    asset.parts = {rolling_sheet(20, 0.2, 0), rolling_sheet(16, 0.05, 2), Part{}};
     for (const Budget budget : {Budget::scene, Budget::mesh}) {
         Options options = plain();
         options.budget = budget;
-        const auto levels = simplify_parts_levels(asset, wanted, options);
+        const auto levels = simplify_parts_levels(asset, wanted_levels, options);
         REQUIRE(levels.size() == 3);
         const std::uint64_t most[] = {656, 262, 60};
         std::uint64_t last[] = {800, 512, 0};
@@ -95,7 +95,7 @@ TEST_CASE("levels of an asset come from one run and the first is equal to that o
 
 TEST_CASE("a level of an asset can be a distance in scene units") {
     Asset asset;
-    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2)};
+    asset.parts = {rolling_sheet(20, 0.2, 0), rolling_sheet(16, 0.05, 2)};
     const auto levels = simplify_parts_levels(asset, {ratio(0.5), model_units(0.02), faces(20)}, plain());
     REQUIRE(levels.size() == 3);
     REQUIRE(levels[1].result.report.max_error);
@@ -106,7 +106,7 @@ TEST_CASE("a level of an asset can be a distance in scene units") {
 
 TEST_CASE("every level of a textured asset has its own texture by default") {
     Asset asset = textured_square(ramp(64));
-    asset.parts[0] = waves(12, 0.1, 0);
+    asset.parts[0] = rolling_sheet(12, 0.1, 0);
     asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
     asset.parts[0].uvs.resize(1);
     for (const Vec3& p : asset.parts[0].positions)
@@ -123,7 +123,7 @@ TEST_CASE("every level of a textured asset has its own texture by default") {
 }
 
 TEST_CASE("levels with a shared texture use one image and have the colours of the source") {
-    const Asset ball = painted_ball();
+    const Asset ball = ball_painted_along_z();
     Options options;
     options.bake.texture_size = 128;
     const std::vector<Level> goals = {ratio(0.5), ratio(0.25), of_diagonal(0.02), faces(80)};
@@ -156,8 +156,8 @@ TEST_CASE("levels with a shared texture use one image and have the colours of th
 }
 
 TEST_CASE("a level with a smaller error bound than the finest level is equal to it") {
-    const auto levels = simplify_levels(painted_ball(), {ratio(0.05), of_diagonal(0.0001), ratio(0.05)}, {},
-                                        LevelTextures::shared);
+    const auto levels = simplify_levels(
+        ball_painted_along_z(), {ratio(0.05), of_diagonal(0.0001), ratio(0.05)}, {}, LevelTextures::shared);
     REQUIRE(levels.size() == 3);
     CHECK(levels[0].error > 0);
     for (std::size_t i = 1; i < 3; ++i) {
@@ -169,9 +169,9 @@ TEST_CASE("a level with a smaller error bound than the finest level is equal to 
 }
 
 TEST_CASE("options incompatible with a shared texture are rejected") {
-    const Asset ball = painted_ball();
+    const Asset ball = ball_painted_along_z();
     const auto refused = [&](const Options& options) {
-        CHECK_THROWS_AS(simplify_levels(ball, wanted, options, LevelTextures::shared), OptionError);
+        CHECK_THROWS_AS(simplify_levels(ball, wanted_levels, options, LevelTextures::shared), OptionError);
     };
     for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none})
         refused({.bake = {.kind = kind}});
@@ -183,18 +183,18 @@ TEST_CASE("options incompatible with a shared texture are rejected") {
 
 TEST_CASE("cancelled levels of an asset have the stop reason cancelled") {
     Asset asset;
-    asset.parts = {waves(40, 0.2, 0), waves(40, 0.05, 2)};
+    asset.parts = {rolling_sheet(40, 0.2, 0), rolling_sheet(40, 0.05, 2)};
     Options options = plain();
     options.threads = 1;  // with more threads the number of callbacks depends on the time that they take
     for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
         if (textures == LevelTextures::shared) options.bake.kind = Bake::atlas;
         std::size_t calls = 0;
         options.progress = [&](Phase, double) { return ++calls, Continue::yes; };
-        simplify_levels(asset, wanted, options, textures);
+        simplify_levels(asset, wanted_levels, options, textures);
         for (const std::size_t stop : {std::size_t{0}, calls / 4, calls / 2, 3 * calls / 4, calls - 1}) {
             std::size_t left = stop;
             options.progress = [&](Phase, double) { return left-- > 0 ? Continue::yes : Continue::cancel; };
-            const auto levels = simplify_levels(asset, wanted, options, textures);
+            const auto levels = simplify_levels(asset, wanted_levels, options, textures);
             REQUIRE_FALSE(levels.empty());
             CHECK(levels.back().result.report.stop == StopReason::cancelled);
         }
@@ -203,9 +203,9 @@ TEST_CASE("cancelled levels of an asset have the stop reason cancelled") {
 
 TEST_CASE("progress of the levels of an asset never decreases within a phase") {
     Asset asset;
-    asset.parts = {waves(30, 0.2, 0), waves(30, 0.05, 2)};
+    asset.parts = {rolling_sheet(30, 0.2, 0), rolling_sheet(30, 0.05, 2)};
     const std::vector<std::vector<Level>> chains = {
-        {ratio(0.3)}, wanted, {ratio(0.5), of_diagonal(0.1), faces(20)}};
+        {ratio(0.3)}, wanted_levels, {ratio(0.5), of_diagonal(0.1), faces(20)}};
     for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
         for (const std::vector<Level>& chain : chains) {
             Options options;
@@ -233,7 +233,7 @@ TEST_CASE("progress of the levels of an asset never decreases within a phase") {
 
 TEST_CASE("invalid levels of an asset are rejected") {
     Asset asset;
-    asset.parts = {waves(4, 0.2, 0)};
+    asset.parts = {rolling_sheet(4, 0.2, 0)};
     CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1), ratio(0.5)}, plain()), OptionError);
     asset.parts[0].triangles[0][0] = 1000;
     CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1)}, plain()), InputError);

@@ -10,14 +10,15 @@ using detail::cost_weights;
 namespace {
 
 // An instance that is scaled along the axes. It is translated too, which must not affect the weights.
-Instance scaled(Index part, double x, double y, double z) {
+Instance scaled_instance(Index part, double x, double y, double z) {
     return {part, {x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 100, 200, 300, 1}};
 }
 
 }  // namespace
 
 TEST_CASE("cost weights are the fourth power of the scale summed over the instances") {
-    const std::vector<Instance> placed = {scaled(0, 1, 1, 1), scaled(1, 2, 2, 2), scaled(0, -2, 2, 2)};
+    const std::vector<Instance> placed = {scaled_instance(0, 1, 1, 1), scaled_instance(1, 2, 2, 2),
+                                          scaled_instance(0, -2, 2, 2)};
     CHECK(cost_weights(2, placed) == std::vector<double>{1 + 16, 16});
 }
 
@@ -29,7 +30,7 @@ TEST_CASE("cost weights do not depend on rotation") {
 }
 
 TEST_CASE("cost weights of flattened parts use the remaining axes and are 1 without size or instance") {
-    const std::vector<Instance> placed = {scaled(0, 3, 3, 0), scaled(1, 0, 0, 0)};
+    const std::vector<Instance> placed = {scaled_instance(0, 3, 3, 0), scaled_instance(1, 0, 0, 0)};
     const std::vector<double> weights = cost_weights(3, placed);
     CHECK(weights[0] == Approx(36));
     CHECK(weights[1] == 1);

@@ -12,7 +12,7 @@ using namespace faqem::test;
 namespace {
 
 // A wavy grid with 2 n^2 faces and waves of the given height, translated by `offset` along x.
-Part waves(Index n, double height, double offset) {
+Part wavy_grid(Index n, double height, double offset) {
     return sheet(n, [&](double i, double j) {
         const double x = i / n, y = j / n;
         return Vec3{x + offset, y, height * std::sin(9 * x) * std::cos(7 * y)};
@@ -32,7 +32,7 @@ Options within(MaxError error) {
 
 TEST_CASE("every part of an asset is within max_error and the report gives the distance") {
     Asset asset;
-    asset.parts = {waves(20, 0.2, 0), waves(16, 0.05, 2), Part{}};
+    asset.parts = {wavy_grid(20, 0.2, 0), wavy_grid(16, 0.05, 2), Part{}};
     const double allowed = 0.01;
     const SimplifiedParts simplified = simplify_parts(asset, within(model_units(allowed)));
     REQUIRE(simplified.parts.size() == 3);
@@ -58,7 +58,7 @@ TEST_CASE("every part of an asset is within max_error and the report gives the d
 
 TEST_CASE("max_error relative to the diagonal uses the diagonal of the scene") {
     Asset asset;
-    asset.parts = {waves(16, 0.2, 0), waves(12, 0.05, 2)};
+    asset.parts = {wavy_grid(16, 0.2, 0), wavy_grid(12, 0.05, 2)};
     Part all = asset.parts[0];
     for (Triangle t : asset.parts[1].triangles) {
         for (Index& v : t) v += static_cast<Index>(asset.parts[0].positions.size());
@@ -77,7 +77,7 @@ TEST_CASE("max_error relative to the diagonal uses the diagonal of the scene") {
 
 TEST_CASE("the result for a target face count is checked against max_error") {
     Asset asset;
-    asset.parts = {waves(16, 0.2, 0)};
+    asset.parts = {wavy_grid(16, 0.2, 0)};
     for (const double allowed : {1e-4, 1.0}) {
         Options options = within(model_units(allowed));
         options.target = faces(50);
@@ -92,7 +92,7 @@ TEST_CASE("the result for a target face count is checked against max_error") {
 
 TEST_CASE("an asset with a tiny max_error is not changed") {
     Asset asset;
-    asset.parts = {waves(8, 0.2, 0), square()};
+    asset.parts = {wavy_grid(8, 0.2, 0), square()};
     asset.parts[1].face_material.clear();
     const SimplifiedParts simplified = simplify_parts(asset, within(model_units(1e-12)));
     CHECK(simplified.parts[0].mesh.positions == asset.parts[0].positions);
@@ -102,7 +102,7 @@ TEST_CASE("an asset with a tiny max_error is not changed") {
 
 TEST_CASE("the error bound search for an asset reports progress and can be cancelled") {
     Asset asset;
-    asset.parts = {waves(32, 0.2, 0), waves(32, 0.1, 2)};
+    asset.parts = {wavy_grid(32, 0.2, 0), wavy_grid(32, 0.1, 2)};
     Options options = within(of_diagonal(0.005));
     double last = 0;
     std::size_t calls = 0;

@@ -46,7 +46,7 @@ void check_lit(const SimplifiedAsset& simplified, const Direction& expected) {
 }
 
 // A wavy surface that 2% of its faces cannot approximate well.
-Part waves(bool normals) {
+Part steep_waves(bool normals) {
     Part part = sheet(64, [](double x, double y) { return Vec3{x, y, 0.4 * std::sin(x) * std::cos(y)}; });
     for (const Vec3& p : part.positions) {
         const Direction n =
@@ -90,7 +90,7 @@ TEST_CASE("tangents of the source take precedence over computed ones") {
 
 TEST_CASE("a normal map from geometry restores the shading of removed faces") {
     Asset asset;
-    asset.parts = {waves(true)};
+    asset.parts = {steep_waves(true)};
     const SimplifiedAsset simplified = simplify(asset, with(NormalMap::on, 0.02));
     const Pixels map = normal_image(simplified);
     const Part& part = simplified.asset.parts[0];
@@ -112,7 +112,7 @@ TEST_CASE("a normal map from geometry restores the shading of removed faces") {
 
 TEST_CASE("automatic normal maps are made only if normals deviate") {
     Asset asset;
-    asset.parts = {waves(false)};
+    asset.parts = {steep_waves(false)};
     CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
     for (Vec3& p : asset.parts[0].positions) p[2] = 0;
     const SimplifiedAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));

@@ -15,7 +15,7 @@ void check(const Vec4f& got, const Vec4f& expected) {
 }
 
 // A square of two triangles at z = 0; u goes from u0 to u1 along x, and v from v0 to v1 along y.
-std::vector<TangentCorner> square(float u0, float u1, float v0, float v1) {
+std::vector<TangentCorner> mapped_square(float u0, float u1, float v0, float v1) {
     const auto corner = [&](float x, float y) {
         return TangentCorner{{x, y, 0}, {0, 0, 1}, {x > 0 ? u1 : u0, y > 0 ? v1 : v0}};
     };
@@ -25,9 +25,9 @@ std::vector<TangentCorner> square(float u0, float u1, float v0, float v1) {
 }  // namespace
 
 TEST_CASE("tangents are along u and w is the sign of the bitangent") {
-    for (const Vec4f& t : mikk_tangents(square(0, 1, 1, 0))) check(t, {1, 0, 0, 1});
-    for (const Vec4f& t : mikk_tangents(square(1, 0, 1, 0))) check(t, {-1, 0, 0, -1});
-    for (const Vec4f& t : mikk_tangents(square(0, 1, 0, 1))) check(t, {1, 0, 0, -1});
+    for (const Vec4f& t : mikk_tangents(mapped_square(0, 1, 1, 0))) check(t, {1, 0, 0, 1});
+    for (const Vec4f& t : mikk_tangents(mapped_square(1, 0, 1, 0))) check(t, {-1, 0, 0, -1});
+    for (const Vec4f& t : mikk_tangents(mapped_square(0, 1, 0, 1))) check(t, {1, 0, 0, -1});
 }
 
 TEST_CASE("tangents agree with the reference implementation on a curved fan") {
@@ -53,8 +53,8 @@ TEST_CASE("tangents agree with the reference implementation on a curved fan") {
 
 TEST_CASE("mirrored UVs have separate tangents along the mirror line") {
     // u increases from x = 0 in both directions.
-    std::vector<TangentCorner> corners = square(0, 1, 1, 0);
-    for (TangentCorner c : square(0, 1, 1, 0)) {
+    std::vector<TangentCorner> corners = mapped_square(0, 1, 1, 0);
+    for (TangentCorner c : mapped_square(0, 1, 1, 0)) {
         c.position[0] = -c.position[0];
         corners.push_back(c);
     }
@@ -66,7 +66,7 @@ TEST_CASE("mirrored UVs have separate tangents along the mirror line") {
 }
 
 TEST_CASE("triangles without UV area use a neighbour's tangent or any perpendicular to the normal") {
-    std::vector<TangentCorner> corners = square(0, 1, 1, 0);
+    std::vector<TangentCorner> corners = mapped_square(0, 1, 1, 0);
     corners[5].uv = corners[3].uv;  // the UVs of the second triangle are collinear now
     corners[5].position = {0.5f, 1, 0};
     const std::vector<Vec4f> got = mikk_tangents(corners);
@@ -85,7 +85,7 @@ TEST_CASE("triangles without UV area use a neighbour's tangent or any perpendicu
 }
 
 TEST_CASE("degenerate triangles use the tangents at their vertices") {
-    std::vector<TangentCorner> corners = square(1, 0, 1, 0);
+    std::vector<TangentCorner> corners = mapped_square(1, 0, 1, 0);
     corners.insert(corners.end(), {corners[0], corners[0], corners[1]});
     const std::vector<Vec4f> got = mikk_tangents(corners);
     for (std::size_t c = 6; c < 9; ++c) check(got[c], {-1, 0, 0, -1});

@@ -13,16 +13,15 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
 /// Parses the output lines of a batch. \return the lines by path of their model
-std::map<std::string, Json> lines_of(const Outcome& outcome) {
-    std::map<std::string, Json> lines;
+std::map<std::string, nlohmann::json> lines_of(const Outcome& outcome) {
+    std::map<std::string, nlohmann::json> lines;
     std::istringstream in(outcome.out);
     for (std::string line; std::getline(in, line);) {
-        const Json json = Json::parse(line);
+        const nlohmann::json json = nlohmann::json::parse(line);
         lines[json["path"]] = json;
     }
     return lines;
@@ -62,7 +61,7 @@ TEST_CASE("batch writes the same bytes as simplify for every model of a director
     for (const auto& [in, out] : std::map<std::string, std::string>{
              {"a.glb", "a.glb"}, {"sub/b.obj", "sub/b.glb"}, {"sub/c.ply", "sub/c.glb"}}) {
         CAPTURE(in);
-        const Json& line = lines.at(in);
+        const nlohmann::json& line = lines.at(in);
         CHECK(line["result"] == out);
         CHECK(line["status"] == "done");
         CHECK(line["code"] == 0);

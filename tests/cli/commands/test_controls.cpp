@@ -6,7 +6,6 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -24,10 +23,10 @@ faqem::Asset sheet_with_small_component() {
     return asset;
 }
 
-Json report_of(const Folder& folder, const std::string& arguments) {
+nlohmann::json report_of(const Folder& folder, const std::string& arguments) {
     const Outcome outcome = run(folder, "simplify " + arguments + " --bake none --force --report r.json");
     REQUIRE(outcome.code == 0);
-    return Json::parse(read(folder / "r.json"));
+    return nlohmann::json::parse(read(folder / "r.json"));
 }
 
 }  // namespace
@@ -37,7 +36,7 @@ TEST_CASE("simplify --prune deletes small components by model units or relative 
     faqem::save(sheet_with_small_component(), folder / "in.gltf");
     for (const char* size : {"0.015", "1%"}) {
         CAPTURE(size);
-        const Json report = report_of(folder, std::string("in.gltf out.glb --prune ") + size);
+        const nlohmann::json report = report_of(folder, std::string("in.gltf out.glb --prune ") + size);
         CHECK(report["components_pruned"] == 1);
         CHECK(report["faces_pruned"] == 1);
         CHECK(report["faces_in"] == 801);
@@ -53,7 +52,7 @@ TEST_CASE("simplify --prune deletes small components by model units or relative 
 TEST_CASE("simplify --prune measures components at the largest scale of their mesh in the scene") {
     const Folder folder;
     faqem::save(sheet_with_small_component(), folder / "small.gltf");
-    Json scene = Json::parse(read(folder / "small.gltf"));
+    nlohmann::json scene = nlohmann::json::parse(read(folder / "small.gltf"));
     const std::size_t node = scene["scenes"][0]["nodes"][0];
     scene["nodes"][node]["scale"] = {8, 8, 8};
     write(folder / "large.gltf", scene.dump());
@@ -89,7 +88,8 @@ TEST_CASE("simplify --keep-groups preserves boundaries between materials") {
     for (const char* file : {"in.glb", "in.obj"}) {
         CAPTURE(file);
         faqem::save(asset, folder / file);
-        const Json kept = report_of(folder, std::string(file) + " kept.obj --ratio 0.02 --keep-groups");
+        const nlohmann::json kept =
+            report_of(folder, std::string(file) + " kept.obj --ratio 0.02 --keep-groups");
         CHECK(kept["refusals"]["group"] > 0);
         CHECK(kept["stop_reason"] == "reached_target");
         const faqem::Asset simplified = faqem::load(folder / "kept.obj");

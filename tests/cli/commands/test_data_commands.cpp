@@ -4,16 +4,15 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 TEST_CASE("info prints counts and measures of meshes and images") {
     const Folder folder;
     faqem::save(sheet(5, 0), folder / "in.glb");
     const Outcome outcome = run(folder, "info in.glb --json");
     REQUIRE(outcome.code == 0);
-    const Json info = Json::parse(outcome.out);
+    const nlohmann::json info = nlohmann::json::parse(outcome.out);
     REQUIRE(info["parts"].size() == 1);
-    const Json& part = info["parts"][0];
+    const nlohmann::json& part = info["parts"][0];
     CHECK(part["name"] == "sheet");
     CHECK(part["faces"] == 50);
     CHECK(part["vertices"] == 36);
@@ -22,7 +21,7 @@ TEST_CASE("info prints counts and measures of meshes and images") {
     CHECK(part["nonmanifold_edges"] == 0);
     CHECK(part["uv_sets"] == 1);
     CHECK(part["area"].get<double>() == Approx(4));
-    CHECK(part["box_min"] == Json({-1.0, -1.0, 0.0}));
+    CHECK(part["box_min"] == nlohmann::json({-1.0, -1.0, 0.0}));
     CHECK(info["total"]["faces"] == 50);
     CHECK(info["materials"] == 1);
     CHECK(info["instances"] == 1);
@@ -46,7 +45,7 @@ TEST_CASE("compare prints two-sided distances and the settings of the measuremen
     faqem::save(b, folder / "b.stl");
     const Outcome outcome = run(folder, "compare a.glb b.stl --samples 1000 --seed 7 --threads 2");
     REQUIRE(outcome.code == 0);
-    const Json result = Json::parse(outcome.out);
+    const nlohmann::json result = nlohmann::json::parse(outcome.out);
     CHECK(result["hausdorff"].get<double>() == Approx(0.5));
     CHECK(result["chamfer"].get<double>() == Approx(0.5));
     CHECK(result["diagonal"].get<double>() == Approx(std::sqrt(8.0)));
@@ -77,8 +76,9 @@ TEST_CASE("compare measures colour differences if both models have colours") {
     faqem::save(sheet, folder / "bare.stl");
 
     // The red half of the sheet differs from blue by 1 in two of three channels.
-    const Json result = Json::parse(run(folder, "compare sheet.glb blue.glb --samples 10000").out);
-    const Json& colors = result["colors"];
+    const nlohmann::json result =
+        nlohmann::json::parse(run(folder, "compare sheet.glb blue.glb --samples 10000").out);
+    const nlohmann::json& colors = result["colors"];
     CHECK(colors["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
     CHECK(colors["psnr"].get<double>() == Approx(10 * std::log10(3)).epsilon(0.02));
     CHECK(colors["a_to_b"]["outliers"].get<double>() == Approx(0.5).epsilon(0.04));
@@ -86,10 +86,12 @@ TEST_CASE("compare measures colour differences if both models have colours") {
     CHECK(colors["b_to_a"]["unmatched"] == 0);
     CHECK(colors["b_to_a"]["hidden"] == 0);
 
-    const Json same = Json::parse(run(folder, "compare blue.glb blue.glb --samples 1000").out);
+    const nlohmann::json same =
+        nlohmann::json::parse(run(folder, "compare blue.glb blue.glb --samples 1000").out);
     CHECK(same["colors"]["rmse"] == 0);
     CHECK(same["colors"]["psnr"].is_null());
-    CHECK(Json::parse(run(folder, "compare sheet.glb bare.stl --samples 1000").out)["colors"].is_null());
+    CHECK(nlohmann::json::parse(run(folder, "compare sheet.glb bare.stl --samples 1000").out)["colors"]
+              .is_null());
 }
 
 TEST_CASE("compare measures distances even if an image cannot be read") {
@@ -99,8 +101,8 @@ TEST_CASE("compare measures distances even if an image cannot be read") {
     faqem::save(asset, folder / "broken.glb");
     const Outcome outcome = run(folder, "compare broken.glb broken.glb --samples 1000");
     REQUIRE(outcome.code == 0);
-    CHECK(Json::parse(outcome.out)["colors"].is_null());
-    CHECK(Json::parse(outcome.out)["hausdorff"].get<double>() < 1e-12);
+    CHECK(nlohmann::json::parse(outcome.out)["colors"].is_null());
+    CHECK(nlohmann::json::parse(outcome.out)["hausdorff"].get<double>() < 1e-12);
     CHECK(outcome.err.find("warning: colours are not compared") != std::string::npos);
 }
 
@@ -118,12 +120,12 @@ TEST_CASE("compare transforms instances by their nodes") {
     write(folder / "two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 10 0 0\nv 9 0 0\nv 10 1 0\nf 1 2 3\nf 4 6 5\n");
     const Outcome outcome = run(folder, "compare two.gltf two.obj --samples 1000");
     REQUIRE(outcome.code == 0);
-    const Json result = Json::parse(outcome.out);
+    const nlohmann::json result = nlohmann::json::parse(outcome.out);
     CHECK(result["hausdorff"].get<double>() < 1e-6);
     CHECK(result["mean_normal_degrees"].get<double>() < 1e-3);
     CHECK(result["info_a"]["faces"] == 2);
 
-    const Json info = Json::parse(run(folder, "info two.gltf --json").out);
+    const nlohmann::json info = nlohmann::json::parse(run(folder, "info two.gltf --json").out);
     CHECK(info["parts"].size() == 1);
     CHECK(info["parts"][0]["instances"] == 2);
     CHECK(info["instances"] == 2);

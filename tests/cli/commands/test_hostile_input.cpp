@@ -7,7 +7,6 @@
 using namespace tool_test;
 using faqem::testing::contains;
 using faqem::testing::GltfBuilder;
-using faqem::testing::Json;
 using faqem::testing::square_gltf;
 
 namespace {
@@ -77,18 +76,19 @@ TEST_CASE("hostile: counts and offsets near 2^62 and 2^64 are rejected") {
 
 TEST_CASE("hostile: node graphs with cycles or nodes with two parents are rejected") {
     GltfBuilder builder = square_gltf();
-    builder.json["nodes"] = Json::parse(R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[0]}])");
-    builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
+    builder.json["nodes"] =
+        nlohmann::json::parse(R"([{"mesh":0,"children":[1]},{"children":[2]},{"children":[0]}])");
+    builder.json["scenes"] = nlohmann::json::parse(R"([{"nodes":[0]}])");
     check_refused(builder, {"/nodes/", "its own ancestor"});
-    builder.json["nodes"] = Json::parse(R"([{"mesh":0,"children":[2]},{"children":[2]},{}])");
+    builder.json["nodes"] = nlohmann::json::parse(R"([{"mesh":0,"children":[2]},{"children":[2]},{}])");
     check_refused(builder, {"/nodes/2", "two parents"});
 }
 
 TEST_CASE("hostile: node transforms that overflow are rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"] =
-        Json::parse(R"([{"scale":[1e200,1,1],"children":[1]},{"scale":[1e200,1,1],"mesh":0}])");
-    builder.json["scenes"] = Json::parse(R"([{"nodes":[0]}])");
+        nlohmann::json::parse(R"([{"scale":[1e200,1,1],"children":[1]},{"scale":[1e200,1,1],"mesh":0}])");
+    builder.json["scenes"] = nlohmann::json::parse(R"([{"nodes":[0]}])");
     check_refused(builder, {"/meshes/0", "out of the range of double"});
 }
 
@@ -102,8 +102,9 @@ TEST_CASE("hostile: an image whose header has more pixels than its bytes can enc
     bytes.resize(200);
     const auto view = builder.view(bytes);
     builder.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
-    builder.json["textures"] = Json::parse(R"([{"source":0}])");
-    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
+    builder.json["textures"] = nlohmann::json::parse(R"([{"source":0}])");
+    builder.json["materials"] =
+        nlohmann::json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
     builder.json["meshes"][0]["primitives"][0]["material"] = 0;
     const auto uvs = builder.accessor(std::vector<faqem::Vec2f>(4), faqem::testing::f32, "VEC2");
     builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uvs;

@@ -5,8 +5,10 @@
 
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
+#include "support/format_support.hpp"
 
 using namespace tool_test;
+using faqem::testing::contains;
 using Json = nlohmann::json;
 
 namespace {
@@ -19,10 +21,6 @@ std::map<std::string, std::string> contents(const Folder& folder) {
     for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
         files[entry.path()] = entry.is_regular_file() ? read(entry.path()) : "";
     return files;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 /// Checks that a command exits with 7, names the output and the input, and changes no file.

@@ -11,11 +11,12 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
-Json manifest(const Folder& folder, const std::string& name) { return Json::parse(read(folder / name)); }
+nlohmann::json manifest(const Folder& folder, const std::string& name) {
+    return nlohmann::json::parse(read(folder / name));
+}
 
 std::size_t faces(const fs::path& file) { return faqem::load(file).parts.at(0).triangles.size(); }
 
@@ -31,14 +32,14 @@ TEST_CASE("lod writes the original, one model per level and a manifest") {
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     CHECK(outcome.out.find("hill_LOD3.glb: ") != std::string::npos);
-    const Json json = manifest(folder, "out/hill_LOD.json");
+    const nlohmann::json json = manifest(folder, "out/hill_LOD.json");
     REQUIRE(json["levels"].size() == 4);
     CHECK(json["source"] == "hill.glb");
     const faqem::Asset original = faqem::load(folder / "hill.glb");
     const faqem::MeshView before{original.parts[0].positions, original.parts[0].triangles};
     double last_error = 0, last_distance = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const Json& level = json["levels"][i];
+        const nlohmann::json& level = json["levels"][i];
         const std::string file = "hill_LOD" + std::to_string(i) + ".glb";
         CHECK(level["file"] == file);
         CHECK(level["faces"] == faces(folder / ("out/" + file)));
@@ -66,7 +67,7 @@ TEST_CASE("lod --without-original writes the first level as LOD0") {
     CHECK(close_to(faces(folder / "a_LOD0.ply"), 400));
     CHECK(faces(folder / "a_LOD1.ply") < 400);
     CHECK_FALSE(fs::exists(folder / "a_LOD2.ply"));
-    const Json json = manifest(folder, "a_LOD.json");
+    const nlohmann::json json = manifest(folder, "a_LOD.json");
     CHECK(json["levels"][1]["error"] <= json["levels"][1]["report"]["max_error"]["allowed"]);
 }
 
@@ -161,13 +162,13 @@ TEST_CASE("lod --one-file writes all levels to one file whose scene has the fine
     const std::string bytes = read(folder / "one/hill_LOD.glb");
     std::uint32_t length = 0;  // of the first chunk, which is the JSON
     std::memcpy(&length, bytes.data() + 12, 4);
-    const Json gltf = Json::parse(bytes.substr(20, length));
-    const Json& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
+    const nlohmann::json gltf = nlohmann::json::parse(bytes.substr(20, length));
+    const nlohmann::json& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
     CHECK(gltf["extensionsUsed"].dump().find("MSFT_lod") != std::string::npos);
-    const Json& ids = node["extensions"]["MSFT_lod"]["ids"];
+    const nlohmann::json& ids = node["extensions"]["MSFT_lod"]["ids"];
     REQUIRE(ids.size() == 2);
-    const Json json = manifest(folder, "one/hill_LOD.json");
-    const Json& coverage = node["extras"]["MSFT_screencoverage"];
+    const nlohmann::json json = manifest(folder, "one/hill_LOD.json");
+    const nlohmann::json& coverage = node["extras"]["MSFT_screencoverage"];
     REQUIRE(coverage.size() == 3);
     CHECK(coverage[2] == 0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -207,7 +208,7 @@ TEST_CASE("lod meets error levels given in pixels at a distance") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     REQUIRE(run(folder, "lod a.glb out --levels pixels:1@2,pixels:1@20 --bake none --quiet").code == 0);
-    const Json json = manifest(folder, "out/a_LOD.json");
+    const nlohmann::json json = manifest(folder, "out/a_LOD.json");
     CHECK(json["levels"][1]["switch_distance"] <= 2);
     CHECK(json["levels"][2]["switch_distance"] <= 20);
     CHECK(json["levels"][2]["switch_distance"] > 2);
@@ -218,7 +219,7 @@ TEST_CASE("levels with --bake keep share the original image in one file") {
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     REQUIRE(run(folder, "lod a.glb out --levels 0.5,0.1 --bake keep --one-file --quiet").code == 0);
     const std::string bytes = read(folder / "out/a_LOD.glb");
-    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
     CHECK(document["images"].size() == 1);
     CHECK(document["meshes"].size() == 3);
 }
@@ -230,7 +231,7 @@ TEST_CASE("levels with --textures shared share a new texture, stored once in one
         " --levels 0.5,0.1 --textures shared --texture-size 128 --normal-map off --quiet";
     REQUIRE(run(folder, "lod a.glb one --without-original --one-file" + options).code == 0);
     const std::string bytes = read(folder / "one/a_LOD.glb");
-    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
+    const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
     CHECK(document["images"].size() == 1);
     CHECK(document["meshes"].size() == 2);
 
@@ -238,7 +239,7 @@ TEST_CASE("levels with --textures shared share a new texture, stored once in one
     const auto image = [&](const char* name) { return faqem::load(folder / name).images.at(0).encoded; };
     CHECK(image("many/a_LOD1.glb") == image("many/a_LOD2.glb"));
     CHECK(image("many/a_LOD0.glb") != image("many/a_LOD1.glb"));
-    const Json json = manifest(folder, "many/a_LOD.json");
+    const nlohmann::json json = manifest(folder, "many/a_LOD.json");
     CHECK(json["levels"][2]["report"]["faces_in"] == 800);
     CHECK(json["levels"][2]["error"] > json["levels"][1]["error"]);
 

@@ -6,7 +6,6 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -23,9 +22,9 @@ TEST_CASE("simplify --max-error finds the smallest model within the distance and
     CHECK(outcome.err.empty());
     CHECK(outcome.out.find("reached_max_error") != std::string::npos);
     CHECK(outcome.out.find("allowed 0.01") != std::string::npos);
-    const Json report = Json::parse(read(folder / "r.json"));
+    const nlohmann::json report = nlohmann::json::parse(read(folder / "r.json"));
     CHECK(report["stop_reason"] == "reached_max_error");
-    const Json& error = report["max_error"];
+    const nlohmann::json& error = report["max_error"];
     CHECK(error["allowed"] == 0.01);
     CHECK(error["within"] == true);
     CHECK(error["value"] <= error["bound"]);
@@ -41,7 +40,7 @@ TEST_CASE("simplify --max-error finds the smallest model within the distance and
 TEST_CASE("simplify --max-error in percent is relative to the diagonal of the transformed scene") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "small.gltf");
-    Json scene = Json::parse(read(folder / "small.gltf"));
+    nlohmann::json scene = nlohmann::json::parse(read(folder / "small.gltf"));
     const std::size_t node = scene["scenes"][0]["nodes"][0];
     scene["nodes"][node]["scale"] = {8, 8, 8};
     write(folder / "large.gltf", scene.dump());
@@ -49,9 +48,9 @@ TEST_CASE("simplify --max-error in percent is relative to the diagonal of the tr
         const Outcome outcome = run(
             folder, "simplify " + in + " out.glb --bake none --force --report r.json --max-error " + error);
         REQUIRE(outcome.code == 0);
-        return Json::parse(read(folder / "r.json"));
+        return nlohmann::json::parse(read(folder / "r.json"));
     };
-    const Json small = report("small.gltf", "0.5%"), large = report("large.gltf", "0.5%");
+    const nlohmann::json small = report("small.gltf", "0.5%"), large = report("large.gltf", "0.5%");
     CHECK(small["faces_out"] < 576);
     CHECK(large["faces_out"] == small["faces_out"]);
     CHECK(large["max_error"]["allowed"].get<double>() ==
@@ -76,7 +75,7 @@ TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no mode
         CHECK(refused.code == 6);
         CHECK(refused.err.find("max error exceeded") != std::string::npos);
         CHECK(!fs::exists(folder / "out.glb"));
-        const Json report = Json::parse(read(folder / "r.json"));
+        const nlohmann::json report = nlohmann::json::parse(read(folder / "r.json"));
         CHECK(report["max_error"]["within"] == false);
         CHECK(report["max_error"]["bound"] > 0.001);
         CHECK(report["stop_reason"] == "reached_target");

@@ -10,8 +10,10 @@
 
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
+#include "support/format_support.hpp"
 
 using namespace tool_test;
+using faqem::testing::contains;
 
 namespace {
 
@@ -19,10 +21,6 @@ std::set<std::string> names_in(const Folder& folder) {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder.path())) names.insert(entry.path().filename());
     return names;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 /// As run(), but the shell executes `before` first.

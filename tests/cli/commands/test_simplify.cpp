@@ -11,7 +11,6 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -44,7 +43,7 @@ TEST_CASE("simplify writes a simplified model, a report and a summary") {
     CHECK(!simplified.images.empty());
     CHECK(files_in(folder) == 3);
 
-    const Json report = Json::parse(read(folder / "r.json"));
+    const nlohmann::json report = nlohmann::json::parse(read(folder / "r.json"));
     for (const char* key : {"preset", "faces_in", "faces_out", "vertices_in", "vertices_out", "target_faces",
                             "stop_reason", "refusals", "warnings", "seconds", "peak_rss_bytes"}) {
         CAPTURE(key);
@@ -82,7 +81,7 @@ TEST_CASE("simplify --bake auto adapts to the output format and to sources witho
         CAPTURE(files);
         const Outcome outcome = run(folder, "simplify " + files + " --ratio 0.5 --report r.json --force");
         CHECK(outcome.code == 0);
-        return Json::parse(read(folder / "r.json"))["pages"].size();
+        return nlohmann::json::parse(read(folder / "r.json"))["pages"].size();
     };
     CHECK(pages("bare.ply bare.glb --normal-map on") == 1);
     CHECK(pages("bare.ply out.ply --normal-map on") == 0);
@@ -152,7 +151,7 @@ TEST_CASE("baking options determine maps and image format and the report describ
     CHECK(simplified.materials.at(0).normal_texture);
     CHECK(!simplified.parts.at(0).tangents.empty());
     for (const faqem::Image& image : simplified.images) CHECK(image.mime_type == "image/jpeg");
-    const Json pages = Json::parse(read(folder / "r.json"))["pages"];
+    const nlohmann::json pages = nlohmann::json::parse(read(folder / "r.json"))["pages"];
     REQUIRE(pages.size() == 1);
     for (const char* key :
          {"material", "width", "height", "fill", "density", "samples", "uncertain_texels"}) {
@@ -207,7 +206,7 @@ TEST_CASE("a missed target is an error only with --strict-target, and then no mo
     const std::string common =
         "simplify in.glb out.glb --faces 10 --lock-boundary --bake none --report r.json ";
     CHECK(run(folder, common).code == 0);
-    CHECK(Json::parse(read(folder / "r.json"))["stop_reason"] == "no_legal_collapse");
+    CHECK(nlohmann::json::parse(read(folder / "r.json"))["stop_reason"] == "no_legal_collapse");
     CHECK(face_count(faqem::load(folder / "out.glb")) > 10);
 
     fs::remove(folder / "out.glb");
@@ -215,7 +214,7 @@ TEST_CASE("a missed target is an error only with --strict-target, and then no mo
     CHECK(strict.code == 5);
     CHECK(!strict.err.empty());
     CHECK(!fs::exists(folder / "out.glb"));
-    CHECK(Json::parse(read(folder / "r.json"))["faces_out"] > 10);
+    CHECK(nlohmann::json::parse(read(folder / "r.json"))["faces_out"] > 10);
     CHECK(run(folder, "simplify in.glb ok.glb --ratio 1 --lock-boundary --bake none --strict-target").code ==
           0);
 }

@@ -5,12 +5,11 @@
 #include "support/cli_support.hpp"
 
 using namespace tool_test;
-using Json = nlohmann::json;
 
 namespace {
 
 std::string faces_of_level(const Folder& folder, const std::string& manifest, std::size_t level) {
-    const Json json = Json::parse(read(folder / manifest));
+    const nlohmann::json json = nlohmann::json::parse(read(folder / manifest));
     return std::to_string(json["levels"].at(level)["report"]["faces_out"].get<int>());
 }
 

@@ -10,7 +10,6 @@
 
 using namespace faqem::cli;
 using namespace tool_test;
-using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 namespace {
@@ -120,7 +119,7 @@ TEST_CASE("a profile that is missing or not a JSON object is bad input") {
 }
 
 TEST_CASE("the profile schema has exactly the options of simplify, lod and batch") {
-    const Json schema = Json::parse(read(fs::path(source_path) / "docs/profile.schema.json"));
+    const nlohmann::json schema = nlohmann::json::parse(read(fs::path(source_path) / "docs/profile.schema.json"));
     std::set<std::string> known, described = {"$schema", "faqem-profile"};
     for (const auto& [key, value] : schema["properties"].items()) known.insert(key);
     for (const CommandInfo& command : tree().commands) {

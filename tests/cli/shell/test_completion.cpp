@@ -35,20 +35,20 @@ std::set<std::string> in_bash(const std::string& words, int last) {
     return lines;
 }
 
-using Words = std::set<std::string>;
+using WordSet = std::set<std::string>;
 
 }  // namespace
 
 TEST_CASE("bash completes commands, options and values") {
-    CHECK(in_bash("''", 1) == Words{"simplify", "lod", "truncate", "batch", "info", "compare", "render",
-                                    "report", "completion", "man"});
-    CHECK(in_bash("co", 1) == Words{"compare", "completion"});
-    CHECK(in_bash("--v", 1) == Words{"--version"});
-    CHECK(in_bash("simplify a.glb --textu", 3) == Words{"--texture-size"});
-    CHECK(in_bash("info --", 2) == Words{"--help", "--json"});
-    CHECK(in_bash("simplify --preset ''", 3) == Words{"qem", "paper", "stmw", "fast", "balanced", "best"});
-    CHECK(in_bash("batch models simplified --format g", 5) == Words{"glb", "gltf"});
-    CHECK(in_bash("completion ''", 2) == Words{"bash", "zsh"});
+    CHECK(in_bash("''", 1) == WordSet{"simplify", "lod", "truncate", "batch", "info", "compare", "render",
+                                      "report", "completion", "man"});
+    CHECK(in_bash("co", 1) == WordSet{"compare", "completion"});
+    CHECK(in_bash("--v", 1) == WordSet{"--version"});
+    CHECK(in_bash("simplify a.glb --textu", 3) == WordSet{"--texture-size"});
+    CHECK(in_bash("info --", 2) == WordSet{"--help", "--json"});
+    CHECK(in_bash("simplify --preset ''", 3) == WordSet{"qem", "paper", "stmw", "fast", "balanced", "best"});
+    CHECK(in_bash("batch models simplified --format g", 5) == WordSet{"glb", "gltf"});
+    CHECK(in_bash("completion ''", 2) == WordSet{"bash", "zsh"});
 }
 
 TEST_CASE("bash completion offers no words for file names") {
@@ -67,10 +67,10 @@ TEST_CASE("zsh completes commands, options and values") {
     const std::string beginning =
         "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
         "source ./_faqem\n";
-    const Words commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
+    const WordSet commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
     CHECK(commands.size() == 10);
     CHECK(commands.count("info:Count and measure the contents of a file"));
-    const Words options =
+    const WordSet options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
     CHECK(options.count(
         "--budget[How the faces are distributed among the meshes of a scene\\: scene (by error, default), "

@@ -10,8 +10,8 @@ using namespace faqem::engine;
 
 namespace {
 
-struct Bench {
-    explicit Bench(const TriangleMesh& mesh)
+struct LoopsBench {
+    explicit LoopsBench(const TriangleMesh& mesh)
         : collapse_mesh(test::collapse_mesh_of(mesh)),
           pairs(collapse_mesh, {}),
           loops(collapse_mesh, pairs) {}
@@ -50,7 +50,7 @@ TEST_CASE("boundary loops: the error of closing a hole is its distance to the ou
     const TriangleMesh ring =
         test::make({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}},
                    {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}});
-    Bench bench(ring);
+    LoopsBench bench(ring);
     CHECK(bench.squared_distance(3, 4) == Approx(4.5));  // from 3 to 0
     CHECK(bench.squared_distance(0, 3) == 0);            // the two loops are merged
     CHECK(bench.squared_distance(1, 4) == 0);
@@ -64,14 +64,14 @@ TEST_CASE("boundary loops: a hole of four edges does not vanish with its first c
     // The middle square of 3 x 3 is missing.
     TriangleMesh frame = test::grid(3);
     frame.triangles.erase(frame.triangles.begin() + 8, frame.triangles.begin() + 10);
-    Bench bench(frame);
+    LoopsBench bench(frame);
     CHECK(bench.squared_distance(5, 6) == 0);
     bench.collapse(5, 6);
     CHECK(bench.squared_distance(5, 10) > 0);
 }
 
 TEST_CASE("boundary loops: the distances of loops that vanish one after the other add up") {
-    Bench bench(test::both(test::both(triangle_at(0), triangle_at(1)), triangle_at(3)));
+    LoopsBench bench(test::both(test::both(triangle_at(0), triangle_at(1)), triangle_at(3)));
     CHECK(bench.squared_distance(0, 1) == Approx(1));
     CHECK(bench.squared_distance(3, 4) == Approx(1));
     CHECK(bench.squared_distance(6, 7) == Approx(4));
@@ -88,14 +88,14 @@ TEST_CASE("boundary loops: removing two back-to-back faces at a non-manifold edg
     TriangleMesh flaps =
         test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                    {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}});
-    Bench bench(flaps);
+    LoopsBench bench(flaps);
     CHECK(bench.squared_distance(0, 3) == Approx(3));  // there is no loop yet: the diagonal
     bench.collapse(0, 3);
     CHECK(bench.squared_distance(1, 4) == 0);  // adjacent to the loop that was started
 }
 
 TEST_CASE("boundary loops: collapses of a closed surface have no error") {
-    Bench bench(test::icosphere(1));
+    LoopsBench bench(test::icosphere(1));
     for (Index pair = 0; pair < bench.pairs.size(); ++pair) {
         CHECK(bench.squared_distance(bench.pairs.first(pair), bench.pairs.second(pair)) == 0);
     }

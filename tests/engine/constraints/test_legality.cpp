@@ -8,6 +8,7 @@
 
 using namespace faqem;
 using namespace faqem::engine;
+using test::hinge;
 
 namespace {
 
@@ -34,11 +35,6 @@ TriangleMesh octahedron() {
     return test::make(
         {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
         {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
-}
-
-// Triangle 0 1 2 is kept when vertices 2 and 3 are merged.
-TriangleMesh hinge() {
-    return test::make({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
 }
 
 using Link = std::pair<std::set<Index>, std::set<std::pair<Index, Index>>>;

@@ -7,18 +7,17 @@
 
 using namespace faqem;
 using namespace faqem::engine;
+using test::removed_face;
 
 namespace {
-
-constexpr Triangle dead = {no_index, no_index, no_index};
 
 // Compares all queries of the mesh with a plain list of triangles.
 bool agrees(const CollapseMesh& collapse_mesh, const std::vector<Triangle>& expected) {
     std::size_t living = 0;
     std::vector<std::set<std::pair<Index, unsigned>>> corners(collapse_mesh.vertex_slots());
     for (Index f = 0; f < expected.size(); ++f) {
-        if (collapse_mesh.is_alive(f) != (expected[f] != dead)) return false;
-        if (expected[f] == dead) continue;
+        if (collapse_mesh.is_alive(f) != (expected[f] != removed_face)) return false;
+        if (expected[f] == removed_face) continue;
         if (collapse_mesh.triangle(f) != expected[f]) return false;
         ++living;
         for (unsigned c = 0; c < 3; ++c) corners[expected[f][c]].insert({f, c});
@@ -36,7 +35,7 @@ bool agrees(const CollapseMesh& collapse_mesh, const std::vector<Triangle>& expe
 void naive_collapse(std::vector<Triangle>& triangles, Index survivor, Index removed) {
     for (Triangle& t : triangles) {
         std::replace(t.begin(), t.end(), removed, survivor);
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dead;
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = removed_face;
     }
 }
 
@@ -44,7 +43,7 @@ void naive_collapse(std::vector<Triangle>& triangles, Index survivor, Index remo
 
 TEST_CASE("a collapse mesh lists the corners of each vertex without removed faces") {
     TriangleMesh mesh = test::tetrahedron();
-    mesh.triangles.push_back(dead);
+    mesh.triangles.push_back(removed_face);
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(mesh);
     CHECK(agrees(collapse_mesh, mesh.triangles));
     CHECK(collapse_mesh.face_count() == 4);
@@ -97,7 +96,7 @@ TEST_CASE("a collapse moves the survivor, reattaches faces and removes the share
     CHECK(collapse_mesh.collapse(2, 1, {5, 6, 7}) == 1);
     CHECK(collapse_mesh.position(2) == Vector3(5, 6, 7));
     CHECK(collapse_mesh.degree(1) == 0);
-    CHECK(agrees(collapse_mesh, {dead, {0, 2, 3}}));
+    CHECK(agrees(collapse_mesh, {removed_face, {0, 2, 3}}));
 }
 
 TEST_CASE("after collapses and removals the mesh agrees with a plain list of triangles") {
@@ -113,7 +112,7 @@ TEST_CASE("after collapses and removals the mesh agrees with a plain list of tri
             if (random.unit() < 0.1) {
                 const Index f = random.below(mesh.triangles.size());
                 if (collapse_mesh.is_alive(f)) collapse_mesh.remove_face(f);
-                mesh.triangles[f] = dead;
+                mesh.triangles[f] = removed_face;
             } else if (u != v && !removed.count(u) && !removed.count(v)) {
                 const std::size_t before = collapse_mesh.face_count();
                 naive_collapse(mesh.triangles, u, v);

@@ -8,12 +8,10 @@
 
 using namespace faqem;
 using namespace faqem::engine;
+using test::Ends;
+using test::ends;
 
 namespace {
-
-using Ends = std::pair<Index, Index>;
-
-Ends ends(Index a, Index b) { return std::minmax(a, b); }
 
 // Expected pairs by their vertices: the face count, and whether the pair is virtual.
 struct Expected {

@@ -12,7 +12,7 @@ namespace {
 
 using Indices = std::vector<Index>;
 
-double distance(const Vec3& a, const Vec3& b) {
+double vertex_distance(const Vec3& a, const Vec3& b) {
     const Vec3 d = test::minus(a, b);
     return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
@@ -26,7 +26,7 @@ Indices naive(const std::vector<Vec3>& positions, double reach) {
             if (positions[w] == positions[v]) found = result[w];
         }
         for (Index w = 0; w < v && found == v; ++w) {
-            if (result[w] == w && distance(positions[v], positions[w]) <= reach) found = w;
+            if (result[w] == w && vertex_distance(positions[v], positions[w]) <= reach) found = w;
         }
         result.push_back(found);
     }

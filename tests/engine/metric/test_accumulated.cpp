@@ -12,7 +12,7 @@ namespace {
 const double root2 = std::sqrt(2.0);
 
 // Weights of Table 1 of the paper, for a mesh in engine units.
-CompositeWeights paper() {
+CompositeWeights paper_weights() {
     CompositeWeights w;
     w.base = BaseWeight::inverse_area;
     w.boundary = 500;
@@ -22,8 +22,9 @@ CompositeWeights paper() {
     return w;
 }
 
-struct Bench {
-    Bench(const TriangleMesh& mesh, const CompositeWeights& weights, std::vector<std::uint8_t> seams = {})
+struct MetricBench {
+    MetricBench(const TriangleMesh& mesh, const CompositeWeights& weights,
+                std::vector<std::uint8_t> seams = {})
         : collapse_mesh(test::collapse_mesh_of(mesh)),
           pairs(collapse_mesh, {}),
           seam(std::move(seams)),
@@ -54,7 +55,7 @@ struct Bench {
 TEST_CASE("accumulated: the vertex quadric is the sum of the base, boundary and normal terms") {
     // Paper, Sec. 3.2.1, at corner 0 of the unit square: two faces of area 1/2 give 4 z^2; the boundary has
     // a right angle there: 500 / sqrt 2 (z^2 + x^2); the tangent plane gives z^2 / 100.
-    const Bench bench(test::quad(), paper());
+    const MetricBench bench(test::quad(), paper_weights());
     const Quadric& q = bench.metric.quadric(0);
     CHECK(q({0, 0, 2}) == Approx(4 * (4 + 500 / root2 + 0.01)));
     CHECK(q({2, 0, 0}) == Approx(4 * 500 / root2));
@@ -62,18 +63,18 @@ TEST_CASE("accumulated: the vertex quadric is the sum of the base, boundary and 
 }
 
 TEST_CASE("accumulated: a weight of 0 disables a term") {
-    CompositeWeights w = paper();
+    CompositeWeights w = paper_weights();
     w.boundary = w.normal = 0;
-    const Bench bench(test::quad(), w);
+    const MetricBench bench(test::quad(), w);
     CHECK(bench.metric.quadric(0)({1, 1, 2}) == Approx(4 * 4));
     w.area = 0;
-    CHECK(Bench(test::quad(), w).evaluate(0, 1)->cost == 0);
+    CHECK(MetricBench(test::quad(), w).evaluate(0, 1)->cost == 0);
 }
 
 TEST_CASE("accumulated: the cost is the quadric at the chosen position plus the area term there") {
     // Paper eq. 2-4. Pair 0-1 of the unit square: 500 / sqrt 2 (x^2 + (x - 1)^2) without y is singular, and
     // the midpoint is best: 250 / sqrt 2. There the sides 0-3 and 1-2 cost 100 / 8 each, side 0-1 nothing.
-    const Bench bench(test::quad(), paper());
+    const MetricBench bench(test::quad(), paper_weights());
     const auto found = bench.evaluate(0, 1);
     REQUIRE(found);
     CHECK(found->point == Vector3(0.5, 0, 0));
@@ -86,7 +87,7 @@ TEST_CASE("accumulated: with before_placement the area term affects the position
     CompositeWeights w;
     w.area = 1;
     w.area_term = AreaTerm::before_placement;
-    const auto found = Bench(test::quad(), w).evaluate(0, 1);
+    const auto found = MetricBench(test::quad(), w).evaluate(0, 1);
     REQUIRE(found);
     CHECK((found->point - Vector3(0.5, 0, 0)).norm() < 1e-12);
     CHECK(found->cost == Approx(0.25));
@@ -95,20 +96,20 @@ TEST_CASE("accumulated: with before_placement the area term affects the position
 TEST_CASE("accumulated: with after_placement the area term does not affect the position") {
     CompositeWeights w;
     w.area = 1e9;
-    CHECK(Bench(test::quad(), w).evaluate(0, 1)->point == Vector3(0, 0, 0));
+    CHECK(MetricBench(test::quad(), w).evaluate(0, 1)->point == Vector3(0, 0, 0));
 }
 
 TEST_CASE("accumulated: the seam weight multiplies the whole initial quadric of a seam vertex") {
     // Paper, supplementary: w_uv.
-    const Bench plain(test::quad(), paper());
-    const Bench seam(test::quad(), paper(), {0, 1, 0, 0});
+    const MetricBench plain(test::quad(), paper_weights());
+    const MetricBench seam(test::quad(), paper_weights(), {0, 1, 0, 0});
     const Vector3 p(1, 2, 3);
     CHECK(seam.metric.quadric(1)(p) == Approx(5000 * plain.metric.quadric(1)(p)));
     CHECK(seam.metric.quadric(0)(p) == plain.metric.quadric(0)(p));
 }
 
 TEST_CASE("accumulated: the allowed position is respected and nowhere gives no candidate") {
-    const Bench bench(test::quad(), paper());
+    const MetricBench bench(test::quad(), paper_weights());
     CHECK(bench.evaluate(0, 1, AllowedPosition::at_first)->point == Vector3(0, 0, 0));
     CHECK(bench.evaluate(0, 1, AllowedPosition::at_second)->point == Vector3(1, 0, 0));
     CHECK(bench.evaluate(0, 1, AllowedPosition::at_first)->cost == Approx(500 / root2 + 50));
@@ -116,18 +117,18 @@ TEST_CASE("accumulated: the allowed position is respected and nowhere gives no c
 }
 
 TEST_CASE("accumulated: a cost that is not finite gives no candidate") {
-    CHECK_FALSE(Bench(test::scaled(test::cube(), 1e200), paper()).evaluate(0, 1));
+    CHECK_FALSE(MetricBench(test::scaled(test::cube(), 1e200), paper_weights()).evaluate(0, 1));
 }
 
 TEST_CASE("accumulated: costs are never negative") {
     const TriangleMesh mesh = test::moved(test::grid(4), {0.1, 0.7, 1e5});
-    const Bench bench(mesh, CompositeWeights());
+    const MetricBench bench(mesh, CompositeWeights());
     for (Index pair = 0; pair < bench.pairs.size(); ++pair)
         CHECK(bench.evaluate(bench.pairs.first(pair), bench.pairs.second(pair))->cost >= 0);
 }
 
 TEST_CASE("accumulated: the survivor of a collapse has the sum of both quadrics") {
-    Bench bench(test::cube(), CompositeWeights());
+    MetricBench bench(test::cube(), CompositeWeights());
     const Vector3 p(1, 2, 3);
     const double sum = bench.metric.quadric(0)(p) + bench.metric.quadric(1)(p);
     bench.collapse(0, 1, {0.5, 0, 0});
@@ -139,7 +140,7 @@ TEST_CASE("accumulated: the area term refers to the current boundary") {
     // edges.
     CompositeWeights w;
     w.area = 1;
-    Bench bench(test::quad(), w);
+    MetricBench bench(test::quad(), w);
     bench.collapse(0, 1, {0.5, 0, 0});
     const auto found = bench.evaluate(2, 3, AllowedPosition::at_second);
     REQUIRE(found);
@@ -166,8 +167,8 @@ TEST_CASE("accumulated: a tiny mesh far from the centre has the costs of the sam
         CompositeWeights weights;
         weights.base = base;
         weights.area = weights.normal = weights.boundary = 1;
-        Bench near(test::both(grid, test::scaled(stray, 64 * size)), weights);
-        Bench together(test::both(test::moved(grid, far), stray), weights);
+        MetricBench near(test::both(grid, test::scaled(stray, 64 * size)), weights);
+        MetricBench together(test::both(test::moved(grid, far), stray), weights);
         const auto check = [&] {
             for (Index pair = 0; pair < near.pairs.size(); ++pair) {
                 if (!near.pairs.is_alive(pair) || near.pairs.first(pair) >= grid.positions.size()) continue;

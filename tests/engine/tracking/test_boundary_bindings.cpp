@@ -10,8 +10,8 @@ using namespace faqem::engine;
 
 namespace {
 
-struct Bench {
-    explicit Bench(const TriangleMesh& mesh)
+struct BindingsBench {
+    explicit BindingsBench(const TriangleMesh& mesh)
         : original(mesh),
           collapse_mesh(original.positions, original.triangles),
           pairs(collapse_mesh, {}),
@@ -39,13 +39,14 @@ struct Bench {
 //     3---2
 //     | 4 |
 //     0---1
-const TriangleMesh square = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
-                                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+const TriangleMesh square_with_centre =
+    test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+               {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
 
 }  // namespace
 
 TEST_CASE("boundary bindings: corners that are cut off are measured to the new boundary") {
-    Bench bench(square);
+    BindingsBench bench(square_with_centre);
     // From 0 to the side between 3 and (0.5, 0)
     CHECK(bench.squared_distance(0, 1, {0.5, 0, 0}) == Approx(0.2));
     CHECK(bench.squared_distance(4, 0, {0.1, 0.1, 0}) == Approx(0.02));
@@ -53,7 +54,7 @@ TEST_CASE("boundary bindings: corners that are cut off are measured to the new b
 }
 
 TEST_CASE("boundary bindings: the new vertex is measured to the original boundary") {
-    Bench bench(square);
+    BindingsBench bench(square_with_centre);
     CHECK(bench.squared_distance(0, 1, {0.5, -2, 0}) == Approx(4));
 }
 
@@ -69,7 +70,7 @@ TEST_CASE("boundary bindings: an edge between two sides of the boundary is measu
         strip.triangles.push_back({i, i + 1, i + 6});
         strip.triangles.push_back({i, i + 6, i + 5});
     }
-    Bench bench(strip);
+    BindingsBench bench(strip);
     // Vertex 7 has distance sqrt(1/5) from the edge to 8; the midpoints of the edges to 6 and 8 have
     // distance 1/2 from both sides.
     CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
@@ -77,7 +78,7 @@ TEST_CASE("boundary bindings: an edge between two sides of the boundary is measu
 
 TEST_CASE("boundary bindings: bound vertices follow the boundary through collapses") {
     // The boundary of a disc of 16 triangles: vertices 2, 3, ... are merged into 1 one after the other.
-    Bench bench(test::fan(16));
+    BindingsBench bench(test::fan(16));
     double last = 0;
     for (Index next = 2; next < 8; ++next) {
         const Vector3 p = bench.collapse_mesh.position(1);
@@ -96,7 +97,7 @@ TEST_CASE("boundary bindings: bound vertices follow the boundary through collaps
 
 TEST_CASE("boundary bindings: without vertices bound at the pair those of adjacent edges are used") {
     // Only corner 1 of the square is tracked: no vertex is bound to the edges at corner 3.
-    const test::OriginalOf original(square);
+    const test::OriginalOf original(square_with_centre);
     CollapseMesh collapse_mesh(original.positions, original.triangles);
     PairTable pairs(collapse_mesh, {});
     TrackedVertices corner;
@@ -108,16 +109,17 @@ TEST_CASE("boundary bindings: without vertices bound at the pair those of adjace
 }
 
 TEST_CASE("boundary bindings: the distance is 0 for inner pairs and for a loop that vanishes") {
-    Bench inside(test::icosphere(1));
+    BindingsBench inside(test::icosphere(1));
     CHECK(inside.squared_distance(0, 12, {5, 5, 5}) == 0);
-    Bench triangle(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    BindingsBench triangle(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     CHECK(triangle.squared_distance(0, 1, {0.5, 0, 0}) == 0);
 }
 
 TEST_CASE("boundary bindings: a new loop is ignored if the original has no boundary") {
     // Each side of the triangle 0 1 2 has two more faces, back to back.
-    Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-                           {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}}));
+    BindingsBench bench(
+        test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                   {{0, 1, 2}, {0, 1, 3}, {1, 0, 3}, {1, 2, 4}, {2, 1, 4}, {2, 0, 5}, {0, 2, 5}}));
     bench.collapse(0, 3, {0, 0, 0});
     REQUIRE(bench.pairs.boundary_degree(0) > 0);
     CHECK(bench.squared_distance(0, 1, {7, 7, 7}) == 0);

@@ -10,8 +10,8 @@ using namespace faqem::engine;
 
 namespace {
 
-struct Bench {
-    explicit Bench(const TriangleMesh& mesh, std::size_t target = 0)
+struct TrackedBench {
+    explicit TrackedBench(const TriangleMesh& mesh, std::size_t target = 0)
         : original(mesh),
           collapse_mesh(original.positions, original.triangles),
           pairs(collapse_mesh, {}),
@@ -46,7 +46,7 @@ TEST_CASE("tracked metric: the mean face area times the largest squared distance
     const double h = 0.5;
     const TriangleMesh pyramid = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, h}},
                                             {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
-    Bench bench(pyramid);
+    TrackedBench bench(pyramid);
     const double face_area = 0.5 * std::sqrt(0.25 + h * h);
     const Candidate flat{{0, 0, 0}, 7};
     CHECK(bench.exact_cost(0, 4, flat) == Approx(7 + face_area * h * h));
@@ -58,7 +58,7 @@ TEST_CASE("tracked metric: the distance from the new vertex to the original is m
     const TriangleMesh flat =
         test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0.25, 0}},
                    {{0, 1, 5}, {1, 4, 5}, {0, 5, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
-    Bench bench(flat);
+    TrackedBench bench(flat);
     const Candidate lifted{{0.5, 0.25, 1}, 0};
     CHECK(bench.exact_cost(4, 5, lifted) == Approx(1.0 / 6));
 }
@@ -76,7 +76,7 @@ TEST_CASE("tracked metric: small errors in one direction add up") {
         strip.triangles.push_back({i, i + 2, i + 1});
         strip.triangles.push_back({i + 1, i + 2, i + 3});
     }
-    Bench bench(strip);
+    TrackedBench bench(strip);
     const Index end = 0;
     double last = 0;
     for (Index next = 2; next < 8; next += 2) {
@@ -89,7 +89,7 @@ TEST_CASE("tracked metric: small errors in one direction add up") {
 }
 
 TEST_CASE("tracked metric: without faces around the pair the cost is that of the planes") {
-    Bench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    TrackedBench bench(test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     CHECK(bench.exact_cost(0, 1, {{0.5, 0, 0}, 3}) == 3);
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("tracked metric: far above the target only boundaries are tracked, the
     // A cylinder of 16 sides and 16 rings. Four times the target is reached by collapses along the
     // boundaries.
     const TriangleMesh tube = test::cylinder(16, 16, 4);
-    Bench bench(tube, 120);
+    TrackedBench bench(tube, 120);
     const Candidate in_place{bench.collapse_mesh.position(1), 0}, inside{bench.collapse_mesh.position(17), 0};
     REQUIRE(bench.collapse_mesh.face_count() > 480);
     CHECK(bench.exact_cost(17, 16, inside) == 0);
@@ -129,6 +129,6 @@ TEST_CASE("tracked metric: squared boundary distances count twice") {
     // vertex.
     const TriangleMesh flat = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
                                          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
-    Bench bench(flat);
+    TrackedBench bench(flat);
     CHECK(bench.exact_cost(0, 1, {{0.5, 0, 0}, 3}) == Approx(3 + 2 * 0.25 / 5));
 }

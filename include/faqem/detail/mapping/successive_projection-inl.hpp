@@ -34,7 +34,7 @@ inline constexpr std::uint64_t max_visited_faces = 2048;
 inline constexpr double coincidence_tolerance = 1e-6;
 // Distance below which no walk is needed, as a fraction of the longest edge of the simplified face.
 inline constexpr double near_threshold = 0.25;
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 inline double distance_squared(const Vector3& p, const BoundingSphere& bound) {
     return (p - Vector3(bound.centre[0], bound.centre[1], bound.centre[2])).squaredNorm();
@@ -55,7 +55,7 @@ struct SuccessiveProjection::ScoredFace {
     Index face = no_index;
     std::uint64_t entry = 0;      // index into CollapseHistory::patch_faces
     bool is_approximate = false;  // wrong orientation or other surface patch
-    double score = infinity;
+    double score = unbounded;
 };
 
 // The face at which a walk ended.
@@ -124,7 +124,7 @@ FAQEM_INLINE SuccessiveProjection::ScoredFace SuccessiveProjection::best_of_patc
     if (patch.best.score <= coincidence_tolerance * patch.edge) return patch.best;
     visited += end - begin;
     patch.best = patch.best_away = {};
-    double nearest = infinity;
+    double nearest = unbounded;
     for (std::uint64_t e = begin; e < end; ++e) {
         const double d = distance_squared(query.p0, replay_.bounds[e]);
         if (d < nearest) nearest = d, first = e;
@@ -139,7 +139,7 @@ FAQEM_INLINE SuccessiveProjection::ScoredFace SuccessiveProjection::best_of_patc
 FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) const {
     const Query& query = patch.query;
     const BoundingSphere& bound = replay_.bounds[e];
-    const double limit = patch.best.face != no_index ? patch.best.score : infinity;
+    const double limit = patch.best.face != no_index ? patch.best.score : unbounded;
     const double far = limit + bound.radius;
     if (distance_squared(query.p0, bound) > far * far) return;
     const Index g = history_.patch_faces[e];
@@ -162,7 +162,7 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
 
 FAQEM_INLINE ClosestPoint SuccessiveProjection::on_original(Index face, const Vector3& p0) const {
     const Triangle& t = history_.triangles[face];
-    if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, infinity};
+    if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, unbounded};
     return closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]),
                                      to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
 }

@@ -19,7 +19,7 @@ namespace detail {
 using engine::CancellationCheck;
 using engine::Vector3;
 
-inline constexpr Triangle dropped = {no_index, no_index, no_index};
+inline constexpr Triangle dropped_face = {no_index, no_index, no_index};
 
 inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 
@@ -140,7 +140,7 @@ inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
 
 inline void drop_degenerate_faces(PreprocessedMesh& out) {
     for (Triangle& t : out.triangles) {
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped, ++out.dropped_faces;
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped_face, ++out.dropped_faces;
     }
 }
 
@@ -175,7 +175,7 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
         for (std::size_t i = begin + 1; i < end; ++i) {
             const FaceKey &a = faces[i - 1], &b = faces[i];
             if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
-            out.triangles[b.face] = dropped;
+            out.triangles[b.face] = dropped_face;
             ++out.dropped_faces;
         }
         begin = end;

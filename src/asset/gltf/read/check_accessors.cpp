@@ -1,13 +1,12 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
+#include "asset/scene/messages.hpp"
 
 namespace faqem::detail {
 namespace {
 
 constexpr std::uint64_t max_stride = 252;
-
-std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
 
 void check_buffers(const GltfChecker& checker) {
     const Json& buffers = member(checker.document, "buffers");

@@ -23,15 +23,11 @@ bool contains(const List& list, std::string_view name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-bool starts_with(std::string_view text, std::string_view start) {
-    return text.substr(0, start.size()) == start;
-}
-
 void check_version(const GltfChecker& checker) {
     const Json& asset = checker.object(checker.document, "", "asset");
     if (asset.is_null()) checker.fail("/asset", "is missing");
     const std::string version = string_member(asset, "version");
-    if (!starts_with(version, "2."))
+    if (!version.starts_with("2."))
         checker.fail_unsupported("/asset/version", "'" + version + "' is not supported, only 2.0 is");
     const std::string minimum = string_member(asset, "minVersion");
     if (!minimum.empty() && minimum != "2.0")
@@ -55,7 +51,7 @@ void check_required_extensions(const GltfChecker& checker) {
         if (name == "KHR_texture_basisu")
             checker.fail_unsupported(
                 where, name + ": KTX2 images are not supported, only " + decodable_format_names() + " are");
-        if (!contains(supported_extensions, name) && !starts_with(name, "KHR_materials_"))
+        if (!contains(supported_extensions, name) && !name.starts_with("KHR_materials_"))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }
 }

@@ -10,18 +10,13 @@ namespace {
 
 constexpr std::uint64_t max_mode = 6;  // TRIANGLE_FAN
 constexpr std::uint64_t max_uv_set = 255;
-constexpr std::uint64_t max_image_bytes = INT32_MAX;  // tinygltf stores the size in an int
-
-bool starts_with(std::string_view text, std::string_view start) {
-    return text.substr(0, start.size()) == start;
-}
 
 /// The accessor type that an attribute must have; empty for COLOR_n and application-specific attributes.
 std::string_view required_type(std::string_view attribute) {
     if (attribute == "POSITION" || attribute == "NORMAL") return "VEC3";
-    if (attribute == "TANGENT" || starts_with(attribute, "JOINTS_") || starts_with(attribute, "WEIGHTS_"))
+    if (attribute == "TANGENT" || attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_"))
         return "VEC4";
-    if (starts_with(attribute, "TEXCOORD_")) return "VEC2";
+    if (attribute.starts_with("TEXCOORD_")) return "VEC2";
     return "";
 }
 
@@ -31,10 +26,10 @@ void check_attribute_format(const GltfChecker& checker, const std::string& where
     const std::string_view wanted = in_target && name == "TANGENT" ? "VEC3" : required_type(name);
     if (!wanted.empty() && type != wanted)
         checker.fail(where, "is a " + type + ", " + name + " must be a " + std::string(wanted));
-    if (starts_with(name, "COLOR_") && type != "VEC3" && type != "VEC4")
+    if (name.starts_with("COLOR_") && type != "VEC3" && type != "VEC4")
         checker.fail(where, "is a " + type + ", " + name + " must be a VEC3 or VEC4");
     const auto component = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    const bool is_joints = starts_with(name, "JOINTS_");
+    const bool is_joints = name.starts_with("JOINTS_");
     if (is_joints && component != ComponentType::u8 && component != ComponentType::u16)
         checker.fail(where, "joints must be unsigned bytes or shorts");
     if (!is_joints && name[0] != '_' && component == ComponentType::u32)

@@ -10,6 +10,9 @@
 
 namespace faqem::detail {
 
+/// Maximum size of an image file: tinygltf stores it in an int.
+inline constexpr std::uint64_t max_image_bytes = INT32_MAX;
+
 /// A document under validation.
 ///
 /// The functions take a JSON object and `where`, the JSON pointer to it, which is used in messages. They

@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_resource_bytes = std::uint64_t{1} << 34;
-constexpr std::uint64_t max_image_bytes = std::numeric_limits<std::int32_t>::max();  // an int in tinygltf
 constexpr std::string_view buffer_token = "faqem-buffer-";
 constexpr std::string_view image_token = "faqem-image-";
 

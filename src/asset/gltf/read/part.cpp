@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/read/read.hpp"
+#include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -75,7 +75,7 @@ std::uint64_t append(std::vector<std::array<float, N>>& out, const SourceDocumen
     std::uint64_t repaired = 0;
     std::vector<std::array<float, N>> values = read_vectors<float, N>(source, accessor, fill[N - 1]);
     for (std::array<float, N>& value : values)
-        if (!std::all_of(value.begin(), value.end(), [](float x) { return std::isfinite(x); })) {
+        if (!is_finite(value)) {
             value = fill;
             ++repaired;
         }
@@ -169,11 +169,9 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
     return triangles;
 }
 
-bool is_finite(const Vec3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
-
 /// Replaces non-finite positions by the first finite position. Their faces have been removed before.
 void repair_positions(Part& part, Repairs& repairs) {
-    const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite);
+    const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite<double, 3>);
     const Vec3 replacement = finite == part.positions.end() ? Vec3{} : *finite;
     for (Vec3& position : part.positions)
         if (!is_finite(position)) {

@@ -6,12 +6,13 @@ namespace faqem::detail {
 namespace {
 
 // glTF constants of filters and wrap modes.
-constexpr int nearest = 9728, linear = 9729, nearest_mipmap_nearest = 9984, linear_mipmap_linear = 9987;
-constexpr int repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
+constexpr int gl_nearest = 9728, gl_linear = 9729;
+constexpr int gl_nearest_mipmap_nearest = 9984, gl_linear_mipmap_linear = 9987;
+constexpr int gl_repeat = 10497, gl_clamp_to_edge = 33071, gl_mirrored_repeat = 33648;
 
 int wrap_number(Wrap wrap) {
-    if (wrap == Wrap::clamp) return clamp_to_edge;
-    return wrap == Wrap::mirror ? mirrored_repeat : repeat;
+    if (wrap == Wrap::clamp) return gl_clamp_to_edge;
+    return wrap == Wrap::mirror ? gl_mirrored_repeat : gl_repeat;
 }
 
 Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
@@ -19,8 +20,8 @@ Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
     if (is_new) {
         const bool smooth = ref.filter == Filter::linear;
         entry->second = append(writer, "samplers",
-                               {{"magFilter", smooth ? linear : nearest},
-                                {"minFilter", smooth ? linear_mipmap_linear : nearest_mipmap_nearest},
+                               {{"magFilter", smooth ? gl_linear : gl_nearest},
+                                {"minFilter", smooth ? gl_linear_mipmap_linear : gl_nearest_mipmap_nearest},
                                 {"wrapS", wrap_number(ref.wrap_u)},
                                 {"wrapT", wrap_number(ref.wrap_v)}});
     }

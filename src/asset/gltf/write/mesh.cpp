@@ -10,7 +10,7 @@ namespace faqem::detail {
 namespace {
 
 constexpr std::uint64_t first_triangle_mode = 4;
-constexpr const char* variants = "KHR_materials_variants";
+constexpr const char* variants_name = "KHR_materials_variants";
 
 /// Primitive extensions that describe the source vertices, which no longer exist.
 constexpr std::array<std::string_view, 3> vertex_extensions = {
@@ -25,8 +25,8 @@ void warn_mesh(GltfWriter& writer, const std::string& name, const std::string& w
 }
 
 void remap_variants(GltfWriter& writer, Json& primitive) {
-    if (!member(member(primitive, "extensions"), variants).contains("mappings")) return;
-    for (Json& mapping : primitive["extensions"][variants]["mappings"])
+    if (!member(member(primitive, "extensions"), variants_name).contains("mappings")) return;
+    for (Json& mapping : primitive["extensions"][variants_name]["mappings"])
         mapping["material"] = write_source_material(writer, index_member(mapping, "material"));
 }
 
@@ -112,7 +112,7 @@ void write_used_materials(GltfWriter& writer) {
         for (const Json& mesh : source_array(writer, "meshes"))
             for (const Json& primitive : member(mesh, "primitives"))
                 for (const Json& mapping :
-                     member(member(member(primitive, "extensions"), variants), "mappings"))
+                     member(member(member(primitive, "extensions"), variants_name), "mappings"))
                     mark_materials_of(writer, index_member(mapping, "material"), used);
     for (Index i = 0; i < used.size(); ++i)
         if (used[i]) write_material(writer, i);
@@ -178,7 +178,7 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
         if (extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
                       std::string(name) + " does not fit the new vertices and was left out");
-    if (material && material->rebaked && extensions.erase(variants) != 0)
+    if (material && material->rebaked && extensions.erase(variants_name) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new texture and were left out");
     if (!extensions.empty()) kept["extensions"] = std::move(extensions);
     remap_variants(writer, kept);
