@@ -1,6 +1,7 @@
 # Compiles through ccache in a top-level build, if it is installed and its folder can be written. Objects are shared
 # between clones and folders: paths below the source folder are made relative, and the build folder is not part of the
-# key. Precompiled headers need the sloppiness (and -fpch-preprocess, tests/CMakeLists.txt).
+# key. They are shared between the presets release and test, too: -Werror does not change an object, and a compilation
+# that fails is not stored. Precompiled headers need the sloppiness (and -fpch-preprocess, tests/CMakeLists.txt).
 option(FAQEM_CCACHE "Compile through ccache if it is found" ${PROJECT_IS_TOP_LEVEL})
 
 find_program(FAQEM_CCACHE_PROGRAM ccache)
@@ -25,4 +26,6 @@ if(NOT faqem_cache_dir OR NOT faqem_result EQUAL 0)
     return()
 endif()
 set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-                                CCACHE_SLOPPINESS=pch_defines,time_macros ${FAQEM_CCACHE_PROGRAM})
+                                CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_IGNOREOPTIONS=-Werror
+                                ${FAQEM_CCACHE_PROGRAM})
+set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})

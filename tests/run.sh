@@ -1,24 +1,44 @@
 #!/bin/sh
-# Builds faqem and runs its tests. Usage: tests/run.sh [--quick] [PRESET [CTEST-OPTION...]], a configure preset of
-# CMakePresets.json; default: test. Needs Debian 12 or 13 and nothing else: packages are installed first.
-# tests/run.sh --suite fresh [OPTION...] runs tests/fresh/run.sh instead.
-# --quick leaves out what runs whole programs for long (the package, Python, the validator, the viewer, the soak,
-# fuzzing, examples, the site), and runs each test program in one process: under two minutes.
+# Builds faqem and runs its tests. Needs Debian 12 or 13 and nothing else: packages are installed first.
+# Usage: tests/run.sh [PRESET [CTEST-OPTION...]]
+#            all tests of a configure preset of CMakePresets.json; default: test
+#        tests/run.sh --module FOLDER [CTEST-OPTION...]
+#            builds what the tests of a folder of the source tree need, for example engine/queue or src/bake, and runs
+#            them; in a build tree of its own (preset module)
+#        tests/run.sh --suite fresh [OPTION...]
+#            tests/fresh/run.sh
 set -eu
 cd "$(dirname "$0")/.."
-if [ "${1:-}" = --suite ]; then
-    suite=${2:-}
-    [ "$suite" = fresh ] || { echo "tests/run.sh: there is no suite '$suite' (known: fresh)" >&2; exit 2; }
-    shift 2
-    exec "tests/$suite/run.sh" "$@"
-fi
-quick=""
-if [ "${1:-}" = --quick ]; then
-    quick="^(package|python|validator|viewer|soak|fuzz|examples)/|^docs/(commands work|the site)"
-    quick="$quick|^(faqem|step_counts|asset|bake|cli|openmesh)/"  # replaced by the tests programs/*
-    shift
-fi
-preset=${1:-test}
+
+seconds=$(date +%s)
+# stage TITLE: prints a title with the seconds of the stage before it.
+stage() {
+    now=$(date +%s)
+    echo "== $1 (after $((now - seconds)) s)"
+    seconds=$now
+}
+
+case ${1:-} in
+    --suite)
+        suite=${2:-}
+        [ "$suite" = fresh ] || { echo "tests/run.sh: there is no suite '$suite' (known: fresh)" >&2; exit 2; }
+        shift 2
+        exec "tests/$suite/run.sh" "$@"
+        ;;
+    --module)
+        preset=module
+        module=$(echo "${2:-}" | sed -E 's#/+$##; s#^\./##; s#^(tests|src|include/faqem/detail|include/faqem)/##')
+        shift
+        ;;
+    -*)
+        sed -n '/^# Usage/,/^set/s/^# //p' "$0" >&2
+        exit 2
+        ;;
+    *)
+        preset=${1:-test}
+        module=""
+        ;;
+esac
 [ $# -eq 0 ] || shift
 
 echo "== packages"
@@ -26,9 +46,30 @@ case $preset in
     clang | fuzz) cmake/install-packages.sh test clang ;;
     *) cmake/install-packages.sh test ;;
 esac
-echo "== configure ($preset)"
-cmake --preset "$preset"
-echo "== build"
-cmake --build --preset "$preset"
-echo "== test"
-ctest --preset "$preset" ${quick:+-C Quick -E "$quick"} "$@"
+if [ -z "$module" ]; then
+    stage "configure ($preset)"
+    cmake --preset "$preset"
+    stage "build"
+    cmake --build --preset "$preset"
+    stage "test"
+    ctest --preset "$preset" "$@"
+else
+    build=build/$preset
+    [ -f $build/build.ninja ] || cmake --preset $preset
+    targets_of() {
+        awk -v folder="$1" '$1 == folder || index($1, folder "/") == 1 { print $2 }' $build/tests/modules | sort -u
+    }
+    # A folder without tests of its own is tested by those of the folder that contains it.
+    while targets=$(targets_of "$module") && [ -z "$targets" ] && [ "$module" != "${module%/*}" ]; do
+        module=${module%/*}
+    done
+    if [ -z "$targets" ]; then
+        echo "tests/run.sh: no tests belong to the folder '$module'; known:" $(awk '{ print $1 }' $build/tests/modules) >&2
+        exit 2
+    fi
+    stage "build $targets"
+    cmake --build $build --target $targets
+    stage "test"
+    ctest --preset $preset -R "^$module(/|\$)" "$@"
+fi
+stage "done"
