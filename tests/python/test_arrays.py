@@ -114,6 +114,7 @@ class Arrays(unittest.TestCase):
     def test_invalid_options_are_rejected_by_name(self):
         vertices, triangles = flat_grid(4)
         for option, value in [("ratio", 0), ("ratio", float("nan")), ("faces", 0), ("faces", -1), ("faces", 2.5),
+                              ("faces", numpy.array(40.5)), ("faces", numpy.float32(40)), ("threads", 1.0),
                               ("max_error", "1 percent"), ("max_error", -1), ("preset", "bestest"),
                               ("link", "maybe"), ("boundary", 1), ("threads", 2**32), ("prune", "x%")]:
             with self.subTest(option=option, value=value):
@@ -136,6 +137,9 @@ class Arrays(unittest.TestCase):
                            (vertices, triangles.astype(int) + 2**32, "triangles")]:
             with self.subTest(name=name), self.assertRaisesRegex(faqem.InputError, name):
                 faqem.simplify(v, t)
+        for groups in ([0.7] * 32, [2**32] * 32, [-1] * 32, [True] * 32):
+            with self.subTest(groups=groups[0]), self.assertRaisesRegex(faqem.InputError, "groups"):
+                faqem.simplify(vertices, triangles, groups=groups)
         for option in ("groups", "locks", "weights"):
             with self.subTest(option=option), self.assertRaisesRegex(faqem.InputError, option):
                 faqem.simplify(vertices, triangles, **{option: [1, 1]})

@@ -88,6 +88,18 @@ class Levels(unittest.TestCase):
         with self.assertRaises(faqem.OptionError):
             out.map([0], [[1, 0, 0]], "unknown")
 
+    def test_indices_of_points_are_never_converted(self):
+        out = faqem.simplify(*hill(6), ratio=0.5, history=True)
+        for wrong in ([2**32], [2**32 - 1], [2**64], [-1], [0.7], [0.0], [float("nan")], [True], ["0"], [None],
+                      numpy.array([-1], numpy.int8)):
+            with self.subTest(wrong), self.assertRaisesRegex(faqem.InputError, "faces"):
+                out.map(wrong, [[1, 0, 0]])
+        expected, _ = out.map([1], [[1, 0, 0]])
+        for kind in (numpy.int8, numpy.uint16, numpy.int64, numpy.uint64, ">u4"):
+            assert_array_equal(out.map(numpy.array([1], kind), [[1, 0, 0]])[0], expected)
+        source, weights = out.map([], numpy.empty((0, 3)))
+        self.assertEqual((source.shape, weights.shape), ((0,), (0, 3)))
+
     def test_uvs_are_interpolated(self):
         vertices, triangles = hill(20)
         uvs = vertices[triangles][:, :, :2] / 20

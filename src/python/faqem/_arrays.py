@@ -30,13 +30,23 @@ def _positions(vertices):
     return _check_shape(_strided(array, kind), 3, "vertices")
 
 
-def _indices(values, name):
-    """Returns vertex or group indices as uint32, or as uint16 if they are of that type."""
+def checked_indices(values, name):
+    """Returns vertex, face or group indices as an array of integers.
+
+    Raises InputError if they are not integers from 0 to 2^32 - 2. A conversion by numpy would round fractions and
+    take the remainder of large numbers.
+    """
     array = numpy.asarray(values)
     if array.size and not numpy.issubdtype(array.dtype, numpy.integer):
         raise InputError(f"{name}: integers are expected, but the type is {array.dtype}")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
         raise InputError(f"{name}: a value is negative or exceeds 2^32 - 2")
+    return array
+
+
+def _indices(values, name):
+    """Returns checked indices as uint32, or as uint16 if they are of that type."""
+    array = checked_indices(values, name)
     return _strided(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
 
 

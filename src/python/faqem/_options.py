@@ -1,5 +1,6 @@
 """Conversion of keyword arguments to the options of the C API."""
 
+import operator
 import weakref
 
 from ._library import Progress, library
@@ -35,9 +36,13 @@ def parse_length(value, option):
 
 def checked_integer(value, option, bits):
     """Returns `value` as int. Raises OptionError if it is not an integer from 0 to 2^bits - 1."""
-    if not (isinstance(value, int) or hasattr(value, "__index__")) or not 0 <= int(value) < 2**bits:
+    try:
+        number = operator.index(value)  # int() would round the value of an array of floats
+    except TypeError:
+        number = -1
+    if not 0 <= number < 2**bits:
         raise OptionError(f"{option}: {value!r} is not an integer from 0 to 2^{bits} - 1")
-    return int(value)
+    return number
 
 
 class Options:

@@ -6,7 +6,7 @@ import weakref
 
 import numpy
 
-from ._arrays import MeshArrays, copy_array, mesh_pointer
+from ._arrays import MeshArrays, checked_indices, copy_array, mesh_pointer
 from ._library import call, create, library
 from ._options import Options, enum_value
 from .errors import InputError
@@ -46,14 +46,14 @@ class Simplified:
     def map(self, faces, barycentric, mapping="projection"):
         """Maps points of the simplified mesh to the original. Needs history=True.
 
-        faces        (n,) indices of triangles of the simplified mesh
+        faces        (n,) indices of triangles of the simplified mesh, of an integer type
         barycentric  (n, 3) weights of their corners, >= 0, sum 1
         mapping      "projection", "lineage" or "closest"; see docs/baking.md
 
-        Returns the input triangles (n,) and the weights of their corners (n, 3). Raises InputError, and
-        OptionError if there is no history.
+        Returns the input triangles (n,) and the weights of their corners (n, 3). Raises InputError, also for
+        indices that are no integers or out of range, and OptionError if there is no history.
         """
-        faces = numpy.ascontiguousarray(faces, dtype=numpy.uint32)
+        faces = numpy.ascontiguousarray(checked_indices(faces, "faces"), dtype=numpy.uint32)
         weights = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
         if faces.ndim != 1 or weights.shape != (len(faces), 3):
             raise InputError(f"map: the shapes must be (n,) and (n, 3), but are {faces.shape} and {weights.shape}")
