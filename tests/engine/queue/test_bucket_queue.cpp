@@ -23,6 +23,17 @@ TEST_CASE("bucket queue: nearly equal costs are popped in the order of insertion
     CHECK(order == std::vector<Index>{0, 4, 5, 2, 1, 3});
 }
 
+TEST_CASE("bucket queue: a pair of nearly equal cost is not cheaper, so that a popped pair is not put back") {
+    BucketQueue queue;
+    queue.reserve(1);
+    CHECK_FALSE(queue.has_cheaper(1e300));  // empty
+    queue.set(0, 1);
+    CHECK_FALSE(queue.has_cheaper(0.9));
+    CHECK_FALSE(queue.has_cheaper(1));
+    CHECK_FALSE(queue.has_cheaper(1.01));  // in the same bucket
+    CHECK(queue.has_cheaper(1.02));        // in the next one: 1 + 1/64 or more
+}
+
 TEST_CASE("bucket queue: a popped cost is at most 1/64 above the lowest one") {
     test::Random random(6);
     BucketQueue queue;

@@ -43,6 +43,23 @@ const TriangleMesh square_with_centre =
     test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
                {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
 
+// Unit squares in a row.
+//
+//     5---6---7---8---9
+//     | / | / | / | / |
+//     0---1---2---3---4
+TriangleMesh strip() {
+    TriangleMesh mesh;
+    for (const double y : {0.0, 1.0}) {
+        for (const double x : {0.0, 1.0, 2.0, 3.0, 4.0}) mesh.positions.push_back({x, y, 0});
+    }
+    for (Index i = 0; i < 4; ++i) {
+        mesh.triangles.push_back({i, i + 1, i + 6});
+        mesh.triangles.push_back({i, i + 6, i + 5});
+    }
+    return mesh;
+}
+
 }  // namespace
 
 TEST_CASE("boundary bindings: corners that are cut off are measured to the new boundary") {
@@ -59,18 +76,7 @@ TEST_CASE("boundary bindings: the new vertex is measured to the original boundar
 }
 
 TEST_CASE("boundary bindings: an edge between two sides of the boundary is measured at its midpoint") {
-    //  5---6---7---8---9
-    //  | / | / | / | / |
-    //  0---1---2---3---4
-    TriangleMesh strip;
-    for (const double y : {0.0, 1.0}) {
-        for (const double x : {0.0, 1.0, 2.0, 3.0, 4.0}) strip.positions.push_back({x, y, 0});
-    }
-    for (Index i = 0; i < 4; ++i) {
-        strip.triangles.push_back({i, i + 1, i + 6});
-        strip.triangles.push_back({i, i + 6, i + 5});
-    }
-    BindingsBench bench(strip);
+    BindingsBench bench(strip());
     // Vertex 7 has distance sqrt(1/5) from the edge to 8; the midpoints of the edges to 6 and 8 have
     // distance 1/2 from both sides.
     CHECK(bench.squared_distance(1, 7, {1, 0, 0}) == Approx(0.25));
@@ -106,6 +112,23 @@ TEST_CASE("boundary bindings: without vertices bound at the pair those of adjace
     CHECK(bindings.squared_distance(collapse_mesh, pairs, 4, 3, {0, 3, 0}) == Approx(1 + 4));  // to corner 2
     // The point is on the side (0, 1), but the midpoint of the edge to 2 has distance 1/4 from (1, 2).
     CHECK(bindings.squared_distance(collapse_mesh, pairs, 4, 3, {0.5, 0, 0}) == Approx(0.0625));
+}
+
+TEST_CASE("boundary bindings: a vertex merged into a distant one is bound to the boundary near itself") {
+    // One corner of the strip is tracked, and was merged into the corner at the other end of its side. The
+    // search has to follow the boundary, once towards larger vertices and once towards smaller ones.
+    const test::OriginalOf original(strip());
+    CollapseMesh collapse_mesh(original.positions, original.triangles);
+    PairTable pairs(collapse_mesh, {});
+    TrackedVertices right, left;
+    right.add(4, 0);
+    BoundaryBindings to_right(original.surface, right, collapse_mesh, pairs);
+    // The new side from (3, 0) to 9 cuts off the corner.
+    CHECK(to_right.squared_distance(collapse_mesh, pairs, 3, 4, {3, 0, 0}) == Approx(0.5));
+    left.add(5, 9);
+    BoundaryBindings to_left(original.surface, left, collapse_mesh, pairs);
+    // The new side from 0 to (1, 1) does.
+    CHECK(to_left.squared_distance(collapse_mesh, pairs, 5, 6, {1, 1, 0}) == Approx(0.5));
 }
 
 TEST_CASE("boundary bindings: the distance is 0 for inner pairs and for a loop that vanishes") {
