@@ -174,7 +174,8 @@ typedef struct faqem_mesh {
      * Layout in bytes: from one vertex or face to the next (stride), and from x to y and y to z, or from one
      * corner to the next (step). 0: contiguous. For positions in an array of structs the stride is the size
      * of the struct. For a column-major matrix of floats with one row per vertex the stride is sizeof(float),
-     * and the step sizeof(float) * vertex_count.
+     * and the step sizeof(float) * vertex_count. Any layout is valid in which no two numbers share a byte;
+     * others are FAQEM_ERROR_INPUT. For contiguous floats, strides of 1 to 11 are therefore an error.
      */
     size_t position_stride, position_step, triangle_stride, triangle_step;
 } faqem_mesh;

@@ -20,6 +20,7 @@ faqem_mesh flat_grid(uint32_t n);
 faqem_mesh flat_grid_of_doubles(uint32_t n);
 
 void test_simplify(void);
+void test_layout(void);
 void test_options(void);
 void test_levels(void);
 void test_asset(void);

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     const char* wanted = argc > 1 ? argv[1] : "";
     int ran = 0;
     if (!*wanted || strcmp(wanted, "simplify") == 0) ++ran, test_simplify();
+    if (!*wanted || strcmp(wanted, "layout") == 0) ++ran, test_layout();
     if (!*wanted || strcmp(wanted, "options") == 0) ++ran, test_options();
     if (!*wanted || strcmp(wanted, "levels") == 0) ++ran, test_levels();
 #ifdef FAQEM_HAS_ASSET

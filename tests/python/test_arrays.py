@@ -60,6 +60,20 @@ class Arrays(unittest.TestCase):
             assert_array_equal(again.vertices, out.vertices)
             assert_array_equal(again.triangles, out.triangles)
 
+    def test_views_whose_elements_overlap_are_copied(self):
+        # Triangle f has corners f, f + 1, f + 2.
+        strip = numpy.lib.stride_tricks.sliding_window_view(numpy.arange(12, dtype=numpy.uint32), 3)
+        vertices = numpy.stack([numpy.arange(12) // 2, numpy.arange(12) % 2, numpy.zeros(12)], axis=1)
+        out, again = (faqem.simplify(vertices, t, ratio=1) for t in (strip, strip.copy()))
+        self.assertGreater(len(out.triangles), 0)
+        assert_array_equal(out.triangles, again.triangles)
+        numbers = numpy.lib.stride_tricks.sliding_window_view(vertices.ravel(), 3)
+        out, again = (faqem.simplify(v, triangles, ratio=1) for v in (numbers, numbers.copy())
+                      for triangles in [[[0, 4, 8]]])
+        assert_array_equal(out.vertices, again.vertices)
+        one = numpy.broadcast_to(vertices[0], (3, 3))
+        self.assertEqual(len(faqem.simplify(one, [[0, 1, 2]]).triangles), 0)
+
     def test_arrays_of_supported_types_are_not_copied(self):
         vertices, triangles = flat_grid(10)
         wide = numpy.concatenate([vertices, vertices], axis=1)

@@ -16,10 +16,18 @@ def _check_shape(array, width, name):
     return array
 
 
+def _is_readable_in_place(array):
+    """Whether the C API reads the array (n, 3) in place: rows or columns follow each other without overlap."""
+    stride, step = array.strides
+    size = array.itemsize
+    by_rows = step >= size and stride >= 2 * step + size
+    return by_rows or (stride >= size and step >= (len(array) - 1) * stride + size)
+
+
 def _strided(array, kind):
-    """Returns the array as type `kind`, without a copy if its type fits and all strides are positive."""
+    """Returns the array as type `kind`, without a copy if its type and layout fit."""
     array = numpy.asarray(array, dtype=kind)
-    return array if all(step > 0 for step in array.strides) else numpy.ascontiguousarray(array)
+    return array if array.ndim == 2 and _is_readable_in_place(array) else numpy.ascontiguousarray(array)
 
 
 def _positions(vertices):
