@@ -47,14 +47,18 @@ SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path&
 }
 
 ExitCode rejection_code(const Report& report, bool strict_target) {
+    if (report.faces_out == 0) return exit_bad_input;
     if (strict_target && report.faces_out > report.target_faces) return exit_target_missed;
     if (report.max_error && !report.max_error->within()) return exit_error_exceeded;
     return exit_ok;
 }
 
-std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report) {
+std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
+                              const std::filesystem::path& out, const Report& report) {
     std::ostringstream text;
-    if (rejection == exit_target_missed) {
+    if (rejection == exit_bad_input) {
+        text << "nothing is left of " << in.string() << "; ";
+    } else if (rejection == exit_target_missed) {
         text << "target missed: the result has " << report.faces_out << " faces, the target is "
              << report.target_faces << "; ";
     } else {

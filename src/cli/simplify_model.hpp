@@ -49,10 +49,14 @@ BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
 SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
                                const std::optional<ByteBudget>& budget = std::nullopt);
 
-/// Returns exit_target_missed or exit_error_exceeded if the result must not be written, otherwise exit_ok.
+/// Returns exit_bad_input (nothing is left), exit_target_missed or exit_error_exceeded if the result must not be
+/// written, otherwise exit_ok. An empty model is useless to the next program, and usually means that the faces of
+/// the input have no area, or that --weld is larger than the model.
 ExitCode rejection_code(const Report& report, bool strict_target);
 
 /// Returns the error message for a rejected result. \pre `rejection` is not exit_ok
-std::string rejection_message(ExitCode rejection, const std::filesystem::path& out, const Report& report);
+/// \param in, out  names of the input and of the file that was not written
+std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
+                              const std::filesystem::path& out, const Report& report);
 
 }  // namespace faqem::cli

@@ -66,7 +66,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     result.code = rejection_code(report, work.strict_target);
     if (result.code != exit_ok) {
         result.status = "failed";
-        result.message = rejection_message(result.code, file.out, report);
+        result.message = rejection_message(result.code, file.in, file.out, report);
         return result;
     }
     source = {};

@@ -187,7 +187,8 @@ private:
         for (const LevelResult& level : levels) {
             const ExitCode rejection = rejection_code(level.result.report, arguments_.strict_target);
             if (rejection == exit_ok) continue;
-            std::cerr << "faqem: " << rejection_message(rejection, outputs_.manifest, level.result.report)
+            std::cerr << "faqem: "
+                      << rejection_message(rejection, arguments_.in, outputs_.manifest, level.result.report)
                       << "\n";
             return rejection;
         }

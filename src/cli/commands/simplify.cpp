@@ -186,7 +186,8 @@ int run(const SimplifyCommandArguments& arguments) {
     }
     if (!arguments.quiet) print_summary(arguments, simplified.report);
     if (rejection != exit_ok)
-        std::cerr << "faqem: " << rejection_message(rejection, arguments.out, simplified.report) << "\n";
+        std::cerr << "faqem: " << rejection_message(rejection, arguments.in, arguments.out, simplified.report)
+                  << "\n";
     return rejection;
 }
 

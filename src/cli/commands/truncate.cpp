@@ -86,6 +86,13 @@ int run(const TruncateArguments& arguments) {
                   << arguments.out << " was not written\n";
         return exit_target_missed;
     }
+    const ExitCode rejection = rejection_code(simplified_parts.report, false);
+    if (rejection != exit_ok) {
+        std::cerr << "faqem: "
+                  << rejection_message(rejection, arguments.history, arguments.out, simplified_parts.report)
+                  << "\n";
+        return rejection;
+    }
     const Asset asset = arguments.source.empty() ? geometry_only(simplified_parts)
                                                  : baked_model(arguments, simplified_parts, options);
     const std::vector<std::string> save_warnings = save(asset, arguments.out, arguments.overwrite());

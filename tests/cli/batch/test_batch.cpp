@@ -90,18 +90,21 @@ TEST_CASE("a failing model does not stop a batch and its line has the code and m
     make_models(folder);
     write(folder / "in/broken.ply", "ply\nno header");
     write(folder / "in/empty.obj", "v 0 0 0\n");
+    write(folder / "in/point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
     const Outcome outcome = run(folder, batch + "--jobs 2");
     CHECK(outcome.code == 9);
     const auto lines = lines_of(outcome);
-    REQUIRE(lines.size() == 5);
-    for (const char* name : {"broken.ply", "empty.obj"}) {
+    REQUIRE(lines.size() == 6);
+    for (const char* name : {"broken.ply", "empty.obj", "point.obj"}) {
         CAPTURE(name);
         CHECK(lines.at(name)["status"] == "failed");
         CHECK(lines.at(name)["code"] == 3);
         CHECK(lines.at(name)["message"].get<std::string>().find(name) != std::string::npos);
     }
     CHECK(status(outcome, "a.glb") == "done");
+    CHECK(lines.at("point.obj")["message"].get<std::string>().find("nothing is left of ") == 0);
     CHECK(!fs::exists(folder / "out/broken.glb"));
+    CHECK(!fs::exists(folder / "out/point.glb"));
 }
 
 TEST_CASE("batch applies --max-error and --strict to each model") {
