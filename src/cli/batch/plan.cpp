@@ -22,18 +22,31 @@ bool is_model_name(const fs::path& file) {
     return std::find(model_extensions.begin(), model_extensions.end(), extension) != model_extensions.end();
 }
 
+/// Returns why a link leads to no file, or an empty string if the entry is no link or leads to one.
+std::string link_problem(const fs::directory_entry& entry) {
+    std::error_code error, no_target;
+    if (!entry.is_symlink(error)) return {};
+    const fs::file_status status = fs::status(entry.path(), error);
+    if (fs::exists(status)) return {};
+    const std::string target = fs::read_symlink(entry.path(), no_target).string();
+    return "is a link to " + target + ": " +
+           (status.type() == fs::file_type::not_found ? "No such file or directory" : error.message());
+}
+
 void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found) {
     std::error_code error;
     for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
-        if (it->is_directory() && fs::equivalent(it->path(), out_folder, error)) {
+        std::string problem = link_problem(*it);
+        if (problem.empty() && it->is_directory() && fs::equivalent(it->path(), out_folder, error)) {
             it.disable_recursion_pending();
             continue;
         }
-        if (!is_model_name(it->path()) || !it->is_regular_file()) continue;
+        if (!is_model_name(it->path()) || (problem.empty() && !it->is_regular_file())) continue;
         BatchFile file;
         file.in = it->path();
         file.name = it->path().lexically_relative(folder).generic_string();
-        file.bytes = it->file_size();
+        if (problem.empty()) file.bytes = it->file_size();
+        file.problem = std::move(problem);
         found.push_back(std::move(file));
     }
 }

@@ -13,12 +13,14 @@ struct BatchFile {
     std::filesystem::path in, out;
     std::string name;         ///< path of the input relative to the input directory, with slashes
     std::string out_name;     ///< path of the result relative to the output directory, with slashes
-    std::uint64_t bytes = 0;  ///< size of the input file
+    std::uint64_t bytes = 0;  ///< size of the input file; 0 if it cannot be read
+    std::string problem;      ///< why the input cannot be read; empty: it can, as far as is known
 };
 
 /// Finds the .glb, .gltf, .obj, .ply, .stl and .off files (ignoring case) of a directory and its
 /// subdirectories, and assigns the paths of the results: the same relative path in the output directory, with
-/// another extension. Links to directories are not followed. The output directory is not searched.
+/// another extension. Links to directories are not followed. A link to a file that does not exist is a model
+/// with a problem. The output directory is not searched.
 /// \param folder      input directory
 /// \param out_folder  output directory; need not exist
 /// \param extension   of the results, with the dot

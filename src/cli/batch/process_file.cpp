@@ -83,6 +83,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
 /// \param watch  reset after waiting for memory, so that it measures the work alone
 Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
+    if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
     std::vector<fs::path> inputs = referenced_files(file.in, References::readable);
     inputs.insert(inputs.begin(), file.in);
     const BatchEntry entry = {modification_stamp(inputs), work.options_key, "", 0, 0};

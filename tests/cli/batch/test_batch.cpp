@@ -107,6 +107,40 @@ TEST_CASE("a failing model does not stop a batch and its line has the code and m
     CHECK(!fs::exists(folder / "out/point.glb"));
 }
 
+TEST_CASE("batch reports links that lead to no file as models that cannot be read") {
+    const Folder folder;
+    fs::create_directories(folder / "in/sub");
+    fs::create_symlink("../elsewhere/gone.obj", folder / "in/sub/moved.obj");
+    fs::create_symlink("loop.ply", folder / "in/loop.ply");
+    fs::create_symlink("nowhere", folder / "in/notes");  // does not have the name of a model
+    const auto check_links = [](const std::map<std::string, nlohmann::json>& lines) {
+        for (const auto& [name, reason] :
+             {std::pair("sub/moved.obj",
+                        "in/sub/moved.obj: is a link to ../elsewhere/gone.obj: No such file"),
+              {"loop.ply", "in/loop.ply: is a link to loop.ply: "}}) {
+            CAPTURE(name);
+            REQUIRE(lines.contains(name));
+            CHECK(lines.at(name)["status"] == "failed");
+            CHECK(lines.at(name)["code"] == 3);
+            CHECK(lines.at(name)["message"].get<std::string>().find(reason) == 0);
+        }
+    };
+    const Outcome links = run(folder, batch);
+    CHECK(links.code == 9);
+    CHECK(lines_of(links).size() == 2);
+    check_links(lines_of(links));
+    // Models beside them, and links to these, are processed.
+    faqem::save(sheet(8), folder / "in/a.glb");
+    fs::create_symlink("../a.glb", folder / "in/sub/b.glb");
+    for (const char* resume : {"", "--resume"}) {
+        const Outcome outcome = run(folder, batch + resume);
+        CHECK(outcome.code == 9);
+        CHECK(lines_of(outcome).size() == 4);
+        check_links(lines_of(outcome));
+        CHECK(lines_of(outcome).at("sub/b.glb")["code"] == 0);
+    }
+}
+
 TEST_CASE("batch applies --max-error and --strict to each model") {
     const Folder folder;
     make_models(folder);
