@@ -59,10 +59,10 @@ std::string rejection_message(ExitCode rejection, const std::filesystem::path& i
     if (rejection == exit_bad_input) {
         text << "nothing is left of " << in.string() << "; ";
     } else if (rejection == exit_target_missed) {
-        text << "target missed: the result has " << report.faces_out << " faces, the target is "
-             << report.target_faces << "; ";
+        text << in.string() << ": target missed: the result has " << report.faces_out
+             << " faces, the target is " << report.target_faces << "; ";
     } else {
-        text << "max error exceeded: the result with " << report.faces_out
+        text << in.string() << ": max error exceeded: the result with " << report.faces_out
              << " faces may have a distance of up to " << report.max_error->bound << ", "
              << report.max_error->allowed << " is allowed; ";
     }

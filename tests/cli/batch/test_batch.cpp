@@ -147,6 +147,9 @@ TEST_CASE("batch applies --max-error and --strict to each model") {
     const Outcome outcome = run(folder, batch + "--max-error 1e-9");
     CHECK(outcome.code == 9);
     CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
+    const std::string message = lines_of(outcome).at("a.glb")["message"];
+    CHECK(message.find("in/a.glb: max error exceeded: ") == 0);
+    CHECK(message.find("; out/a.glb was not written") != std::string::npos);
     CHECK(!fs::exists(folder / "out/a.glb"));
     // Dropping a duplicate face is a repair, which is an error with --strict. The other results were written
     // without

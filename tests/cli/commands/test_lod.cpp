@@ -142,9 +142,12 @@ TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
     const Outcome outcome =
         run(folder, "lod a.glb out --levels 0.5,4 --lock-boundary --strict-target --bake none");
     CHECK(outcome.code == 5);
-    CHECK(outcome.err.find("target missed") != std::string::npos);
+    CHECK(outcome.err.find("faqem: a.glb: target missed: ") == 0);
     CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
-    CHECK(run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none").code == 6);
+    const Outcome far = run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none");
+    CHECK(far.code == 6);
+    CHECK(far.err.find("faqem: a.glb: max error exceeded: ") == 0);
+    CHECK(far.err.find("; out/a_LOD.json was not written\n") != std::string::npos);
 }
 
 TEST_CASE("lod --one-file writes all levels to one file whose scene has the finest") {

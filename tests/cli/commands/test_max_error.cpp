@@ -73,7 +73,8 @@ TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no mode
             std::string("simplify in.glb out.glb --bake none --force --report r.json ") + target;
         const Outcome refused = run(folder, common + " --max-error 0.001");
         CHECK(refused.code == 6);
-        CHECK(refused.err.find("max error exceeded") != std::string::npos);
+        CHECK(refused.err.find("faqem: in.glb: max error exceeded: ") == 0);
+        CHECK(refused.err.find("; out.glb was not written\n") != std::string::npos);
         CHECK(!fs::exists(folder / "out.glb"));
         const nlohmann::json report = nlohmann::json::parse(read(folder / "r.json"));
         CHECK(report["max_error"]["within"] == false);
