@@ -164,11 +164,17 @@ case $release in
     bookworm) runtime="libtinygltf2d libdraco7 libmeshoptimizer2d" ;;
     trixie) runtime="libtinygltf6d libdraco8 libmeshoptimizer2d" ;;
 esac
+# Stops if a step failed.
+end() {
+    [ -z "$failed" ] || { echo "failed:$failed"; exit 1; }
+}
 echo "fresh: Debian $release from $mirror"
 step "an empty root" make_root
-[ -z "$failed" ] || exit 1
+end
 step "the quickstart" quickstart
+end
 step "cmake --install" install_faqem
+end
 step "a root with a compiler" make_compiler_root
 step "arrays, component faqem" consumer arrays ""
 step "arrays in C, component c" consumer c "$runtime"
@@ -179,4 +185,4 @@ step "textured, component bake" consumer textured \
 step "arrays, component header_only" consumer arrays_header_only libeigen3-dev
 step "halfedges, component openmesh_header_only" consumer halfedges_header_only "libopenmesh-dev libeigen3-dev"
 step "faqem::faqem by add_subdirectory" subproject
-[ -z "$failed" ] || { echo "failed:$failed"; exit 1; }
+end

@@ -16,15 +16,12 @@
 
 #include "cli/output_file.hpp"
 #include "faqem/asset.hpp"
+#include "support/cli_paths.hpp"
 
 namespace tool_test {
 
 namespace fs = std::filesystem;
 
-/// The faqem command and the source folder. Their definitions are in a generated file (tests/CMakeLists.txt), so that no
-/// other file of the tests depends on a path.
-extern const char* const tool_path;
-extern const char* const source_path;
 
 /// A temporary folder that is removed by the destructor.
 class Folder : public faqem::cli::TemporaryFolder {

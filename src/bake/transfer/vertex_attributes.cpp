@@ -18,7 +18,7 @@ struct Influence {
 
 void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
     const Triangle& t = from.triangles[point.face];
-    std::array<Influence, 12> all;
+    std::array<Influence, 12> all{};  // those that are not used have weight 0
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -35,10 +35,9 @@ void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
             }
         }
     }
-    std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const Influence& a, const Influence& b) {
-                  return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
-              });
+    std::sort(all.begin(), all.end(), [](const Influence& a, const Influence& b) {
+        return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
+    });
     count = std::min<std::size_t>(count, 4);
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) sum += all[k].weight;
