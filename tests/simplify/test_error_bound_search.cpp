@@ -6,6 +6,7 @@
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "faqem/levels.hpp"
 #include "support/brute_force.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -36,6 +37,16 @@ double top(const TriangleMesh& mesh) {
 
 bool same_geometry(const TriangleMesh& a, const TriangleMesh& b) {
     return a.positions == b.positions && a.triangles == b.triangles;
+}
+
+/// Distance of a point from the surface of the unit cube.
+double distance_from_cube(const Vec3& p) {
+    double outside = 0, inside = std::numeric_limits<double>::infinity();
+    for (const double x : p) {
+        outside = std::hypot(outside, std::max({-x, 0.0, x - 1}));
+        inside = std::min({inside, x, 1 - x});
+    }
+    return outside > 0 ? outside : inside;
 }
 
 bool warned(const Report& report, const std::string& beginning) {
@@ -128,6 +139,26 @@ TEST_CASE("with a target and max_error there is one run and one measurement") {
         CHECK(result.report.max_error->bound == measured.bound);
         CHECK(result.report.max_error->within() == (allowed == 0.5));
         CHECK(result.report.max_error->runs == 1);
+    }
+}
+
+TEST_CASE("the distances reported for a simplified cube include those of its vertices") {
+    // The fitting of preset best moves vertices outside the cube, with 6 faces farther than any point of the cube
+    // is from the result.
+    const TriangleMesh cube = test::cube();
+    const Preset preset = GENERATE(Preset::best, Preset::balanced, Preset::qem);
+    for (const std::uint64_t target : {4, 6, 8, 10, 12}) {
+        CAPTURE(target);
+        Options options = within(model_units(1), preset);
+        const std::vector<SimplifiedLevel> level =
+            simplify_levels(cube.view(), {faces(target)}, {.preset = preset});
+        options.target = faces(target);
+        const SimplifyResult result = simplify(cube.view(), options);
+        for (const Vec3& p : result.mesh.positions) {
+            CHECK(distance_from_cube(p) <= result.report.max_error->value * (1 + 1e-12));
+            CHECK(distance_from_cube(p) <= level[0].error * (1 + 1e-12));
+        }
+        CHECK(same_geometry(result.mesh, level[0].result.mesh));
     }
 }
 
