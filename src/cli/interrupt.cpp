@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "asset/io/file.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "cli/exit_code.hpp"
 
 namespace faqem::cli {

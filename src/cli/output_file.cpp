@@ -3,17 +3,35 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <mutex>
+#include <set>
 #include <span>
 #include <string>
 
 #include "asset/io/file.hpp"
 #include "asset/io/side_files.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "cli/protected_files.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Removes what dead processes left in a folder, once in a run: listing a folder for each of many results would
+/// take quadratic time.
+void clean_folder_once(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    std::error_code error;
+    const fs::path known = fs::canonical(folder, error);
+    const std::lock_guard guard(mutex);
+    if (!error && cleaned.insert(known).second) detail::remove_leftovers(known);
+}
+
+}  // namespace
 
 void check_output(const fs::path& file, Overwrite overwrite) {
     std::error_code error;
@@ -23,6 +41,7 @@ void check_output(const fs::path& file, Overwrite overwrite) {
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, error))
         throw WriteError(file.string() + ": no such directory: " + folder.string());
+    clean_folder_once(folder);
     if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
         throw WriteError(file.string() + ": is not a regular file");

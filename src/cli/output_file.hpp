@@ -19,7 +19,8 @@ using detail::lower_case_extension;
 
 /// Checks that a file can be written: it is not protected (protect_input()), nor is the buffer of a .gltf
 /// file, its directory exists and is writable, it is not a directory, device or pipe, and it exists only if
-/// it may be overwritten. Other files beside a model are checked when it is saved.
+/// it may be overwritten. Other files beside a model are checked when it is saved. Removes the temporary files
+/// that dead processes left in the directory. Thread-safe.
 /// \throws OptionError  the file is an input
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite);

@@ -2,21 +2,15 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-#include <random>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 
+#include "asset/io/locked_file.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -33,90 +27,6 @@ std::string reason(int error) { return std::generic_category().message(error); }
 [[noreturn]] void fail_write(const fs::path& file, const char* action, int error) {
     throw WriteError(file.string() + ": cannot " + action + ": " + reason(error));
 }
-
-/// Owns a file descriptor of a file or folder and closes it on destruction.
-class Descriptor {
-public:
-    Descriptor() = default;
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    int get() const { return number_; }
-    explicit operator bool() const { return number_ >= 0; }
-    /// Closes the descriptor. Returns false and sets errno on failure.
-    bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
-private:
-    int number_ = -1;
-};
-
-// Names of the temporary files of this process. The code that exchanges a slot with null owns the name: the
-// writer frees it; the signal handler leaks it, because it must not free memory.
-std::array<std::atomic<char*>, 64> temporary_names;
-static_assert(std::atomic<char*>::is_always_lock_free, "used in a signal handler");
-
-std::atomic<char*>& register_temporary(char* name) {
-    for (;;) {
-        for (std::atomic<char*>& slot : temporary_names) {
-            char* empty = nullptr;
-            if (slot.compare_exchange_strong(empty, name)) return slot;
-        }
-        std::this_thread::yield();
-    }
-}
-
-/// A temporary file with a registered name. It is removed on destruction unless release() was called.
-class TemporaryFile {
-public:
-    TemporaryFile(const fs::path& target, mode_t mode) {
-        std::random_device random;
-        char base[40];
-        std::snprintf(base, sizeof base, ".faqem-%08x%08x%08x.tmp", random(), random(), random());
-        const std::string path = fs::absolute(target.parent_path() / base).string();
-        name_ = std::make_unique<char[]>(path.size() + 1);
-        std::memcpy(name_.get(), path.c_str(), path.size() + 1);
-        // The name is registered before the file is created; removing a file that does not exist is harmless.
-        slot_ = &register_temporary(name_.get());
-        file_ = Descriptor(::open(name_.get(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
-        if (!file_) {
-            const int error = errno;
-            unregister();
-            fail_write(target, "create a temporary file in its folder", error);
-        }
-    }
-    TemporaryFile(TemporaryFile&& other) noexcept
-        : name_(std::move(other.name_)),
-          slot_(std::exchange(other.slot_, nullptr)),
-          file_(std::move(other.file_)) {}
-    TemporaryFile& operator=(TemporaryFile&&) = delete;
-    ~TemporaryFile() {
-        if (!slot_) return;
-        ::unlink(name_.get());
-        unregister();
-    }
-
-    const char* name() const { return name_.get(); }
-    Descriptor& file() { return file_; }
-    /// Keeps the file: called after it was renamed to its final name.
-    void release() { unregister(); }
-
-private:
-    void unregister() {
-        if (!slot_) return;
-        if (!slot_->exchange(nullptr)) (void)name_.release();  // the signal handler is reading it
-        slot_ = nullptr;
-    }
-
-    std::unique_ptr<char[]> name_;
-    std::atomic<char*>* slot_ = nullptr;
-    Descriptor file_;
-};
 
 void write_all(const fs::path& target, int file, std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
@@ -158,17 +68,17 @@ PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite
     if (!folder) fail_write(content.file, "open its folder", errno);
     const mode_t mode = exists ? old.st_mode & 07777 : 0666;
     TemporaryFile temporary(target, mode & 0666);
-    const int file = temporary.file().get();
+    const int file = temporary.file();
     write_all(content.file, file, content.bytes);
     if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
     if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
-    if (!temporary.file().close()) fail_write(content.file, "close", errno);
     return {std::move(target), std::move(folder), std::move(temporary)};
 }
 
 void commit_file(PendingFile& pending, Overwrite overwrite) {
     const char* from = pending.temporary.name();
     const char* to = pending.target.c_str();
+    if (pending.temporary.is_removed()) fail_write(pending.target, "write", EINTR);
     const bool renamed = overwrite == Overwrite::yes ? ::rename(from, to) == 0 : rename_if_absent(from, to);
     if (!renamed) fail_write(pending.target, "write", errno);
     pending.temporary.release();
@@ -270,13 +180,6 @@ void write_files(std::span<const FileContent> files, Overwrite overwrite) {
 void write_file(const fs::path& file, std::span<const std::uint8_t> bytes, Overwrite overwrite) {
     const FileContent content{file, bytes};
     write_files({&content, 1}, overwrite);
-}
-
-void remove_temporary_files() noexcept {
-    const int error = errno;
-    for (std::atomic<char*>& slot : temporary_names)
-        if (const char* name = slot.exchange(nullptr)) ::unlink(name);
-    errno = error;
 }
 
 fs::path resolve_inside(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {

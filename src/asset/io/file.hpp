@@ -35,7 +35,7 @@ struct FileContent {
 };
 
 /// Writes a file atomically: after a failure or a crash, the path holds the complete old or the complete new
-/// content. Writes a temporary file in the same folder, syncs it and renames it. A new file gets the mode
+/// content. Writes a TemporaryFile in the same folder, syncs it and renames it. A new file gets the mode
 /// 0666 minus the umask; a replaced file keeps its mode. Symbolic links are followed.
 /// \param file       path of the file
 /// \param bytes      new content, borrowed
@@ -52,11 +52,6 @@ FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const 
 /// \param overwrite  as in write_file()
 /// \throws as write_file()
 void write_files(std::span<const FileContent> files, Overwrite overwrite);
-
-/// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
-/// SIGINT and SIGTERM, which ends the process afterwards. If the process continues, the interrupted writes
-/// fail.
-FAQEM_EXPORT void remove_temporary_files() noexcept;
 
 /// Syntax of a file reference inside a model file.
 enum class ReferenceSyntax {

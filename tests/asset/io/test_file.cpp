@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "asset/io/file.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 

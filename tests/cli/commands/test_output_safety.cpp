@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -157,4 +158,22 @@ TEST_CASE("a killed process leaves either the complete old file or the complete 
         replaced += WIFEXITED(status);
     }
     CHECK(replaced == 1);
+}
+
+TEST_CASE("the next run in a folder removes temporary files of dead runs, but not those in use") {
+    const Folder folder;
+    faqem::save(sheet(4), folder / "in.glb");
+    fs::create_directory(folder / "out");
+    const std::string dead = "out/.faqem-00000000000000000000dead.tmp",
+                      used = "out/.faqem-00000000000000000000beef.tmp";
+    write(folder / dead, "left");
+    write(folder / used, "being written");
+    const int file = ::open((folder / used).c_str(), O_RDONLY);
+    REQUIRE(::flock(file, LOCK_EX) == 0);
+    CHECK(run(folder, "simplify in.glb out/new.glb --bake none --quiet").code == 0);
+    CHECK(!fs::exists(folder / dead));
+    CHECK(fs::exists(folder / used));
+    ::close(file);
+    CHECK(run(folder, "simplify in.glb out/newer.glb --bake none --quiet").code == 0);
+    CHECK(!fs::exists(folder / used));
 }

@@ -1,0 +1,127 @@
+#include "asset/io/temporary_file.hpp"
+
+#include <fcntl.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <random>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view temporary_prefix = ".faqem-", temporary_extension = ".tmp";
+constexpr std::size_t temporary_digits = 24;
+
+/// Names of the temporary files of this process. The code that exchanges a slot with null owns the name: the
+/// writer frees it; the signal handler leaks it, because it must not free memory. Blocks are never freed.
+struct NameSlots {
+    std::array<std::atomic<char*>, 64> names = {};
+    std::atomic<NameSlots*> next = nullptr;
+};
+static_assert(std::atomic<char*>::is_always_lock_free, "used in a signal handler");
+
+NameSlots first_slots;
+
+std::atomic<char*>& register_temporary(char* name) {
+    for (NameSlots* slots = &first_slots;; slots = slots->next) {
+        for (std::atomic<char*>& slot : slots->names) {
+            char* empty = nullptr;
+            if (slot.compare_exchange_strong(empty, name)) return slot;
+        }
+        if (slots->next) continue;
+        auto added = std::make_unique<NameSlots>();
+        NameSlots* none = nullptr;
+        if (slots->next.compare_exchange_strong(none, added.get())) (void)added.release();
+    }
+}
+
+std::string random_name() {
+    std::random_device random;
+    char base[40];
+    std::snprintf(base, sizeof base, ".faqem-%08x%08x%08x.tmp", random(), random(), random());
+    return base;
+}
+
+/// Removes a temporary file if its lock is free.
+void remove_if_unlocked(const fs::path& file) {
+    const Descriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status = {};
+    if (!opened || ::fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+    if (try_lock(opened.get()) == Lock::acquired && is_same_file(opened.get(), file.c_str()))
+        ::unlink(file.c_str());
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode) {
+    do {
+        const std::string path = fs::absolute(target.parent_path() / random_name()).string();
+        name_ = std::make_unique<char[]>(path.size() + 1);
+        std::memcpy(name_.get(), path.c_str(), path.size() + 1);
+        // The name is registered before the file is created; removing a file that does not exist is harmless.
+        slot_ = &register_temporary(name_.get());
+        file_ = Descriptor(::open(name_.get(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+        if (!file_) {
+            const int error = errno;
+            unregister();
+            throw WriteError(target.string() + ": cannot create a temporary file in its folder: " +
+                             std::generic_category().message(error));
+        }
+        // Another run may take the file for a leftover before it is locked, and remove it.
+        while (::flock(file_.get(), LOCK_EX) != 0 && errno == EINTR) {
+        }
+        if (is_same_file(file_.get(), name_.get())) return;
+        if (is_removed()) return;  // by remove_temporary_files()
+        unregister();
+    } while (true);
+}
+
+TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
+    : name_(std::move(other.name_)),
+      slot_(std::exchange(other.slot_, nullptr)),
+      file_(std::move(other.file_)) {}
+
+TemporaryFile::~TemporaryFile() {
+    if (!slot_) return;
+    ::unlink(name_.get());
+    unregister();
+}
+
+void TemporaryFile::unregister() {
+    if (!slot_) return;
+    char* own = name_.get();
+    // If the slot has another value, the signal handler is reading the name.
+    if (!slot_->compare_exchange_strong(own, nullptr)) (void)name_.release();
+    slot_ = nullptr;
+}
+
+bool is_temporary_name(std::string_view name) {
+    if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_extension)) return false;
+    if (name.size() != temporary_prefix.size() + temporary_digits + temporary_extension.size()) return false;
+    return name.substr(temporary_prefix.size(), temporary_digits).find_first_not_of("0123456789abcdef") ==
+           std::string_view::npos;
+}
+
+void remove_leftovers(const fs::path& folder) noexcept try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (is_temporary_name(entry.path().filename().string())) remove_if_unlocked(entry.path());
+} catch (const std::exception&) {  // the folder cannot be listed: its leftovers are harmless
+}
+
+void remove_temporary_files() noexcept {
+    const int error = errno;
+    for (NameSlots* slots = &first_slots; slots; slots = slots->next)
+        for (std::atomic<char*>& slot : slots->names)
+            if (const char* name = slot.exchange(nullptr)) ::unlink(name);
+    errno = error;
+}
+
+}  // namespace faqem::detail

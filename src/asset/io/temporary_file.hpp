@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// Temporary files that are locked while they are written, and removal of those that dead processes left.
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "asset/io/locked_file.hpp"
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// A new, locked file `.faqem-N.tmp`, where N is a random number of 24 hexadecimal digits. It is removed on
+/// destruction unless release() was called. On file systems without locks it is not locked.
+class FAQEM_EXPORT TemporaryFile {
+public:
+    /// \param target  file that the temporary file will replace: it is created in the same folder
+    /// \param mode    permissions, reduced by the umask
+    /// \throws WriteError  naming `target`
+    TemporaryFile(const std::filesystem::path& target, mode_t mode);
+    TemporaryFile(TemporaryFile&& other) noexcept;
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
+    ~TemporaryFile();
+
+    /// Absolute path.
+    const char* name() const { return name_.get(); }
+    /// Open for writing. Closing it ends the lock.
+    int file() const { return file_.get(); }
+    /// Whether remove_temporary_files() has removed the file.
+    bool is_removed() const { return slot_ && slot_->load() != name_.get(); }
+    /// Keeps the file: called after it was renamed to its final name.
+    void release() { unregister(); }
+
+private:
+    void unregister();
+
+    std::unique_ptr<char[]> name_;
+    std::atomic<char*>* slot_ = nullptr;
+    Descriptor file_;
+};
+
+/// Whether a file name is that of a TemporaryFile.
+bool is_temporary_name(std::string_view name);
+
+/// Removes the temporary files of a folder whose lock is free: the processes that wrote them are dead. Files
+/// that cannot be locked or removed remain.
+/// Complexity: lists the folder once.
+FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept;
+
+/// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
+/// SIGINT and SIGTERM, which ends the process afterwards. If the process continues, the interrupted writes
+/// fail.
+FAQEM_EXPORT void remove_temporary_files() noexcept;
+
+}  // namespace faqem::detail
