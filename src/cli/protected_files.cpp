@@ -5,12 +5,14 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "asset/io/file.hpp"
 #include "asset/io/side_files.hpp"
 #include "cli/referenced_files.hpp"
+#include "cli/side_file_owners.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -69,11 +71,17 @@ ProtectedFiles& protected_files() {
     return files;
 }
 
+/// The check of write_output() and save().
+void check_written_files(std::span<const fs::path> files) {
+    for (const fs::path& file : files) check_unprotected(file);
+    check_side_files_unshared(files);
+}
+
 }  // namespace
 
 void protect_input(const fs::path& input) {
     protected_files().add_input(input);
-    detail::set_write_check(check_unprotected);
+    detail::set_write_check(check_written_files);
 }
 
 void check_unprotected(const fs::path& file) { protected_files().check(file); }

@@ -10,7 +10,8 @@ namespace faqem::cli {
 /// Protects an input file of the command and all files that it refers to (References::all). From now on no
 /// file that is the same as one of them can be written, neither by write_output() nor by save(): files are
 /// compared by device and inode, so that links, relative paths and letter case do not matter. Files that do
-/// not exist need no protection. Call this before the first output is checked or written.
+/// not exist need no protection. Call this before the first output is checked or written. From then on the
+/// files beside a model are also checked by check_side_files_unshared().
 ///
 /// The input is examined when the first existing file is about to be overwritten: for most runs, never.
 void protect_input(const std::filesystem::path& input);

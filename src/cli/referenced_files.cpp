@@ -220,6 +220,11 @@ std::vector<fs::path> referenced_files(const fs::path& model, References which) 
     std::error_code error;
     if (!fs::is_regular_file(model, error)) return {};  // opening a pipe would block
     try {
+        if (detail::lower_case_extension(model) == ".mtl") {
+            std::set<fs::path> libraries;
+            add_library(model.filename().string(), files, libraries);
+            return files.finish();
+        }
         const detail::Format format = detail::format_of_file(model);
         if (format == detail::Format::obj) add_obj_references(model, files);
         if (format == detail::Format::ply) add_ply_references(model, files);

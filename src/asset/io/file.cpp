@@ -165,8 +165,11 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
 void set_write_check(WriteCheck check) { write_check = check; }
 
 void write_files(std::span<const FileContent> files, Overwrite overwrite) {
-    if (write_check)
-        for (const FileContent& content : files) write_check(content.file);
+    if (write_check) {
+        std::vector<fs::path> paths;
+        for (const FileContent& content : files) paths.push_back(content.file);
+        write_check(paths);
+    }
     std::vector<PendingFile> pending;
     pending.reserve(files.size());
     try {

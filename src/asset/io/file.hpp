@@ -21,11 +21,11 @@ namespace faqem::detail {
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
 
-/// Checks whether a file may be written. Called with the path as given; throws an exception if not.
-using WriteCheck = void (*)(const std::filesystem::path& file);
+/// Checks whether files may be written together. Called with the paths as given; throws an exception if not.
+using WriteCheck = void (*)(std::span<const std::filesystem::path> files);
 
-/// Sets a check that write_file() and write_files() call for each of their files before they write the first
-/// one, on the calling thread. Initially there is none. Not thread-safe: intended for the start of a program.
+/// Sets a check that write_file() and write_files() call before they write the first file, on the calling
+/// thread. Initially there is none. Not thread-safe: intended for the start of a program.
 FAQEM_EXPORT void set_write_check(WriteCheck check);
 
 /// A file to be written. The bytes are borrowed.
