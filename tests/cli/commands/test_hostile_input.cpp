@@ -1,5 +1,7 @@
 // Malicious files exit with 3 (or 4) and an error that names the file and the element; no output is written.
 
+#include <algorithm>
+
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/gltf_builder.hpp"
@@ -117,6 +119,34 @@ TEST_CASE("hostile: an image whose header has more pixels than its bytes can enc
     CHECK(!fs::exists(folder / "out.glb"));
     // --bake keep copies the encoded image without decoding it.
     CHECK(run(folder, "simplify a.glb out.glb --bake keep --quiet").code == 0);
+}
+
+TEST_CASE("hostile: nothing but the error of faqem is printed for a damaged PNG") {
+    // libpng prints its errors itself unless it is prevented from doing so.
+    const Folder folder;
+    fs::create_directory(folder / "in");
+    const std::vector<std::uint8_t> good = two_colours().encoded;
+    std::vector<std::vector<std::uint8_t>> damaged(5, good);
+    damaged[0][20] ^= 1;                                // height: the checksum of IHDR is wrong
+    damaged[1][good.size() - 30] ^= 0x55;               // in the last IDAT
+    damaged[2].resize(good.size() - 40);                // truncated
+    damaged[3].insert(damaged[3].begin() + 33, 12, 0);  // a chunk whose type is zeros
+    std::fill(damaged[4].begin() + 60, damaged[4].end() - 20, std::uint8_t{0xff});
+    for (std::size_t i = 0; i < damaged.size(); ++i) {
+        CAPTURE(i);
+        faqem::Asset asset = sheet(4);
+        asset.images[0].encoded = damaged[i];
+        const std::string file = "in/" + std::to_string(i) + ".glb";
+        faqem::save(asset, folder / file);
+        const Outcome outcome = run(folder, "simplify " + file + " out.glb --bake atlas");
+        INFO(outcome.err);
+        CHECK(outcome.code == 3);
+        CHECK(outcome.err.rfind("faqem: " + file + ": ", 0) == 0);
+        CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+    }
+    const Outcome batch = run(folder, "batch in out --bake atlas --jobs 2");
+    CHECK(batch.code == 9);
+    CHECK(batch.err.empty());
 }
 
 TEST_CASE("hostile: references to files outside the model's directory are rejected") {
