@@ -153,20 +153,39 @@ FAQEM_INLINE ReplayTables replay_vertices(const CollapseHistory& history,
     return result;
 }
 
+// ReplayTables::entry_begin
+inline std::vector<std::uint64_t> entries_of_patches(const CollapseHistory& history) {
+    const auto entries = [&](std::size_t k) {
+        const std::uint64_t size = history.patch_begin[k + 1] - history.patch_begin[k];
+        return size > max_entries_of_patch ? 0 : size;
+    };
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < history.patch_count(); ++k) sum += entries(k);
+    if (sum == history.patch_faces.size()) return {};
+    std::vector<std::uint64_t> begin(1, 0);
+    begin.reserve(history.patch_count() + 1);
+    for (std::size_t k = 0; k < history.patch_count(); ++k) begin.push_back(begin.back() + entries(k));
+    return begin;
+}
+
 FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history,
                                          engine::CancellationCheck check_cancelled) {
-    const std::size_t entries = history.patch_faces.size();
     ReplayTables result;
     result.positions = version_positions(history);
+    result.entry_begin = entries_of_patches(history);
+    const std::uint64_t entries = result.first_entry(history, history.patch_count());
     result.corners.resize(entries);
     result.previous.resize(entries);
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
         replay_forward(history, check_cancelled, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
-            result.corners[e] = t;
             Index& latest = touched[history.patch_faces[e]];
-            result.previous[e] = latest;
+            if (result.has_entries(history, k)) {
+                const std::uint64_t entry = result.first_entry(history, k) + e - history.patch_begin[k];
+                result.corners[entry] = t;
+                result.previous[entry] = latest;
+            }
             latest = static_cast<Index>(k);
         });
     fill_kept_faces(history, last, check_cancelled, result);
@@ -179,24 +198,25 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
     replay.bounds.resize(replay.corners.size());
     replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
-    parallel_blocks(
-        history.patch_count(), 1024, workers,
-        [&](std::size_t first, std::size_t last, CancellationCheck check_cancelled) {
-            ComponentLabeller component_labeller;
-            for (std::size_t k = first; k < last; ++k) {
-                const std::uint64_t begin = history.patch_begin[k], size = history.patch_begin[k + 1] - begin;
-                check_cancelled(size);
-                const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
-                for (std::size_t e = 0; e < size; ++e)
-                    replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
-                const auto surface_patch = [&](std::size_t e) {
-                    return surface_patches[history.patch_faces[begin + e]];
-                };
-                component_labeller.label(corners, surface_patch,
-                                         std::span(replay.patch_component).subspan(begin, size));
-                replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
-            }
-        });
+    parallel_blocks(history.patch_count(), 1024, workers,
+                    [&](std::size_t first, std::size_t last, CancellationCheck check_cancelled) {
+                        ComponentLabeller component_labeller;
+                        for (std::size_t k = first; k < last; ++k) {
+                            const std::uint64_t begin = replay.first_entry(history, k),
+                                                size = replay.first_entry(history, k + 1) - begin;
+                            check_cancelled(size);
+                            const std::span<const Triangle> corners =
+                                std::span(replay.corners).subspan(begin, size);
+                            for (std::size_t e = 0; e < size; ++e)
+                                replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
+                            const auto surface_patch = [&](std::size_t e) {
+                                return surface_patches[history.patch(k)[e]];
+                            };
+                            component_labeller.label(corners, surface_patch,
+                                                     std::span(replay.patch_component).subspan(begin, size));
+                            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
+                        }
+                    });
 }
 
 }  // namespace detail

@@ -29,7 +29,7 @@ inline constexpr std::size_t max_rejections = 512;
 inline constexpr std::size_t small_surface_patch = 32;
 // Maximum number of faces that a walk visits, about ten times the usual number. If all vertices of a plane
 // were collapsed into one vertex, one after the other, a face can be in the patches of all these collapses.
-inline constexpr std::uint64_t max_visited_faces = 2048;
+inline constexpr std::uint64_t max_visited_faces = max_entries_of_patch;
 // A point lies on a face if its distance is at most this fraction of the mean edge length of the patch.
 inline constexpr double coincidence_tolerance = 1e-6;
 // Distance below which no walk is needed, as a fraction of the longest edge of the simplified face.
@@ -53,7 +53,7 @@ struct SuccessiveProjection::Query {
 // The best face of a patch.
 struct SuccessiveProjection::ScoredFace {
     Index face = no_index;
-    std::uint64_t entry = 0;      // index into CollapseHistory::patch_faces
+    std::uint64_t entry = 0;      // see ReplayTables
     bool is_approximate = false;  // wrong orientation or other surface patch
     double score = unbounded;
 };
@@ -68,6 +68,8 @@ struct SuccessiveProjection::WalkEnd {
 // A patch, and the best of its faces so far.
 struct SuccessiveProjection::Patch {
     const Query& query;
+    std::span<const Index> faces;
+    std::uint64_t begin = 0;           // its first entry
     double edge = 0;                   // mean edge length
     std::uint8_t patch_component = 0;  // of the current face
     ScoredFace best, best_away;        // with the same orientation, and with another one
@@ -115,10 +117,12 @@ FAQEM_INLINE bool SuccessiveProjection::is_facing_away(Index candidate, const Ve
 // can be skipped by their bounding spheres.
 FAQEM_INLINE SuccessiveProjection::ScoredFace SuccessiveProjection::best_of_patch(
     Index collapse, Index face, const Query& query, std::uint64_t& visited) const {
-    const std::uint64_t begin = history_.patch_begin[collapse], end = history_.patch_begin[collapse + 1];
+    const std::uint64_t begin = replay_.first_entry(history_, collapse),
+                        end = replay_.first_entry(history_, collapse + 1);
+    const std::span<const Index> faces = history_.patch(collapse);
     std::uint64_t own = begin, first = begin;
-    while (own < end && history_.patch_faces[own] != face) ++own;
-    Patch patch{query, replay_.mean_edge[collapse], replay_.patch_component[own], {}, {}};
+    while (own < end && faces[own - begin] != face) ++own;
+    Patch patch{query, faces, begin, replay_.mean_edge[collapse], replay_.patch_component[own], {}, {}};
     consider(own, patch);
     ++visited;
     if (patch.best.score <= coincidence_tolerance * patch.edge) return patch.best;
@@ -142,7 +146,7 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
     const double limit = patch.best.face != no_index ? patch.best.score : unbounded;
     const double far = limit + bound.radius;
     if (distance_squared(query.p0, bound) > far * far) return;
-    const Index g = history_.patch_faces[e];
+    const Index g = patch.faces[e - patch.begin];
     if (group(g) != query.group) return;
     const Triangle& t = replay_.corners[e];
     const Vector3 a = to_eigen(replay_.positions[t[0]]), b = to_eigen(replay_.positions[t[1]]),
@@ -234,7 +238,7 @@ FAQEM_INLINE SuccessiveProjection::WalkEnd SuccessiveProjection::walk(Index face
     WalkEnd end{query.original};
     std::uint64_t visited = 0;
     for (Index k = replay_.kept_last[face]; k != no_index;) {
-        if (visited > max_visited_faces) {
+        if (visited > max_visited_faces || !replay_.has_entries(history_, k)) {
             end.is_aborted = true;
             break;
         }
