@@ -54,15 +54,18 @@ std::size_t attribute_values_per_corner(const Part& part) {
     return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4);
 }
 
+/// Memory of the decoded images, and of the decoder of one of them.
 double decoded_image_bytes(const Asset& asset) {
     double bytes = 0;
+    std::uint64_t decoder = 0;
     for (const Image& image : asset.images) {
         const auto size = detail::declared_size(image.encoded);
         // Larger images are rejected before memory for their pixels is allocated.
         if (size && size->width <= detail::max_image_side && size->height <= detail::max_image_side)
             bytes += 4.0 * static_cast<double>(size->pixels());
+        decoder = std::max(decoder, detail::decoding_memory(image.encoded));
     }
-    return bytes;
+    return bytes + static_cast<double>(decoder);
 }
 
 double page_bytes(const Asset& asset, const BakeOptions& bake) {

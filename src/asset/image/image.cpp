@@ -3,9 +3,12 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_codec.hpp"
+#include "asset/image/png_chunks.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -83,6 +86,12 @@ Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancel
             (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
                 decodable_format_names() + " are supported");
     check_header(image);
+    if (type == "image/png") {
+        std::vector<std::uint8_t> pixels_only = without_metadata(image.encoded);
+        if (!pixels_only.empty())
+            return image_codec().decode({image.name, image.mime_type, std::move(pixels_only), image.uri},
+                                        "png", check_cancelled);
+    }
     return image_codec().decode(image, type.substr(6), check_cancelled);
 }
 

@@ -36,21 +36,49 @@ bool is_frame_header(std::uint8_t marker) {
     return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-/// Size in the first frame header. Bytes between markers are skipped, as in libjpeg.
-std::optional<ImageSize> jpeg_size(Bytes bytes) {
-    std::size_t at = 2;
+/// Position of the first marker segment, from `at` on, whose marker is accepted; the size of the file if there
+/// is none. Bytes between markers are skipped, as in libjpeg.
+template <class Accept>
+std::size_t find_jpeg_segment(Bytes bytes, std::size_t at, Accept&& accept) {
     while (at + 9 < bytes.size()) {
         if (bytes[at] != 0xFF || bytes[at + 1] == 0xFF || bytes[at + 1] == 0) {
             ++at;
             continue;
         }
         const std::uint8_t marker = bytes[at + 1];
-        if (is_frame_header(marker))
-            return ImageSize{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+        if (accept(marker)) return at;
         const bool is_standalone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
         at += is_standalone ? 2 : 2 + big_endian(bytes, at + 2, 2);
     }
-    return {};
+    return bytes.size();
+}
+
+/// Size in the first frame header.
+std::optional<ImageSize> jpeg_size(Bytes bytes) {
+    const std::size_t at = find_jpeg_segment(bytes, 2, is_frame_header);
+    if (at == bytes.size()) return {};
+    return ImageSize{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+}
+
+/// Bytes per pixel of the coefficients that libjpeg keeps if the components of the image are in several scans,
+/// as in progressive files: 16 bits per component.
+std::uint64_t jpeg_coefficient_bytes(Bytes bytes) {
+    constexpr std::uint8_t progressive = 0xC2, start_of_scan = 0xDA;
+    const std::size_t frame = find_jpeg_segment(bytes, 2, is_frame_header);
+    if (frame == bytes.size()) return 0;
+    const std::uint64_t components = bytes[frame + 9];
+    const std::size_t scan =
+        find_jpeg_segment(bytes, frame, [](std::uint8_t m) { return m == start_of_scan; });
+    const bool is_single_scan =
+        bytes[frame + 1] != progressive && scan != bytes.size() && bytes[scan + 4] == components;
+    return is_single_scan ? 0 : 2 * components;
+}
+
+/// Bytes per pixel of the image that libpng keeps if the rows are interlaced, with up to four channels.
+std::uint64_t interlaced_png_bytes(Bytes bytes) {
+    constexpr std::size_t depth_at = 24, interlace_at = 28;
+    if (bytes.size() <= interlace_at || bytes[interlace_at] == 0) return 0;
+    return bytes[depth_at] == 16 ? 8 : 4;
 }
 
 /// Size in the first chunk, which must be VP8X, VP8L or VP8 (RFC 9649).
@@ -75,6 +103,17 @@ std::optional<ImageSize> declared_size(Bytes bytes) {
     if (type == "image/jpeg") return jpeg_size(bytes);
     if (type == "image/webp") return webp_size(bytes);
     return {};
+}
+
+std::uint64_t decoding_memory(Bytes bytes) {
+    const std::optional<ImageSize> size = declared_size(bytes);
+    if (!size || size->width > max_image_side || size->height > max_image_side) return 0;
+    const std::string type = sniff_mime_type(bytes);
+    // libwebp keeps the canvas, a frame and its own copy of the pixels.
+    std::uint64_t per_pixel = 16;
+    if (type == "image/png") per_pixel = interlaced_png_bytes(bytes);
+    if (type == "image/jpeg") per_pixel = jpeg_coefficient_bytes(bytes);
+    return bytes.size() + per_pixel * size->pixels();
 }
 
 bool is_plausible_size(Bytes bytes, const ImageSize& size) {

@@ -25,6 +25,10 @@ struct ImageSize {
 /// Reads the size from the header of a PNG, JPEG or WebP; empty if there is none. O(bytes)
 FAQEM_EXPORT std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
+/// Returns an upper estimate, in bytes, of the memory of a decoder in addition to the RGBA pixels that it
+/// returns, from the headers of a PNG, JPEG or WebP; 0 if the image will be rejected. O(bytes)
+FAQEM_EXPORT std::uint64_t decoding_memory(std::span<const std::uint8_t> bytes);
+
 /// Whether an encoded image of this length can hold this number of pixels.
 ///
 /// A JPEG has at least one bit per block of 8 x 8 pixels, since every block has a code in the first scan

@@ -3,6 +3,8 @@
 #include <functional>
 
 #include "asset/image/image.hpp"
+#include "asset/image/image_size.hpp"
+#include "asset/image/png_chunks.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 
@@ -155,6 +157,49 @@ TEST_CASE("gamma chunks do not change the decoded colours") {
                                           "64c8fa80"),
                              gamma)))
               .rgba == Bytes{0x64, 0xc8, 0xfa, 0x80});
+}
+
+TEST_CASE("metadata of a PNG is removed before it is decoded") {
+    const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
+    const std::string pixels = bytes_of_hex("0064c8fa80"), gamma = chunk("gAMA", big_endian(100000));
+    const std::string text = chunk("zTXt", std::string("a\0\0", 3) + stored(std::string(1000, 'x')));
+    const std::string others =
+        chunk("tEXt", "a") + chunk("iTXt", "b") + chunk("eXIf", "MM") + chunk("prVt", "");
+    const std::string plain = png(1, 1, 8, 6, pixels, gamma);
+    const std::string with_texts = png(1, 1, 8, 6, pixels, text + gamma + others);
+    CHECK(detail::without_metadata(bytes(with_texts)) == bytes(plain));
+    CHECK(detail::without_metadata(bytes(plain)).empty());
+    CHECK(decode(image_x(with_texts)).rgba == decode(image_x(plain)).rgba);
+    // Everything after a damaged chunk is left to the decoder.
+    const std::string cut = with_texts.substr(0, with_texts.find("zTXt") + 100);
+    CHECK(detail::without_metadata(bytes(cut)).empty());
+    CHECK_THROWS_AS(decode(image_x(cut)), InputError);
+    for (std::size_t size = 0; size < with_texts.size(); ++size)
+        detail::without_metadata(bytes(with_texts.substr(0, size)));
+}
+
+TEST_CASE("the memory of an image decoder is estimated from the headers") {
+    const auto memory = [](std::string bytes) {
+        return detail::decoding_memory(Bytes(bytes.begin(), bytes.end())) - bytes.size();
+    };
+    std::string image = png(1000, 500, 16, 6, "");
+    CHECK(memory(image) == 0);
+    image[28] = 1;  // interlaced
+    CHECK(memory(image) == 1000 * 500 * 8);
+    // Headers of JPEG files of 1000 x 500 pixels with three components: baseline with one scan, baseline with
+    // a scan of one component, progressive.
+    const std::string frame =
+                          "001108"
+                          "01f403e803"
+                          "012200"
+                          "021100"
+                          "031100",
+                      rest(40, '0');
+    CHECK(memory(bytes_of_hex("ffd8ffc0" + frame + "ffda000c03" + rest)) == 0);
+    CHECK(memory(bytes_of_hex("ffd8ffc0" + frame + "ffda000801" + rest)) == 1000 * 500 * 6);
+    CHECK(memory(bytes_of_hex("ffd8ffc2" + frame + "ffda000c03" + rest)) == 1000 * 500 * 6);
+    CHECK(detail::decoding_memory(Bytes(100, 'x')) == 0);
+    CHECK(detail::decoding_memory({}) == 0);
 }
 
 TEST_CASE("a PNG whose header exceeds the size limit is rejected before memory is allocated") {
