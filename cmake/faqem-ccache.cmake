@@ -26,8 +26,6 @@ if(NOT faqem_cache_dir OR NOT faqem_result EQUAL 0)
     return()
 endif()
 set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-                                CCACHE_SLOPPINESS=pch_defines,time_macros
-                                "CCACHE_IGNOREOPTIONS=-Werror -fmacro-prefix-map=*" ${FAQEM_CCACHE_PROGRAM})
+                                CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_IGNOREOPTIONS=-Werror
+                                ${FAQEM_CCACHE_PROGRAM})
 set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
-# The batches of a unity build include their files by absolute paths, which __FILE__ would repeat.
-add_compile_options("-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
