@@ -28,6 +28,7 @@ case ${1:-} in
     --module)
         preset=module
         module=$(echo "${2:-}" | sed -E 's#/+$##; s#^\./##; s#^(tests|src|include/faqem/detail|include/faqem)/##')
+        [ -n "$module" ] || { echo "tests/run.sh: --module needs a folder, for example engine/queue" >&2; exit 2; }
         shift
         ;;
     -*)
