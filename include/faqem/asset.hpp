@@ -145,7 +145,9 @@ FAQEM_EXPORT Asset load(const std::filesystem::path& file);
 enum class Overwrite { no, yes };
 
 /// Saves a scene as .glb, .gltf (+ .bin + images), .obj (+ .mtl + images), .ply or .stl, by file extension.
-/// Files are written under temporary names and then renamed: each is complete or absent.
+/// All files are replaced, or none: they are written under temporary names and then renamed, while signals are
+/// held in the calling thread. If the process is killed meanwhile, load() rejects the files until the next
+/// save() to their directory completes or restores them (docs/assets.md, "Writing").
 /// \return what the format cannot store (e.g. colours in STL), one sentence each
 /// \throws WriteError  a file cannot be written, or it exists and `overwrite` is Overwrite::no
 /// \throws UnsupportedError  unknown file extension

@@ -6,6 +6,7 @@
 #include "asset/formats/stl.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/io/file_format.hpp"
+#include "asset/io/recovery.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -14,6 +15,7 @@ namespace fs = std::filesystem;
 using detail::Format;
 
 Asset load(const fs::path& file) {
+    detail::check_completely_replaced(file);  // a file of the set may not exist yet
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status)) throw ReadError(file.string(), "", "no such file");

@@ -16,13 +16,22 @@ namespace {
 std::atomic<int> signal_count = 0, exit_requests = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
+// Whether all files of the command are written; the result of the process is decided.
+std::atomic<bool> outputs_are_complete = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler");
+
+/// Ends the process, unless a thread is replacing files: then the signal is seen by is_interrupted().
+void exit_unless_replacing() {
+    if (detail::remove_temporary_files()) _exit(exit_cancelled);
+}
+
 void on_signal(int) {
-    if (exit_requests == 0 && signal_count == 0) {
-        signal_count = 1;
+    const int before = signal_count.exchange(1);
+    if (outputs_are_complete) {
+        if (before != 0) _exit(exit_ok);  // standard output may be blocked
         return;
     }
-    detail::remove_temporary_files();
-    _exit(exit_cancelled);
+    if (exit_requests != 0 || before != 0) exit_unless_replacing();
 }
 
 }  // namespace
@@ -40,9 +49,15 @@ void install_signal_handlers() {
 
 bool is_interrupted() { return signal_count != 0; }
 
+void outputs_complete() noexcept {
+    outputs_are_complete = true;
+    signal_count = 0;
+}
+
 ExitOnInterrupt::ExitOnInterrupt() {
     ++exit_requests;
-    if (signal_count != 0) _exit(exit_cancelled);  // received since the last call of is_interrupted()
+    // A signal may have been received since the last call of is_interrupted().
+    if (signal_count != 0 && !outputs_are_complete) exit_unless_replacing();
 }
 ExitOnInterrupt::~ExitOnInterrupt() { --exit_requests; }
 

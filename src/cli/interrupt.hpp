@@ -6,12 +6,17 @@ namespace faqem::cli {
 
 /// Installs handlers for SIGINT and SIGTERM. The first signal sets the flag that is_interrupted() returns. A
 /// second signal, or one received while an ExitOnInterrupt exists, removes temporary files and ends the
-/// process with exit code 8. Also ignores SIGXFSZ, so that a file larger than the shell's limit is a failed
-/// write.
+/// process with exit code 8, but never while files are being renamed. After outputs_complete() the first
+/// signal is ignored, and a second one ends the process with exit code 0. Also ignores SIGXFSZ, so that a
+/// file larger than the shell's limit is a failed write.
 void install_signal_handlers();
 
 /// Returns whether a signal was received. May be called from any thread.
 bool is_interrupted();
+
+/// States that all files of the command are written, so that a signal no longer makes it fail.
+/// Async-signal-safe.
+void outputs_complete() noexcept;
 
 /// While an object of this class exists, a signal ends the process immediately. For work that does not call
 /// is_interrupted(): reading and writing files, loading libraries.

@@ -8,9 +8,10 @@
 #include <span>
 #include <string>
 
-#include "asset/io/file.hpp"
+#include "asset/io/recovery.hpp"
 #include "asset/io/side_files.hpp"
 #include "asset/io/temporary_file.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/protected_files.hpp"
 #include "faqem/error.hpp"
 
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Removes what dead processes left in a folder, once in a run: listing a folder for each of many results would
-/// take quadratic time.
+/// Removes what dead processes left in a folder, once in a run: listing a folder for each of many results
+/// would take quadratic time.
 void clean_folder_once(const fs::path& folder) {
     static std::mutex mutex;
     static std::set<fs::path> cleaned;
@@ -41,6 +42,7 @@ void check_output(const fs::path& file, Overwrite overwrite) {
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, error))
         throw WriteError(file.string() + ": no such directory: " + folder.string());
+    detail::recover_folder(folder);
     clean_folder_once(folder);
     if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
@@ -77,6 +79,20 @@ void make_folder(const fs::path& folder) {
 void write_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
     detail::write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()),
                        overwrite);
+}
+
+void commit_outputs(detail::FileSet& set) {
+    const ExitOnInterrupt exit_on_interrupt;
+    set.commit(outputs_complete);
+}
+
+void write_only_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+    detail::FileSet set;
+    {
+        const detail::CollectWrites collect(set);
+        write_output(file, content, overwrite);
+    }
+    commit_outputs(set);
 }
 
 }  // namespace faqem::cli

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asset/io/file_format.hpp"
+#include "asset/io/file_set.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -19,8 +20,9 @@ using detail::lower_case_extension;
 
 /// Checks that a file can be written: it is not protected (protect_input()), nor is the buffer of a .gltf
 /// file, its directory exists and is writable, it is not a directory, device or pipe, and it exists only if
-/// it may be overwritten. Other files beside a model are checked when it is saved. Removes the temporary files
-/// that dead processes left in the directory. Thread-safe.
+/// it may be overwritten. Other files beside a model are checked when it is saved. Removes the temporary
+/// files that dead processes left in the directory, and completes or restores a set of files that one
+/// replaced only in part. Thread-safe.
 /// \throws OptionError  the file is an input
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite);
@@ -37,9 +39,17 @@ std::string extension_of_format(const std::string& format);
 /// Creates a directory and its parents if they do not exist. \throws WriteError  this fails
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes a text or binary file atomically: after a failure the file is unchanged. \throws WriteError
-/// writing fails
+/// Writes a text or binary file atomically: after a failure the file is unchanged. Adds it to the set of
+/// detail::CollectWrites if there is one. \throws WriteError  writing fails
 void write_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
+
+/// Gives the files of a command, whose bytes are on the disk, their names: all or none. A signal received
+/// before ends the process, a later one no longer changes the exit code. \throws WriteError  no file is
+/// replaced
+void commit_outputs(detail::FileSet& set);
+
+/// Writes the only file of a command, with write_output() and commit_outputs().
+void write_only_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
 
 /// Creates a directory in the system's temporary directory, and deletes it with its contents at destruction.
 class TemporaryFolder {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
 #include "asset/io/side_files.hpp"
 #include "cli/referenced_files.hpp"
 #include "cli/side_file_owners.hpp"

@@ -7,7 +7,7 @@
 #include "asset/formats/mtl_writer.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
 #include "asset/io/side_files.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/value_numbers.hpp"

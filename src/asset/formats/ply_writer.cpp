@@ -8,7 +8,7 @@
 
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
 #include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {

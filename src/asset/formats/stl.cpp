@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/repair.hpp"

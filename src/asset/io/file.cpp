@@ -7,10 +7,9 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "asset/io/locked_file.hpp"
-#include "asset/io/temporary_file.hpp"
+#include "asset/io/recovery.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -23,71 +22,6 @@ std::string reason(int error) { return std::generic_category().message(error); }
 [[noreturn]] void fail_read(const fs::path& file, int error) {
     throw ReadError(file.string(), "", "cannot read: " + reason(error));
 }
-
-[[noreturn]] void fail_write(const fs::path& file, const char* action, int error) {
-    throw WriteError(file.string() + ": cannot " + action + ": " + reason(error));
-}
-
-void write_all(const fs::path& target, int file, std::span<const std::uint8_t> bytes) {
-    while (!bytes.empty()) {
-        const std::size_t chunk_size = std::min(bytes.size(), std::size_t{1} << 30);
-        const ssize_t written = ::write(file, bytes.data(), chunk_size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) fail_write(target, "write", written < 0 ? errno : EIO);
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-}
-
-bool rename_if_absent(const char* from, const char* to) {
-#ifdef RENAME_NOREPLACE
-    if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return true;
-    if (errno != EINVAL && errno != ENOSYS) return false;
-#endif
-    // Fallback: link() fails if the target exists; after success the temporary name is no longer needed.
-    return ::link(from, to) == 0 && ::unlink(from) == 0;
-}
-
-/// A file whose bytes are on the disk under a temporary name. `target` is the path with links resolved.
-struct PendingFile {
-    fs::path target;
-    Descriptor folder;
-    TemporaryFile temporary;
-};
-
-PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite) {
-    fs::path target = content.file;
-    struct stat old = {};
-    const bool exists = ::stat(target.c_str(), &old) == 0;
-    if (!exists && errno != ENOENT) fail_write(target, "write", errno);
-    if (exists && !S_ISREG(old.st_mode)) throw WriteError(target.string() + ": is not a regular file");
-    if (exists && overwrite == Overwrite::no) fail_write(target, "write", EEXIST);
-    if (exists) target = fs::canonical(target);
-
-    const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    Descriptor folder(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!folder) fail_write(content.file, "open its folder", errno);
-    const mode_t mode = exists ? old.st_mode & 07777 : 0666;
-    TemporaryFile temporary(target, mode & 0666);
-    const int file = temporary.file();
-    write_all(content.file, file, content.bytes);
-    if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
-    if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
-    return {std::move(target), std::move(folder), std::move(temporary)};
-}
-
-void commit_file(PendingFile& pending, Overwrite overwrite) {
-    const char* from = pending.temporary.name();
-    const char* to = pending.target.c_str();
-    if (pending.temporary.is_removed()) fail_write(pending.target, "write", EINTR);
-    const bool renamed = overwrite == Overwrite::yes ? ::rename(from, to) == 0 : rename_if_absent(from, to);
-    if (!renamed) fail_write(pending.target, "write", errno);
-    pending.temporary.release();
-    // Some file systems cannot sync a folder and return EINVAL.
-    if (::fsync(pending.folder.get()) != 0 && errno != EINVAL)
-        fail_write(pending.target, "sync its folder", errno);
-}
-
-WriteCheck write_check = nullptr;
 
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -140,6 +74,7 @@ bool escapes_folder(const fs::path& relative) {
 }  // namespace
 
 std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_bytes) {
+    check_completely_replaced(file);
     const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!in) fail_read(file, errno);
     struct stat status = {};
@@ -160,29 +95,6 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
         done += static_cast<std::uint64_t>(got);
     }
     return bytes;
-}
-
-void set_write_check(WriteCheck check) { write_check = check; }
-
-void write_files(std::span<const FileContent> files, Overwrite overwrite) {
-    if (write_check) {
-        std::vector<fs::path> paths;
-        for (const FileContent& content : files) paths.push_back(content.file);
-        write_check(paths);
-    }
-    std::vector<PendingFile> pending;
-    pending.reserve(files.size());
-    try {
-        for (const FileContent& content : files) pending.push_back(write_temporary_file(content, overwrite));
-        for (PendingFile& file : pending) commit_file(file, overwrite);
-    } catch (const fs::filesystem_error& error) {
-        throw WriteError(error.path1().string() + ": cannot write: " + error.code().message());
-    }
-}
-
-void write_file(const fs::path& file, std::span<const std::uint8_t> bytes, Overwrite overwrite) {
-    const FileContent content{file, bytes};
-    write_files({&content, 1}, overwrite);
 }
 
 fs::path resolve_inside(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading of whole files with a size limit, atomic writing of files, and resolution of file references.
+/// Reading of whole files with a size limit, and resolution of file references.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -17,41 +16,10 @@ namespace faqem::detail {
 /// \param file       path of the file
 /// \param max_bytes  maximum size in bytes; a larger file is rejected before memory is allocated
 /// \return the bytes of the file
-/// \throws ReadError  if the file cannot be read, is not a regular file or is too large
+/// \throws ReadError  if the file cannot be read, is not a regular file, is too large, or belongs to a set of
+///                    files that an interrupted run replaced only in part (check_completely_replaced())
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
-
-/// Checks whether files may be written together. Called with the paths as given; throws an exception if not.
-using WriteCheck = void (*)(std::span<const std::filesystem::path> files);
-
-/// Sets a check that write_file() and write_files() call before they write the first file, on the calling
-/// thread. Initially there is none. Not thread-safe: intended for the start of a program.
-FAQEM_EXPORT void set_write_check(WriteCheck check);
-
-/// A file to be written. The bytes are borrowed.
-struct FileContent {
-    std::filesystem::path file;
-    std::span<const std::uint8_t> bytes;
-};
-
-/// Writes a file atomically: after a failure or a crash, the path holds the complete old or the complete new
-/// content. Writes a TemporaryFile in the same folder, syncs it and renames it. A new file gets the mode
-/// 0666 minus the umask; a replaced file keeps its mode. Symbolic links are followed.
-/// \param file       path of the file
-/// \param bytes      new content, borrowed
-/// \param overwrite  Overwrite::no: an existing file is an error, even if it is created during the write
-/// \throws WriteError  with the path and the reason; the temporary file is removed
-/// \throws whatever the write check throws; nothing is written then
-FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
-                             Overwrite overwrite);
-
-/// Writes several files that belong together. All temporary files are on the disk before the first one is
-/// renamed, so that a full disk leaves no new file behind. The files are renamed in the given order: a file
-/// that refers to the others should be the last one.
-/// \param files      paths and contents, borrowed
-/// \param overwrite  as in write_file()
-/// \throws as write_file()
-void write_files(std::span<const FileContent> files, Overwrite overwrite);
 
 /// Syntax of a file reference inside a model file.
 enum class ReferenceSyntax {

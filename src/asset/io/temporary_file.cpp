@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "asset/io/held_signals.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -61,7 +62,7 @@ void remove_if_unlocked(const fs::path& file) {
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode) {
+TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode, const fs::path& shown) {
     do {
         const std::string path = fs::absolute(target.parent_path() / random_name()).string();
         name_ = std::make_unique<char[]>(path.size() + 1);
@@ -72,7 +73,7 @@ TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode) {
         if (!file_) {
             const int error = errno;
             unregister();
-            throw WriteError(target.string() + ": cannot create a temporary file in its folder: " +
+            throw WriteError(shown.string() + ": cannot create a temporary file in its folder: " +
                              std::generic_category().message(error));
         }
         // Another run may take the file for a leftover before it is locked, and remove it.
@@ -93,6 +94,10 @@ TemporaryFile::~TemporaryFile() {
     if (!slot_) return;
     ::unlink(name_.get());
     unregister();
+}
+
+std::string TemporaryFile::id() const {
+    return fs::path(name_.get()).filename().string().substr(temporary_prefix.size(), temporary_digits);
 }
 
 void TemporaryFile::unregister() {
@@ -116,12 +121,23 @@ void remove_leftovers(const fs::path& folder) noexcept try {
 } catch (const std::exception&) {  // the folder cannot be listed: its leftovers are harmless
 }
 
-void remove_temporary_files() noexcept {
+bool rename_if_absent(int folder, const char* from, const char* to) {
+#ifdef RENAME_NOREPLACE
+    if (::renameat2(folder, from, folder, to, RENAME_NOREPLACE) == 0) return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+#endif
+    // Fallback: linkat() fails if the target exists; after success the other name is no longer needed.
+    return ::linkat(folder, from, folder, to, 0) == 0 && ::unlinkat(folder, from, 0) == 0;
+}
+
+bool remove_temporary_files() noexcept {
+    if (!begin_exit()) return false;
     const int error = errno;
     for (NameSlots* slots = &first_slots; slots; slots = slots->next)
         for (std::atomic<char*>& slot : slots->names)
             if (const char* name = slot.exchange(nullptr)) ::unlink(name);
     errno = error;
+    return true;
 }
 
 }  // namespace faqem::detail

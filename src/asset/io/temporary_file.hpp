@@ -7,6 +7,7 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "asset/io/locked_file.hpp"
@@ -20,14 +21,18 @@ class FAQEM_EXPORT TemporaryFile {
 public:
     /// \param target  file that the temporary file will replace: it is created in the same folder
     /// \param mode    permissions, reduced by the umask
-    /// \throws WriteError  naming `target`
-    TemporaryFile(const std::filesystem::path& target, mode_t mode);
+    /// \param shown   name of the target in messages
+    /// \throws WriteError  the file cannot be created
+    TemporaryFile(const std::filesystem::path& target, mode_t mode, const std::filesystem::path& shown);
+    TemporaryFile(const std::filesystem::path& target, mode_t mode) : TemporaryFile(target, mode, target) {}
     TemporaryFile(TemporaryFile&& other) noexcept;
     TemporaryFile& operator=(TemporaryFile&&) = delete;
     ~TemporaryFile();
 
     /// Absolute path.
     const char* name() const { return name_.get(); }
+    /// The digits of the name.
+    std::string id() const;
     /// Open for writing. Closing it ends the lock.
     int file() const { return file_.get(); }
     /// Whether remove_temporary_files() has removed the file.
@@ -51,9 +56,15 @@ bool is_temporary_name(std::string_view name);
 /// Complexity: lists the folder once.
 FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept;
 
+/// Renames a file of a folder unless the new name exists. Returns false and sets errno on failure; then the
+/// file may have both names.
+/// \param folder  descriptor of the folder, or AT_FDCWD
+bool rename_if_absent(int folder, const char* from, const char* to);
+
 /// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
-/// SIGINT and SIGTERM, which ends the process afterwards. If the process continues, the interrupted writes
-/// fail.
-FAQEM_EXPORT void remove_temporary_files() noexcept;
+/// SIGINT and SIGTERM, which ends the process afterwards.
+/// \return false if a thread is replacing files: nothing was removed, and the process must not end yet. After
+/// true, writes in progress and later ones fail.
+[[nodiscard]] FAQEM_EXPORT bool remove_temporary_files() noexcept;
 
 }  // namespace faqem::detail

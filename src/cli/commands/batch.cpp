@@ -68,16 +68,19 @@ int run(const BatchArguments& arguments) {
                                record,
                                memory};
     std::mutex mutex;
-    ExitCode code = exit_ok;
+    ExitCode code = exit_ok;  // exit_cancelled if a model was not done because of a signal
     detail::parallel_blocks(files.size(), 1, static_cast<std::uint32_t>(jobs),
                             [&](std::size_t i, std::size_t) {
                                 Json line;
                                 const ExitCode one = process_batch_file(files[i], work, line);
                                 const std::lock_guard guard(mutex);
-                                if (one != exit_ok) code = exit_batch_incomplete;
+                                if (one == exit_cancelled)
+                                    code = exit_cancelled;
+                                else if (one != exit_ok && code == exit_ok)
+                                    code = exit_batch_incomplete;
                                 print_json_line(line);
                             });
-    return is_interrupted() ? exit_cancelled : code;
+    return code;
 }
 
 }  // namespace

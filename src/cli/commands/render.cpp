@@ -44,7 +44,8 @@ int run(const RenderArguments& arguments) {
                           arguments.size, arguments.unlit ? render::Shading::unlit : render::Shading::lit,
                           arguments.wireframe ? render::Edges::drawn : render::Edges::hidden);
     const Image sheet = encode_png(render::compose_contact_sheet(rows), "sheet");
-    write_output(out, {reinterpret_cast<const char*>(sheet.encoded.data()), sheet.encoded.size()}, overwrite);
+    write_only_output(out, {reinterpret_cast<const char*>(sheet.encoded.data()), sheet.encoded.size()},
+                      overwrite);
     return exit_ok;
 }
 

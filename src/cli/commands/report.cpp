@@ -127,7 +127,7 @@ int run(const ReportArguments& arguments) {
             page.notes.push_back(model->file + ": " + warning);
     }
     for (const std::string& note : page.notes) std::cerr << "faqem: warning: " << note << "\n";
-    write_output(arguments.out, report_html(page), overwrite);
+    write_only_output(arguments.out, report_html(page), overwrite);
     return exit_ok;
 }
 

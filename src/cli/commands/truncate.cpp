@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "asset/io/recovery.hpp"
 #include "bake/scene/parts_from_histories.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -29,6 +31,7 @@ struct TruncateArguments : SimplifyArguments {
 };
 
 std::vector<ChainHistory> read_histories(const std::string& file) {
+    detail::check_completely_replaced(file);
     std::ifstream in(file, std::ios::binary);
     if (!in) throw ReadError(file, "", "cannot open the file");
     std::vector<ChainHistory> histories;
@@ -78,6 +81,8 @@ int run(const TruncateArguments& arguments) {
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
     check_output(arguments.out, arguments.overwrite());
+    install_signal_handlers();
+    const ExitOnInterrupt exit_on_interrupt;
     const SimplifiedParts simplified_parts =
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));
     if (simplified_parts.report.faces_out > arguments.faces) {
@@ -95,7 +100,13 @@ int run(const TruncateArguments& arguments) {
     }
     const Asset asset = arguments.source.empty() ? geometry_only(simplified_parts)
                                                  : baked_model(arguments, simplified_parts, options);
-    const std::vector<std::string> save_warnings = save(asset, arguments.out, arguments.overwrite());
+    detail::FileSet set;
+    std::vector<std::string> save_warnings;
+    {
+        const detail::CollectWrites collect(set);
+        save_warnings = save(asset, arguments.out, arguments.overwrite());
+    }
+    commit_outputs(set);
     if (arguments.quiet) return exit_ok;
     std::cout << arguments.history << " -> " << arguments.out << "\n"
               << simplified_parts.report.faces_in << " -> " << simplified_parts.report.faces_out

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
@@ -168,7 +169,7 @@ TEST_CASE("a signal handler can remove the temporary file of a write in progress
     if (child == 0) {
         std::signal(SIGXFSZ, [](int) {
             before = files_in(*watched_folder);
-            remove_temporary_files();
+            if (!remove_temporary_files()) ::_exit(4);
             after = files_in(*watched_folder);
             ::_exit(before == 1 && after == 0 ? 0 : 1);
         });
