@@ -116,7 +116,8 @@ void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& level
     std::cout << out.str();
 }
 
-/// Creates the levels and saves each one when it is ready; with --one-file, saves all levels at the end.
+/// Creates the levels and writes each one under temporary names when it is ready; with --one-file, writes all
+/// levels at the end. All files of the folder get their names together, after the last one is written.
 class LodWriter {
 public:
     LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
@@ -132,13 +133,20 @@ public:
         if (code != exit_ok) return code;
         if (arguments_.one_file) {
             const ExitOnInterrupt exit_on_interrupt;
+            const detail::CollectWrites collect(set_);
             append(warnings_,
                    save_levels(std::move(one_file_levels_), outputs_.models[0], arguments_.overwrite()));
         }
         Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.view_settings, written_);
         manifest["warnings"] = warnings_;
-        write_output(outputs_.manifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                     arguments_.overwrite());
+        {
+            const ExitOnInterrupt exit_on_interrupt;
+            const detail::CollectWrites collect(set_);
+            write_output(outputs_.manifest,
+                         manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                         arguments_.overwrite());
+        }
+        commit_outputs(set_);
         return exit_ok;
     }
 
@@ -151,7 +159,11 @@ private:
             arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
         const ExitCode rejection = check_reports(levels);
         if (rejection != exit_ok) return rejection;
-        if (!arguments_.history.empty()) write_histories(arguments_, levels);
+        if (!arguments_.history.empty()) {
+            const ExitOnInterrupt exit_on_interrupt;
+            const detail::CollectWrites collect(set_);
+            write_histories(arguments_, levels);
+        }
         write_original();
         for (SimplifiedPartsLevel& level : levels) {
             const auto before = static_cast<double>(&level - levels.data()),
@@ -212,6 +224,7 @@ private:
     /// Saves one level, or stores it for --one-file. \return warnings about data that the format cannot store
     std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
         const ExitOnInterrupt exit_on_interrupt;
+        const detail::CollectWrites collect(set_);
         const fs::path& file = outputs_.models[written_.size()];
         WrittenLevel& level = written_.emplace_back();
         level = {file.filename().string(), 0, 0, distance, error, report};
@@ -241,6 +254,7 @@ private:
     std::vector<WrittenLevel> written_;
     std::vector<SavedLevel> one_file_levels_;  // with --one-file
     detail::SceneSize size_;
+    detail::FileSet set_;
 };
 
 int run(const LodArguments& arguments) {

@@ -124,11 +124,13 @@ int cancelled() {
     return exit_cancelled;
 }
 
-/// Writes the model, the history and the correspondence. The model is first: save() rejects names of images
-/// that would overwrite files of the input, and then nothing is written. The report is written later, because
-/// it has the time that saving took.
-void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified) {
+/// Adds the model, the history and the correspondence to the set of files. The model is first: save() rejects
+/// names of images that would overwrite files of the input. The report is added later, because it has the
+/// time that saving took.
+void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified,
+                 detail::FileSet& set) {
     const ExitOnInterrupt exit_on_interrupt;
+    const detail::CollectWrites collect(set);
     const Stopwatch watch;
     const std::vector<std::string> save_warnings =
         save(simplified.asset, arguments.out, arguments.overwrite());
@@ -178,12 +180,15 @@ int run(const SimplifyCommandArguments& arguments) {
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
     }
     const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
-    if (rejection == exit_ok) save_result(arguments, simplified);
+    detail::FileSet set;
+    if (rejection == exit_ok) save_result(arguments, simplified, set);
     simplified.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
         const ExitOnInterrupt exit_on_interrupt;
+        const detail::CollectWrites collect(set);
         write_output(arguments.report, to_json(simplified.report), arguments.overwrite());
     }
+    commit_outputs(set);
     if (!arguments.quiet) print_summary(arguments, simplified.report);
     if (rejection != exit_ok)
         std::cerr << "faqem: " << rejection_message(rejection, arguments.in, arguments.out, simplified.report)
