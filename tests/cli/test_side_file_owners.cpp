@@ -24,7 +24,8 @@ std::vector<fs::path> paths(const Folder& folder, const std::vector<std::string>
 }
 
 std::string refusal(const Folder& folder, const std::vector<std::string>& names) {
-    return message_of<faqem::WriteError>([&] { faqem::cli::check_side_files_unshared(paths(folder, names)); });
+    return message_of<faqem::WriteError>(
+        [&] { faqem::cli::check_side_files_unshared(paths(folder, names)); });
 }
 
 std::map<std::string, std::string> file_contents(const Folder& folder) {

@@ -9,5 +9,7 @@ namespace tool_test {
 extern const char* const tool_path;
 /// The source folder.
 extern const char* const source_path;
+/// The library that the tests in faults load into the command.
+extern const char* const injector_path;
 
 }  // namespace tool_test

@@ -1,0 +1,176 @@
+// Loaded with LD_PRELOAD: lets one of the calls that change or open files fail, or ends the process there.
+//
+//   FAQEM_FAULT_CALL   number of the call, from 1; 0 or unset: none
+//   FAQEM_FAULT_KIND   "error": the call fails with EIO, write() after half of the bytes;
+//                      "full": as error, with ENOSPC;
+//                      "kill": SIGKILL before the call, write() after half of the bytes;
+//                      "term": SIGTERM before the call
+//   FAQEM_FAULT_LOG    file that receives the name of the call that was disturbed, and the number of calls
+//                      when the process exits
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+
+long wanted_call, calls;
+char kind;  // first letter of FAQEM_FAULT_KIND
+
+__attribute__((constructor)) void read_settings(void) {
+    const char* number = getenv("FAQEM_FAULT_CALL");
+    const char* name = getenv("FAQEM_FAULT_KIND");
+    wanted_call = number ? atol(number) : 0;
+    kind = name ? name[0] : 0;
+}
+
+void log_text(const char* text) {
+    const char* file = getenv("FAQEM_FAULT_LOG");
+    if (!file) return;
+    // Raw system calls, so that the log is neither counted nor disturbed.
+    const long out = syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_APPEND, 0666);
+    if (out < 0) return;
+    syscall(SYS_write, out, text, strlen(text));
+    syscall(SYS_close, out);
+}
+
+__attribute__((destructor)) void log_calls(void) {
+    char text[32];
+    snprintf(text, sizeof text, "calls %ld\n", calls);
+    log_text(text);
+}
+
+/// Counts a call. Returns 1 if it must fail; errno is set then.
+int is_disturbed(const char* name) {
+    if (__atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST) != wanted_call || !kind) return 0;
+    log_text(name);
+    log_text("\n");
+    if (kind == 'k') kill(getpid(), SIGKILL);
+    if (kind == 't') raise(SIGTERM);
+    errno = kind == 'f' ? ENOSPC : EIO;
+    return kind == 'e' || kind == 'f';
+}
+
+}  // namespace
+
+// The function that would be called without this library.
+#define NEXT(name) (reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name)))
+#define DISTURBED(name) \
+    if (is_disturbed(#name)) return -1
+
+#define MODE_ARGUMENT(mode)                  \
+    mode_t mode = 0;                         \
+    if (flags & (O_CREAT | O_TMPFILE)) {     \
+        va_list arguments;                   \
+        va_start(arguments, flags);          \
+        mode = va_arg(arguments, mode_t);    \
+        va_end(arguments);                   \
+    }
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+    MODE_ARGUMENT(mode)
+    DISTURBED(open);
+    return NEXT(open)(path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+    MODE_ARGUMENT(mode)
+    DISTURBED(open64);
+    return NEXT(open64)(path, flags, mode);
+}
+
+int openat(int folder, const char* path, int flags, ...) {
+    MODE_ARGUMENT(mode)
+    DISTURBED(openat);
+    return NEXT(openat)(folder, path, flags, mode);
+}
+
+int openat64(int folder, const char* path, int flags, ...) {
+    MODE_ARGUMENT(mode)
+    DISTURBED(openat64);
+    return NEXT(openat64)(folder, path, flags, mode);
+}
+
+ssize_t write(int file, const void* bytes, size_t size) {
+    if (calls + 1 == wanted_call && kind != 't' && size > 1)
+        if (NEXT(write)(file, bytes, size / 2) < 0) return -1;
+    DISTURBED(write);
+    return NEXT(write)(file, bytes, size);
+}
+
+int fsync(int file) {
+    DISTURBED(fsync);
+    return NEXT(fsync)(file);
+}
+
+int fdatasync(int file) {
+    DISTURBED(fdatasync);
+    return NEXT(fdatasync)(file);
+}
+
+int link(const char* from, const char* to) noexcept {
+    DISTURBED(link);
+    return NEXT(link)(from, to);
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+    DISTURBED(linkat);
+    return NEXT(linkat)(from_folder, from, to_folder, to, flags);
+}
+
+int rename(const char* from, const char* to) noexcept {
+    DISTURBED(rename);
+    return NEXT(rename)(from, to);
+}
+
+int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+    DISTURBED(renameat);
+    return NEXT(renameat)(from_folder, from, to_folder, to);
+}
+
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
+    DISTURBED(renameat2);
+    return NEXT(renameat2)(from_folder, from, to_folder, to, flags);
+}
+
+int unlink(const char* path) noexcept {
+    DISTURBED(unlink);
+    return NEXT(unlink)(path);
+}
+
+int unlinkat(int folder, const char* path, int flags) noexcept {
+    DISTURBED(unlinkat);
+    return NEXT(unlinkat)(folder, path, flags);
+}
+
+int ftruncate(int file, off_t size) noexcept {
+    DISTURBED(ftruncate);
+    return NEXT(ftruncate)(file, size);
+}
+
+int fchmod(int file, mode_t mode) noexcept {
+    DISTURBED(fchmod);
+    return NEXT(fchmod)(file, mode);
+}
+
+int flock(int file, int operation) noexcept {
+    DISTURBED(flock);
+    return NEXT(flock)(file, operation);
+}
+
+ssize_t pread(int file, void* bytes, size_t size, off_t start) {
+    DISTURBED(pread);
+    return NEXT(pread)(file, bytes, size, start);
+}
+
+}  // extern "C"
