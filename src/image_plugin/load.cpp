@@ -3,8 +3,11 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <new>
 #include <string>
+#include <system_error>
 
 #include "asset/image/image_codec.hpp"
 #include "faqem/error.hpp"
@@ -36,7 +39,11 @@ std::filesystem::path plugin_path() {
 const ImageCodec& plugin_image_codec() {
     const std::string file = plugin_path().string();
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (!module) throw Error(std::string("cannot load the image plugin: ") + dlerror());
+    if (!module) {
+        const std::string error = dlerror();
+        if (error.ends_with(std::generic_category().message(ENOMEM))) throw std::bad_alloc();
+        throw Error("cannot load the image plugin: " + error);
+    }
     using Entry = const ImageCodec*();
     Entry* const entry = reinterpret_cast<Entry*>(dlsym(module, "faqem_image_codec"));
     if (!entry) throw Error(file + ": is not the image plugin of faqem");

@@ -1,6 +1,9 @@
 #include "cli/batch/process_file.hpp"
 
+#include <malloc.h>
+
 #include <exception>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,17 +25,20 @@ namespace fs = std::filesystem;
 class MemoryReservation {
 public:
     MemoryReservation(MemorySemaphore& semaphore, std::uint64_t bytes)
-        : semaphore_(semaphore), bytes_(bytes) {
-        semaphore_.acquire(bytes_);
-    }
+        : semaphore_(semaphore), bytes_(bytes), request_(semaphore.acquire(bytes)) {}
     ~MemoryReservation() { semaphore_.release(bytes_); }
     MemoryReservation(const MemoryReservation&) = delete;
     MemoryReservation& operator=(const MemoryReservation&) = delete;
 
+    bool was_shared() const { return semaphore_.was_shared(request_); }
+
 private:
     MemorySemaphore& semaphore_;
-    std::uint64_t bytes_;
+    std::uint64_t bytes_, request_;
 };
+
+/// A request for this many bytes is granted only when no other memory is in use.
+constexpr std::uint64_t all_memory = std::numeric_limits<std::uint64_t>::max();
 
 /// Returns whether the output file was written by this batch: it matches the record, or an interrupted run
 /// began it.
@@ -80,7 +86,32 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     return result;
 }
 
-/// \param watch  reset after waiting for memory, so that it measures the work alone
+Result failed_result(const std::exception& problem) {
+    return {exit_code_of(problem), "failed", message_of(problem), 0, 0, {}};
+}
+
+/// Simplifies a model as soon as there is memory for it. A model that fails because others use the memory,
+/// which belongs to the whole process, is run again when no other model is running.
+/// \param needed  estimated memory, bytes
+/// \param watch   reset after waiting for memory, so that it measures the work alone
+Result process_within_memory(const BatchFile& file, const BatchContext& work, const BatchEntry& entry,
+                             Overwrite overwrite, std::uint64_t needed, detail::Stopwatch& watch) {
+    for (const std::uint64_t bytes : {needed, all_memory}) {
+        const MemoryReservation reservation(work.memory, bytes);
+        if (is_interrupted()) break;
+        watch = {};
+        try {
+            return simplify_and_save(file, work, entry, overwrite);
+        } catch (const std::exception& problem) {
+            if (exit_code_of(problem) != exit_no_memory || !reservation.was_shared())
+                return failed_result(problem);
+        }
+        malloc_trim(0);
+    }
+    return cancelled_result();
+}
+
+/// \param watch  see process_within_memory()
 Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
@@ -97,13 +128,11 @@ Result try_process(const BatchFile& file, const BatchContext& work, detail::Stop
     fs::create_directories(file.out.parent_path(), error);
     const Overwrite overwrite = is_own ? Overwrite::yes : work.overwrite;
     check_output(file.out, overwrite);
-    const MemoryReservation reservation(
-        work.memory, estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options));
-    if (is_interrupted()) return cancelled_result();
-    watch = {};
-    return simplify_and_save(file, work, entry, overwrite);
+    const std::uint64_t needed =
+        estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options);
+    return process_within_memory(file, work, entry, overwrite, needed, watch);
 } catch (const std::exception& problem) {
-    return {exit_code_of(problem), "failed", message_of(problem), 0, 0, {}};
+    return failed_result(problem);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
+#include "cli/memory_limit.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
@@ -48,13 +49,16 @@ int run(const BatchArguments& arguments) {
     check_outputs_unprotected(files, arguments.out);
     make_folder(arguments.out);
     BatchRecord record(arguments.out);
-    MemorySemaphore memory(arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3);
+    const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
+    MemorySemaphore memory(allowed);
     install_signal_handlers();
     const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
     // Processing several files at a time uses the threads better than using several threads per file.
     if (options.threads == 0)
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
+    // Image libraries start a thread per hardware thread, besides those of the models.
+    limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     const std::string key = std::string(version()) + " " + extension + " " + options_key(options) +
                             (arguments.strict ? " strict" : "") +
@@ -97,10 +101,9 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->add_option("--jobs", arguments->jobs, "Models at a time; 0: the number of threads (default)")
         ->check(CLI::Range(0, 1024));
     command
-        ->add_option(
-            "--max-memory", arguments->max_memory,
-            "Start no model whose estimate would exceed this memory in total, as 8GB or 500MB; a model "
-            "that is too large runs alone (default: three quarters of the machine's memory)")
+        ->add_option("--max-memory", arguments->max_memory,
+                     "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
+                     "more runs alone (default: three quarters of the machine's memory)")
         ->transform(CLI::AsSizeValue(false))
         ->check(positive_number());
     command->add_flag("--resume", arguments->resume,

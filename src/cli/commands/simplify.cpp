@@ -14,6 +14,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/machine_memory.hpp"
 #include "cli/memory_estimate.hpp"
+#include "cli/memory_limit.hpp"
 #include "cli/options/common_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
@@ -22,6 +23,7 @@
 #include "cli/protected_files.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
@@ -170,6 +172,8 @@ int run(const SimplifyCommandArguments& arguments) {
         bar.show(Phase::load, 0);
         const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
         require_memory(arguments.in, estimated_loading_memory(arguments.in), allowed);
+        // Image libraries start a thread per hardware thread, besides those of --threads.
+        limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
         const Asset source = load_input(arguments, seconds);
         options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);

@@ -32,6 +32,22 @@ TEST_CASE("MemorySemaphore keeps the total below the limit and grants larger req
     CHECK(!too_much);
 }
 
+TEST_CASE("MemorySemaphore tells whether memory was shared") {
+    MemorySemaphore semaphore(10);
+    const std::uint64_t alone = semaphore.acquire(20);
+    CHECK(!semaphore.was_shared(alone));
+    semaphore.release(20);
+    const std::uint64_t first = semaphore.acquire(4);
+    CHECK(!semaphore.was_shared(first));
+    const std::uint64_t second = semaphore.acquire(4);
+    CHECK(semaphore.was_shared(first));
+    CHECK(semaphore.was_shared(second));
+    // The other request shared the memory for a part of the time.
+    semaphore.release(4);
+    CHECK(semaphore.was_shared(second));
+    semaphore.release(4);
+}
+
 TEST_CASE("the memory estimate of a file grows with its size, the texture size and the preset") {
     faqem::Options options;
     const auto peak = [&](const char* file, std::uint64_t bytes) {

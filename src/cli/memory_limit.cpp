@@ -1,0 +1,86 @@
+#include "cli/memory_limit.hpp"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "asset/io/file.hpp"
+#include "cli/exit_code.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+/// Returns a size from /proc/self/status, in bytes; 0 if it is missing.
+std::uint64_t status_bytes(std::string_view key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        std::uint64_t kilobytes = 0;
+        if (word == key) return status >> kilobytes ? 1024 * kilobytes : 0;
+        status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    return 0;
+}
+
+constexpr std::uint64_t code_share = 16;  // a sixteenth of the limit is left for program code in memory
+constexpr std::uint64_t min_stack_bytes = std::uint64_t{1} << 20;
+
+/// Returns the address space for the stacks of new threads. If they would take more than a twentieth of the
+/// limit, new threads get smaller stacks: address space for stacks is available for other data, too.
+std::uint64_t stack_bytes(std::uint64_t limit, std::uint64_t threads) {
+    pthread_attr_t attributes;
+    std::size_t each = 0;
+    if (pthread_getattr_default_np(&attributes) != 0) return 0;
+    pthread_attr_getstacksize(&attributes, &each);
+    const std::uint64_t wanted = std::max(limit / 20 / std::max<std::uint64_t>(threads, 1), min_stack_bytes);
+    if (wanted < each) {
+        each = static_cast<std::size_t>(wanted / min_stack_bytes * min_stack_bytes);
+        pthread_attr_setstacksize(&attributes, each);
+        pthread_setattr_default_np(&attributes);
+    }
+    pthread_attr_destroy(&attributes);
+    return threads * each;
+}
+
+/// Ends the process like a caught std::bad_alloc if one is thrown in a noexcept function or in a thread of
+/// another library.
+[[noreturn]] void terminate_without_memory() {
+    if (const std::exception_ptr error = std::current_exception()) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const std::bad_alloc&) {
+            constexpr std::string_view text = "faqem: not enough memory\n";
+            static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+            detail::remove_temporary_files();
+            _exit(exit_no_memory);
+        } catch (...) {
+        }
+    }
+    std::abort();
+}
+
+}  // namespace
+
+void limit_process_memory(std::uint64_t bytes, std::uint64_t threads) {
+    bytes = std::max(bytes, min_process_memory);
+    rlimit limit{};
+    if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+    const std::uint64_t mapped = status_bytes("VmData:"), used = status_bytes("RssAnon:");
+    const std::uint64_t unused = mapped > used ? mapped - used : 0;
+    const std::uint64_t headroom = unused + stack_bytes(bytes, threads);
+    if (bytes > std::numeric_limits<rlim_t>::max() - headroom) return;
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, bytes - bytes / code_share + headroom);
+    setrlimit(RLIMIT_DATA, &limit);
+    std::set_terminate(terminate_without_memory);
+}
+
+}  // namespace faqem::cli
