@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "asset/image/image_size.hpp"
+#include "asset/io/file_format.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "cli/gltf_memory.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
 
@@ -91,17 +93,25 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'
 
 }  // namespace
 
-std::uint64_t estimated_loading_memory(const std::filesystem::path& model) {
-    std::vector<std::filesystem::path> files;
+std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::uint64_t allowed) {
     std::error_code ignored;
     // The size of a pipe is unknown, and it must not be opened here.
-    if (std::filesystem::is_regular_file(model, ignored)) {
-        if (lower_case_extension(model) != ".obj") files = referenced_files(model, References::readable);
-        files.push_back(model);
-    }
-    // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow.
-    return static_cast<std::uint64_t>(peak_resident_memory() +
-                                      5 * static_cast<double>(total_file_size(files)));
+    if (!std::filesystem::is_regular_file(model, ignored)) return 0;
+    std::vector<std::filesystem::path> files;
+    if (lower_case_extension(model) != ".obj") files = referenced_files(model, References::readable);
+    files.push_back(model);
+    // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
+    // of glTF are counted below.
+    const bool is_gltf = detail::format_of_file(model) == detail::Format::gltf;
+    std::uint64_t bytes = (is_gltf ? 3 : 5) * total_file_size(files);
+    if (!is_gltf) return bytes;
+    if (bytes <= allowed) bytes += estimated_decoding_memory(model, allowed - bytes);
+    return bytes;
+}
+
+std::uint64_t estimated_loading_memory(const std::filesystem::path& model, std::uint64_t allowed) {
+    const auto used = static_cast<std::uint64_t>(peak_resident_memory());
+    return used + estimated_model_memory(model, used < allowed ? allowed - used : 0);
 }
 
 std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) {

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Estimates of the memory that `faqem simplify` needs, made before the work starts. `faqem batch` uses
-/// batch/memory_semaphore.hpp instead, which needs the file sizes only.
+/// Estimates of the memory that `faqem simplify` needs, made before the work starts. Of these, `faqem batch`
+/// uses that for loading; the peak of a run it estimates from the file sizes (batch/memory_semaphore.hpp).
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
@@ -18,10 +19,16 @@ public:
     using Error::Error;
 };
 
-/// Returns an upper estimate, in bytes, of the memory needed to load a model, from the file sizes alone.
-/// Compressed glTF may need more, because its decoded size is known only after reading. Files that an OBJ
-/// file refers to are not counted, because finding them takes as long as reading the file.
-std::uint64_t estimated_loading_memory(const std::filesystem::path& model);
+/// Returns an upper estimate, in bytes, of the memory needed to load a model: from the file sizes, and from the
+/// JSON of glTF, which tells the sizes of everything that will be decoded. Files that an OBJ file refers to are
+/// not counted, because finding them takes as long as reading the file. 0 if the model is no regular file.
+/// \param allowed  bytes; the estimate may end when it exceeds them
+std::uint64_t estimated_model_memory(const std::filesystem::path& model,
+                                     std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max());
+
+/// Same as estimated_model_memory(), with the memory that the process has used so far.
+std::uint64_t estimated_loading_memory(const std::filesystem::path& model,
+                                       std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max());
 
 /// Returns an upper estimate, in bytes, of the peak memory of the whole run: the process, the model, its
 /// history, the simplification of the largest mesh, and decoded and baked images. The factors are measured,

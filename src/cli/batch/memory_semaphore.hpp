@@ -24,6 +24,8 @@ class MemorySemaphore {
 public:
     explicit MemorySemaphore(std::uint64_t limit) : limit_(limit) {}
 
+    std::uint64_t limit() const { return limit_; }
+
     /// Waits until `bytes` fit into the limit. Requests are granted in the order of the calls. Thread-safe.
     /// \return a number for was_shared()
     std::uint64_t acquire(std::uint64_t bytes);

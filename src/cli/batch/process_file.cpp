@@ -2,12 +2,15 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <exception>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "cli/interrupt.hpp"
+#include "cli/memory_estimate.hpp"
+#include "cli/memory_limit.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
 #include "cli/simplify_model.hpp"
@@ -128,8 +131,11 @@ Result try_process(const BatchFile& file, const BatchContext& work, detail::Stop
     fs::create_directories(file.out.parent_path(), error);
     const Overwrite overwrite = is_own ? Overwrite::yes : work.overwrite;
     check_output(file.out, overwrite);
+    const std::uint64_t process_limit = std::max(work.memory.limit(), min_process_memory);
+    const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
+    require_memory(file.in, loading, process_limit);
     const std::uint64_t needed =
-        estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options);
+        std::max(loading, estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options));
     return process_within_memory(file, work, entry, overwrite, needed, watch);
 } catch (const std::exception& problem) {
     return failed_result(problem);

@@ -171,7 +171,7 @@ int run(const SimplifyCommandArguments& arguments) {
         PhaseSeconds seconds;
         bar.show(Phase::load, 0);
         const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
-        require_memory(arguments.in, estimated_loading_memory(arguments.in), allowed);
+        require_memory(arguments.in, estimated_loading_memory(arguments.in, allowed), allowed);
         // Image libraries start a thread per hardware thread, besides those of --threads.
         limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
         const Asset source = load_input(arguments, seconds);

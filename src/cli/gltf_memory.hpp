@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// Estimate of the memory for decoding a glTF file, from its JSON. A small file can need much memory: each
+/// use of an accessor by a mesh, and of a file or view by an image, is a copy of its own.
+
+#include <cstdint>
+#include <filesystem>
+
+namespace faqem::cli {
+
+/// Returns an upper estimate, in bytes, of the memory for the meshes, decompressed buffers and repeated images
+/// of a glTF file, in addition to that for its JSON and for the bytes of its files. Reads the JSON only, twice.
+/// Needs 16 bytes per accessor and view, and the names of the attributes of one mesh.
+/// \param model    a regular file. Of a file that is damaged or no glTF, the part before the error is counted
+/// \param allowed  bytes; the estimate may end when it exceeds them
+std::uint64_t estimated_decoding_memory(const std::filesystem::path& model, std::uint64_t allowed);
+
+}  // namespace faqem::cli

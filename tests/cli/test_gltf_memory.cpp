@@ -1,0 +1,117 @@
+#include "cli/gltf_memory.hpp"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.hpp"
+#include "cli/memory_estimate.hpp"
+#include "support/catch.hpp"
+#include "support/cli_support.hpp"
+
+using namespace faqem::cli;
+using namespace tool_test;
+
+namespace {
+
+using Document = nlohmann::json;
+
+constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
+
+/// A document with a mesh of 10,000 vertices and 20,000 triangles. Its buffer is not needed here.
+Document mesh_document() {
+    return Document::parse(R"({"asset":{"version":"2.0"},
+        "buffers":[{"uri":"a.bin","byteLength":360000}],
+        "bufferViews":[{"buffer":0,"byteLength":120000},{"buffer":0,"byteOffset":120000,"byteLength":240000}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":10000,"type":"VEC3"},
+                     {"bufferView":1,"componentType":5125,"count":60000,"type":"SCALAR"}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})");
+}
+
+std::uint64_t decoding_memory_of(const Folder& folder, const Document& document) {
+    write(folder / "a.gltf", document.dump());
+    return estimated_decoding_memory(folder / "a.gltf", any);
+}
+
+}  // namespace
+
+TEST_CASE("the memory of decoded accessors is counted once per use") {
+    const Folder folder;
+    const Document one = mesh_document();
+    const std::uint64_t base = decoding_memory_of(folder, one);
+    CHECK(base >= 10000 * 24 + 20000 * 16);
+    CHECK(base < 10 * 360000);
+
+    Document other = one;
+    other["meshes"] = std::vector<Document>(2000, one["meshes"][0]);
+    CHECK(decoding_memory_of(folder, other) >= 2000ull * (10000 * 24 + 20000 * 16));
+    // Targets are counted for all vertices.
+    other = one;
+    other["meshes"][0]["primitives"][0]["targets"] =
+        std::vector<Document>(4000, Document{{"POSITION", 0}, {"NORMAL", 0}});
+    CHECK(decoding_memory_of(folder, other) >= 4000ull * 10000 * 24);
+    // Primitives with the same vertices share them, others do not.
+    other = one;
+    const Document primitive = one["meshes"][0]["primitives"][0];
+    other["meshes"][0]["primitives"] = std::vector<Document>(100, primitive);
+    const std::uint64_t shared = decoding_memory_of(folder, other);
+    CHECK(shared >= 100ull * 20000 * 16);
+    for (std::size_t i = 0; i < 100; ++i)
+        other["meshes"][0]["primitives"][i]["attributes"]["_" + std::to_string(i)] = 0;
+    CHECK(decoding_memory_of(folder, other) >= shared + 99ull * 10000 * 24);
+    // Lines and points are not decoded.
+    other = one;
+    other["meshes"][0]["primitives"][0]["mode"] = 1;
+    CHECK(decoding_memory_of(folder, other) == 0);
+}
+
+TEST_CASE("the memory of repeated images and of compressed data is counted") {
+    const Folder folder;
+    const Document one = mesh_document();
+    const std::uint64_t base = decoding_memory_of(folder, one);
+    Document other = one;
+    other["images"] = std::vector<Document>(50, {{"bufferView", 0}, {"mimeType", "image/png"}});
+    CHECK(decoding_memory_of(folder, other) >= base + 50 * 2 * 120000);
+    write(folder / "a.png", std::string(100'000, 'x'));
+    other["images"] = std::vector<Document>(50, {{"uri", "a.png"}});
+    CHECK(decoding_memory_of(folder, other) >= base + 49 * 2 * 100'000);
+    other = one;
+    other["accessors"][0].erase("bufferView");  // as with Draco
+    CHECK(decoding_memory_of(folder, other) >= base + 10000 * 12);
+    other = one;
+    other["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {{"count", 60000}};
+    CHECK(decoding_memory_of(folder, other) >= base + 240000);
+}
+
+TEST_CASE("damaged documents and other files are estimated without an error") {
+    const Folder folder;
+    const std::string text = mesh_document().dump();
+    for (std::size_t size = 0; size < text.size(); size += 7) {
+        write(folder / "a.gltf", text.substr(0, size));
+        estimated_decoding_memory(folder / "a.gltf", any);
+    }
+    for (const std::string other :
+         {R"({"accessors":{"a":{"count":1}},"bufferViews":{"a":{"a":{"EXT_meshopt_compression":{}}}}})",
+          R"({"meshes":[[[[[[[[]]]]]]]]})", R"({"meshes":{"primitives":{"a":{"b":{"POSITION":9}}}}})",
+          "[[1]]"}) {
+        write(folder / "a.gltf", other);
+        estimated_decoding_memory(folder / "a.gltf", any);
+    }
+    write(folder / "a.gltf", std::string(1000, '['));
+    estimated_decoding_memory(folder / "a.gltf", any);
+}
+
+TEST_CASE("small files that need much memory are rejected before they are decoded") {
+    const Folder folder;
+    write(folder / "a.bin", std::string(360000, '\0'));
+    Document document = mesh_document();
+    document["meshes"] = std::vector<Document>(2000, document["meshes"][0]);
+    write(folder / "meshes.gltf", document.dump());
+    for (const std::string name : {"meshes"}) {
+        const Outcome outcome =
+            run(folder, "simplify " + name + ".gltf out.glb --bake none --max-memory 500MB");
+        CHECK(outcome.code == exit_no_memory);
+        CHECK_THAT(outcome.err, ContainsSubstring("faqem: " + name + ".gltf: may need "));
+    }
+}
