@@ -10,6 +10,7 @@
 #include "asset/image/image_size.hpp"
 #include "asset/io/file_format.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "cli/gltf_json_memory.hpp"
 #include "cli/gltf_memory.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
@@ -105,7 +106,8 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     const bool is_gltf = detail::format_of_file(model) == detail::Format::gltf;
     std::uint64_t bytes = (is_gltf ? 3 : 5) * total_file_size(files);
     if (!is_gltf) return bytes;
-    if (bytes <= allowed) bytes += estimated_decoding_memory(model, allowed - bytes);
+    for (const auto estimate : {estimated_json_memory, estimated_decoding_memory})
+        if (bytes <= allowed) bytes += estimate(model, allowed - bytes);
     return bytes;
 }
 

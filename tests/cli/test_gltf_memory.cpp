@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/exit_code.hpp"
+#include "cli/gltf_json_memory.hpp"
 #include "cli/memory_estimate.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -32,6 +33,11 @@ Document mesh_document() {
 std::uint64_t decoding_memory_of(const Folder& folder, const Document& document) {
     write(folder / "a.gltf", document.dump());
     return estimated_decoding_memory(folder / "a.gltf", any);
+}
+
+std::uint64_t json_memory_of(const Folder& folder, const Document& document) {
+    write(folder / "a.gltf", document.dump());
+    return estimated_json_memory(folder / "a.gltf", any);
 }
 
 }  // namespace
@@ -84,11 +90,33 @@ TEST_CASE("the memory of repeated images and of compressed data is counted") {
     CHECK(decoding_memory_of(folder, other) >= base + 240000);
 }
 
+TEST_CASE("the memory of JSON is counted per value, with less in extras") {
+    const Folder folder;
+    const Document one = mesh_document();
+    const std::uint64_t base = json_memory_of(folder, one);
+    CHECK(base < 200'000);
+    Document other = one;
+    other["meshes"][0]["weights"] = std::vector<int>(100'000, 0);
+    const std::uint64_t weights = json_memory_of(folder, other);
+    CHECK(weights >= base + 100'000 * 200);
+    other = one;
+    other["meshes"][0]["extras"]["a"] = std::vector<int>(100'000, 0);
+    const std::uint64_t extras = json_memory_of(folder, other);
+    CHECK(extras >= base + 100'000 * 50);
+    CHECK(extras < weights);
+    // The values after the extras are counted in full.
+    other["nodes"] = std::vector<Document>(1000, Document::object());
+    CHECK(json_memory_of(folder, other) >= extras + 1000 * 1000);
+    // The estimate ends when it exceeds the limit.
+    CHECK(estimated_json_memory(folder / "a.gltf", 1'000'000) < 1'100'000);
+}
+
 TEST_CASE("damaged documents and other files are estimated without an error") {
     const Folder folder;
     const std::string text = mesh_document().dump();
     for (std::size_t size = 0; size < text.size(); size += 7) {
         write(folder / "a.gltf", text.substr(0, size));
+        CHECK(estimated_json_memory(folder / "a.gltf", any) < 200'000);
         estimated_decoding_memory(folder / "a.gltf", any);
     }
     for (const std::string other :
@@ -99,7 +127,7 @@ TEST_CASE("damaged documents and other files are estimated without an error") {
         estimated_decoding_memory(folder / "a.gltf", any);
     }
     write(folder / "a.gltf", std::string(1000, '['));
-    estimated_decoding_memory(folder / "a.gltf", any);
+    CHECK(estimated_json_memory(folder / "a.gltf", any) < 1'000'000);
 }
 
 TEST_CASE("small files that need much memory are rejected before they are decoded") {
@@ -108,7 +136,10 @@ TEST_CASE("small files that need much memory are rejected before they are decode
     Document document = mesh_document();
     document["meshes"] = std::vector<Document>(2000, document["meshes"][0]);
     write(folder / "meshes.gltf", document.dump());
-    for (const std::string name : {"meshes"}) {
+    document = mesh_document();
+    document["meshes"][0]["weights"] = std::vector<int>(4'000'000, 0);
+    write(folder / "json.gltf", document.dump());
+    for (const std::string name : {"meshes", "json"}) {
         const Outcome outcome =
             run(folder, "simplify " + name + ".gltf out.glb --bake none --max-memory 500MB");
         CHECK(outcome.code == exit_no_memory);

@@ -57,7 +57,8 @@ TEST_CASE("files that exceed the memory limit are rejected before they are read 
     CHECK(estimated_loading_memory(folder / "a.glb") >= before + (std::uint64_t{1} << 40));
     const Outcome outcome = run(folder, "simplify a.glb out.glb --max-memory 1TB");
     CHECK(outcome.code == exit_no_memory);
-    CHECK_THAT(outcome.err, ContainsSubstring("faqem: a.glb: may need ") && ContainsSubstring("(--max-memory)"));
+    CHECK_THAT(outcome.err,
+               ContainsSubstring("faqem: a.glb: may need ") && ContainsSubstring("(--max-memory)"));
     CHECK_FALSE(fs::exists(folder / "out.glb"));
     // The buffers of a .gltf file are counted, too.
     write(folder / "a.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":1}]})");

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/container.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
@@ -139,10 +139,26 @@ bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, i
     return true;
 }
 
-/// The document with every URI replaced by a token for the callbacks. Buffers without data get one byte, and
+/// A copy without extras, which the tinygltf model would expand to 152 bytes per number and nothing reads there.
+/// The recursion is limited by check_json_depth().
+Json without_extras(const Json& from) {
+    if (from.is_array()) {
+        Json copy = Json::array();
+        copy.get_ref<Json::array_t&>().reserve(from.size());
+        for (const Json& element : from) copy.push_back(without_extras(element));
+        return copy;
+    }
+    if (!from.is_object()) return from;
+    Json copy = Json::object();
+    for (const auto& [key, value] : from.items())
+        if (key != "extras" || !value.is_structured()) copy[key] = without_extras(value);
+    return copy;
+}
+
+/// The document without extras, with every URI replaced by a token for the callbacks. Buffers without data get one byte, and
 /// accessors with Draco data get a view, since tinygltf requires both.
 std::string json_with_uri_tokens(const Json& document) {
-    Json copy = document;
+    Json copy = without_extras(document);
     for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
         if (is_fallback_buffer(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
         copy["buffers"][i]["uri"] = std::string(buffer_token) + std::to_string(i);
