@@ -33,10 +33,11 @@ std::uint8_t component_count(std::string_view type) {
     return type == "VEC4" || type == "MAT2" ? 4 : 16;
 }
 
+constexpr std::uint64_t no_view = ~std::uint64_t{0};
+
 struct AccessorSize {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, view = no_view;
     std::uint8_t components = 16;
-    bool has_view = false;
 
     double max_bytes() const { return 4.0 * components * static_cast<double>(count); }
 };
@@ -53,6 +54,17 @@ public:
 
     std::vector<AccessorSize> accessors;
 
+    /// Sets the counts and sizes to 0 that stored data cannot have: load() reports an error.
+    /// \param stored_bytes  of all files of the model; every element takes at least one of them
+    void remove_impossible_sizes(std::uint64_t stored_bytes) {
+        for (ViewSize& view : views_)
+            if (!view.is_compressed && view.bytes > stored_bytes) view.bytes = 0;
+        for (AccessorSize& accessor : accessors) {
+            const bool is_stored = accessor.view < views_.size() && !views_[accessor.view].is_compressed;
+            if (is_stored && accessor.count > stored_bytes) accessor.count = 0;
+        }
+    }
+
     /// Total, bytes.
     double bytes() const {
         double total = repeated_file_bytes_;
@@ -61,7 +73,7 @@ public:
         for (const ViewSize& view : views_)
             if (view.is_compressed) total += static_cast<double>(view.bytes);
         for (const AccessorSize& accessor : accessors)
-            if (!accessor.has_view) total += decompression_factor * accessor.max_bytes();
+            if (accessor.view == no_view) total += decompression_factor * accessor.max_bytes();
         return total;
     }
 
@@ -70,7 +82,7 @@ protected:
         if (depth() == 3 && key_at(1) == "accessors" && !accessors.empty()) {
             AccessorSize& accessor = accessors.back();
             if (key_at(3) == "count") accessor.count = value;
-            if (key_at(3) == "bufferView") accessor.has_view = true;
+            if (key_at(3) == "bufferView") accessor.view = value;
         }
         if (depth() == 3 && key_at(1) == "bufferViews" && key_at(3) == "byteLength" && !views_.empty())
             views_.back().bytes = value;
@@ -225,10 +237,12 @@ private:
 
 }  // namespace
 
-std::uint64_t estimated_decoding_memory(const fs::path& model, std::uint64_t allowed) {
+std::uint64_t estimated_decoding_memory(const fs::path& model, std::uint64_t stored_bytes,
+                                        std::uint64_t allowed) {
     const auto limit = static_cast<double>(allowed);
     DocumentScan document(model.parent_path());
     scan_gltf(model, document);
+    document.remove_impossible_sizes(stored_bytes);
     double bytes = document.bytes();
     if (bytes <= limit) {
         MeshScan meshes(document.accessors, limit - bytes);

@@ -10,9 +10,12 @@ namespace faqem::cli {
 
 /// Returns an upper estimate, in bytes, of the memory for the meshes, decompressed buffers and repeated images
 /// of a glTF file, in addition to that for its JSON and for the bytes of its files. Reads the JSON only, twice.
-/// Needs 16 bytes per accessor and view, and the names of the attributes of one mesh.
+/// Counts and sizes that the files cannot have are left out: load() reports an error for them.
+/// Needs 24 bytes per accessor and view, and the names of the attributes of one mesh.
 /// \param model    a regular file. Of a file that is damaged or no glTF, the part before the error is counted
+/// \param stored_bytes  of all files of the model
 /// \param allowed  bytes; the estimate may end when it exceeds them
-std::uint64_t estimated_decoding_memory(const std::filesystem::path& model, std::uint64_t allowed);
+std::uint64_t estimated_decoding_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
+                                        std::uint64_t allowed);
 
 }  // namespace faqem::cli

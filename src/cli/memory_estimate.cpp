@@ -104,10 +104,11 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
     // of glTF are counted below.
     const bool is_gltf = detail::format_of_file(model) == detail::Format::gltf;
-    std::uint64_t bytes = (is_gltf ? 3 : 5) * total_file_size(files);
-    if (!is_gltf) return bytes;
-    for (const auto estimate : {estimated_json_memory, estimated_decoding_memory})
-        if (bytes <= allowed) bytes += estimate(model, allowed - bytes);
+    const std::uint64_t stored_bytes = total_file_size(files);
+    if (!is_gltf) return 5 * stored_bytes;
+    std::uint64_t bytes = 3 * stored_bytes;
+    if (bytes <= allowed) bytes += estimated_json_memory(model, allowed - bytes);
+    if (bytes <= allowed) bytes += estimated_decoding_memory(model, stored_bytes, allowed - bytes);
     return bytes;
 }
 

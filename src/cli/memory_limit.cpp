@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "asset/io/file.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "cli/exit_code.hpp"
 
 namespace faqem::cli {
@@ -60,7 +60,8 @@ std::uint64_t stack_bytes(std::uint64_t limit, std::uint64_t threads) {
         } catch (const std::bad_alloc&) {
             constexpr std::string_view text = "faqem: not enough memory\n";
             static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
-            detail::remove_temporary_files();
+            // Another thread may be replacing files. If this one is, the next run completes or restores them.
+            for (int i = 0; i < 100 && !detail::remove_temporary_files(); ++i) ::usleep(10'000);
             _exit(exit_no_memory);
         } catch (...) {
         }

@@ -32,7 +32,7 @@ Document mesh_document() {
 
 std::uint64_t decoding_memory_of(const Folder& folder, const Document& document) {
     write(folder / "a.gltf", document.dump());
-    return estimated_decoding_memory(folder / "a.gltf", any);
+    return estimated_decoding_memory(folder / "a.gltf", 360'000, any);
 }
 
 std::uint64_t json_memory_of(const Folder& folder, const Document& document) {
@@ -111,20 +111,35 @@ TEST_CASE("the memory of JSON is counted per value, with less in extras") {
     CHECK(estimated_json_memory(folder / "a.gltf", 1'000'000) < 1'100'000);
 }
 
+TEST_CASE("sizes that the files cannot have are left out of the estimate, so that loading reports them") {
+    const Folder folder;
+    const Document one = mesh_document();
+    const std::uint64_t base = decoding_memory_of(folder, one);
+    Document other = one;
+    for (const char* const key : {"count", "byteOffset"}) {
+        other["accessors"][0][key] = std::uint64_t{1} << 62;
+        CHECK(decoding_memory_of(folder, other) <= base);
+    }
+    other = one;
+    other["bufferViews"][0]["byteLength"] = any;
+    other["images"] = std::vector<Document>(50, {{"bufferView", 0}, {"mimeType", "image/png"}});
+    CHECK(decoding_memory_of(folder, other) == base);
+}
+
 TEST_CASE("damaged documents and other files are estimated without an error") {
     const Folder folder;
     const std::string text = mesh_document().dump();
     for (std::size_t size = 0; size < text.size(); size += 7) {
         write(folder / "a.gltf", text.substr(0, size));
         CHECK(estimated_json_memory(folder / "a.gltf", any) < 200'000);
-        estimated_decoding_memory(folder / "a.gltf", any);
+        estimated_decoding_memory(folder / "a.gltf", 360'000, any);
     }
     for (const std::string other :
          {R"({"accessors":{"a":{"count":1}},"bufferViews":{"a":{"a":{"EXT_meshopt_compression":{}}}}})",
           R"({"meshes":[[[[[[[[]]]]]]]]})", R"({"meshes":{"primitives":{"a":{"b":{"POSITION":9}}}}})",
           "[[1]]"}) {
         write(folder / "a.gltf", other);
-        estimated_decoding_memory(folder / "a.gltf", any);
+        estimated_decoding_memory(folder / "a.gltf", 360'000, any);
     }
     write(folder / "a.gltf", std::string(1000, '['));
     CHECK(estimated_json_memory(folder / "a.gltf", any) < 1'000'000);

@@ -45,7 +45,9 @@ bool can_use(std::uint64_t bytes) {
     try {
         const auto memory = std::make_unique_for_overwrite<char[]>(bytes);
         std::memset(memory.get(), 1, bytes);
-        return true;
+        // Without a read of the memory, compilers remove the allocation.
+        const volatile char* const last = memory.get() + bytes - 1;
+        return *last == 1;
     } catch (const std::bad_alloc&) {
         return false;
     }

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Measures the peak memory of `faqem simplify --max-memory` on small files that need much memory.
+
+Usage: tests/bench/memory_limit.py FAQEM [FILE...]
+
+For each file, limits of 500 MB, 1 GB and 2 GB are tried: the exit code, the peak resident memory as a share of the
+limit, and the seconds are printed. The exit code of this script is 1 if a peak exceeds 1.2 times the limit or the
+command ends with anything but a result (0) or an error for bad input or memory (3, 4, 11). Without files, it makes
+glTF files with many numbers, accessors and meshes that are used many times, a PNG whose text expands, an image of many
+pixels, and triangles that share one edge.
+"""
+
+import base64
+import json
+import multiprocessing
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+from pathlib import Path
+
+LIMITS = (500, 1000, 2000)  # MB
+ALLOWED = 1.2
+EXIT_CODES = (0, 3, 4, 11)
+
+
+def grid(quads):
+    """Returns positions, texture coordinates and indices of a square of quads x quads."""
+    side = quads + 1
+    positions = b"".join(struct.pack("<3f", x, y, (x * y) % 3) for y in range(side) for x in range(side))
+    coordinates = b"".join(struct.pack("<2f", x / quads, y / quads) for y in range(side) for x in range(side))
+    indices = bytearray()
+    for y in range(quads):
+        for x in range(quads):
+            a = y * side + x
+            indices += struct.pack("<6I", a, a + 1, a + side, a + 1, a + side + 1, a + side)
+    return positions, coordinates, bytes(indices)
+
+
+def document(quads):
+    """Returns a glTF document of a grid with texture coordinates, as a dict."""
+    positions, coordinates, indices = grid(quads)
+    count = (quads + 1) ** 2
+    parts = [positions, coordinates, indices]
+    views, offset = [], 0
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
+        offset += len(part)
+    uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": offset, "uri": uri}],
+        "bufferViews": views,
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
+             "min": [0, 0, 0], "max": [quads, quads, 2]},
+            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC2"},
+            {"bufferView": 2, "componentType": 5125, "count": 6 * quads * quads, "type": "SCALAR"},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]}],
+        "nodes": [{"mesh": 0}],
+        "scenes": [{"nodes": [0]}],
+    }
+
+
+def png(width, height, texts=()):
+    """Returns a black grey-scale PNG with compressed texts."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    compressor = zlib.compressobj(9)
+    row = bytes(width + 1)
+    data = b"".join(compressor.compress(row) for _ in range(height)) + compressor.flush()
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    text_chunks = b"".join(chunk(b"zTXt", text) for text in texts)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + text_chunks + chunk(b"IDAT", data) + chunk(b"IEND", b"")
+
+
+def textured(image, quads=20):
+    result = document(quads)
+    uri = "data:image/png;base64," + base64.b64encode(image).decode()
+    result["images"] = [{"uri": uri}]
+    result["textures"] = [{"source": 0}]
+    result["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    result["meshes"][0]["primitives"][0]["material"] = 0
+    return result
+
+
+def write_files(folder):
+    """Writes one file of each family."""
+    files = {}
+    numbers = document(10)
+    numbers["meshes"][0]["extras"] = {"a": [0] * 20_000_000}
+    files["numbers in extras"] = numbers
+    weights = document(10)
+    weights["meshes"][0]["weights"] = [0] * 20_000_000
+    files["numbers in weights"] = weights
+    targets = document(150)
+    targets["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * 4000
+    files["targets of one accessor"] = targets
+    meshes = document(300)
+    meshes["meshes"] *= 2000
+    meshes["nodes"] = [{"mesh": i} for i in range(2000)]
+    meshes["scenes"][0]["nodes"] = list(range(2000))
+    files["meshes of one accessor"] = meshes
+    nodes = document(100)
+    nodes["nodes"] = [{"mesh": 0}] * 100_000
+    nodes["scenes"][0]["nodes"] = list(range(100_000))
+    files["nodes of one mesh"] = nodes
+    text = b"Comment\0\0" + zlib.compress(bytes(1 << 30), 9)
+    files["text of a PNG"] = textured(png(4, 4, [text] * 3))
+    files["image of 16384 x 16384 pixels"] = textured(png(16384, 16384))
+    for name, content in files.items():
+        (folder / (name.replace(" ", "_") + ".gltf")).write_text(json.dumps(content))
+    fan = folder / "triangles_at_one_edge.obj"
+    with fan.open("w") as out:
+        out.write("v 0 0 0\nv 0 0 1\n")
+        for i in range(10_000):
+            out.write(f"v 1 {i} 0\nf 1 2 {i + 3}\n")
+
+
+def measure(command):
+    """Runs a command. Returns its exit code, peak resident bytes and seconds."""
+    start = time.monotonic()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    return os.waitstatus_to_exitcode(status), usage.ru_maxrss * 1024, time.monotonic() - start
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    failed = False
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        files = [Path(file) for file in sys.argv[2:]]
+        if not files:
+            # In a process of its own: the peak of a command includes that of the process that starts it.
+            writer = multiprocessing.Process(target=write_files, args=(folder,))
+            writer.start()
+            writer.join()
+            files = sorted(folder.iterdir())
+        print(f"{'file':36} " + " ".join(f"{f'{limit} MB':>16}" for limit in LIMITS))
+        print(f"{'':36} " + " ".join(f"{'exit share    s':>16}" for _ in LIMITS))
+        for file in files:
+            cells = []
+            for limit in LIMITS:
+                out = folder / ("out.glb" if file.suffix != ".obj" else "out.ply")
+                # The other presets take time that grows with the square of the faces at an edge, for each collapse.
+                preset = "fast" if "edge" in file.stem else "balanced"
+                code, peak, seconds = measure([sys.argv[1], "simplify", str(file), str(out), "--ratio", "0.1",
+                                               "--preset", preset, "--force", "--max-memory", f"{limit}MB"])
+                share = peak / (limit * 1e6)
+                bad = not share <= ALLOWED or code not in EXIT_CODES
+                failed |= bad
+                cells.append(f"{code:3} {share:5.2f} {seconds:5.1f}{' !' if bad else '  '}")
+            print(f"{file.stem:36} " + " ".join(cells), flush=True)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
