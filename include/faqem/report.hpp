@@ -12,7 +12,7 @@
 
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 

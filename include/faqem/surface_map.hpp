@@ -7,7 +7,7 @@
 
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 

@@ -9,7 +9,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 namespace faqem::cli {
 

@@ -1,7 +1,9 @@
 // Simplifies and bakes a small textured scene, valid or invalid.
 
 #include "faqem/bake.hpp"
+#include "faqem/simplify.hpp"
 #include "fuzz/fuzz.hpp"
+#include "fuzz/random_options.hpp"
 
 using namespace faqem;
 

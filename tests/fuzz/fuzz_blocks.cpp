@@ -7,6 +7,7 @@
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/options.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

@@ -4,6 +4,7 @@
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/simplify.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

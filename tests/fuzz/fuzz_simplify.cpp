@@ -1,7 +1,9 @@
 // Simplifies a random mesh with random options. Refused input must be invalid, and results must be valid.
 
+#include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 #include "fuzz/fuzz.hpp"
+#include "fuzz/random_options.hpp"
 
 using namespace faqem;
 

@@ -64,3 +64,9 @@ TriangleMesh fins(Index n) {
 }
 
 }  // namespace models
+
+extern "C" unsigned long SIMPLIFY_SQUARE(double ratio) {
+    const faqem::TriangleMesh mesh = models::wavy_grid(20);
+    return faqem::simplify({mesh.positions, mesh.triangles}, {.target = faqem::ratio(ratio)})
+        .mesh.triangles.size();
+}

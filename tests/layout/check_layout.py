@@ -54,7 +54,7 @@ ORDER = [
 # The program's entry: above every folder.
 ENTRIES = {"src/cli/main.cpp"}
 # Public headers that the engine may include: plain data.
-PLAIN = {"export.hpp", "mesh.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
+PLAIN = {"export.hpp", "mesh.hpp", "option_types.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
 LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|nlohmann|CLI")
 MAX_SUBJECTS = 20
 MAX_LINES = 450

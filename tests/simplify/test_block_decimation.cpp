@@ -9,6 +9,7 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/original.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "faqem/compare.hpp"
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

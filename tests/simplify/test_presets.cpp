@@ -1,5 +1,6 @@
 #include "faqem/detail/simplify/presets.hpp"
 
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

@@ -4,6 +4,7 @@
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/options.hpp"
 #include "step_counts/silence.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"

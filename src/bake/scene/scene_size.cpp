@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "faqem/detail/geometry/surface.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::detail {
 

@@ -6,7 +6,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 namespace faqem::detail {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <mutex>
 
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 namespace faqem::cli {
 

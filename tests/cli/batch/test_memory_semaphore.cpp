@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/batch/memory_semaphore.hpp"
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem::cli;

@@ -1,9 +1,5 @@
-#include <fstream>
 #include <string>
-#include <vector>
 
-#include "faqem/history.hpp"
-#include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
@@ -25,17 +21,6 @@ TEST_CASE("a model of which nothing is left exits with 3 and is not written") {
     refused("lod point.obj levels", "point.obj");
     refused("lod point.obj levels --textures shared --one-file", "point.obj");
     CHECK(read(folder / "r.json").find("\"faces_out\": 0") != std::string::npos);
-    // A history that the library has written
-    const std::vector<faqem::Vec3> positions(3, {1, 1, 1});
-    const std::vector<faqem::Triangle> triangles = {{0, 1, 2}};
-    faqem::Options options;
-    options.history = faqem::Recording::on;
-    const faqem::SimplifyResult empty = faqem::simplify({positions, triangles}, options);
-    REQUIRE(empty.mesh.triangles.empty());
-    std::ofstream history(folder / "empty.bin", std::ios::binary);
-    faqem::write(empty.history, history);
-    history.close();
-    refused("truncate empty.bin out.glb --faces 10", "empty.bin");
     for (const char* file :
          {"out.glb", "out.ply", "h.bin", "levels/point_LOD.json", "levels/point_LOD0.glb"}) {
         CAPTURE(file);

@@ -13,7 +13,7 @@
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -8,7 +8,7 @@
 
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -12,6 +12,7 @@
 
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
+#include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -2,6 +2,7 @@
 
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/export.hpp"
+#include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -4,7 +4,7 @@
 
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/export.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

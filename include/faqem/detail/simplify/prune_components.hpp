@@ -9,7 +9,7 @@
 #include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

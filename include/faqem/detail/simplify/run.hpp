@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "faqem/export.hpp"
-#include "faqem/options.hpp"
+#include "faqem/option_types.hpp"
 #include "faqem/simplify.hpp"
 
 FAQEM_NAMESPACE_BEGIN
