@@ -16,13 +16,3 @@ faqem::TriangleMesh open_tube(faqem::Index n, faqem::Index m);
 faqem::TriangleMesh fins(faqem::Index n);
 
 }  // namespace models
-
-#ifdef FAQEM_HEADER_ONLY
-#define SIMPLIFY_SQUARE simplify_square_header_only
-#else
-#define SIMPLIFY_SQUARE simplify_square_compiled
-#endif
-
-/// The number of faces of a simplified square. Two shared libraries export it, one of each build mode, which are loaded
-/// into one process.
-extern "C" [[gnu::visibility("default")]] unsigned long SIMPLIFY_SQUARE(double ratio);

@@ -1,5 +1,5 @@
-// Writes the results of every public function of the geometry half to a file. It is compiled in both build modes, and a
-// test compares the files. Usage: results FILE
+#include "header_only/results.hpp"
+
 #include <faqem/compare.hpp>
 #include <faqem/forward_map.hpp>
 #include <faqem/levels.hpp>
@@ -58,8 +58,8 @@ void write_mapping(const faqem::TriangleMesh& mesh, const faqem::CollapseHistory
 
 }  // namespace
 
-int main(int, char** arguments) {
-    Writer out(arguments[1]);
+bool write_results(const char* file) {
+    Writer out(file);
     for (const faqem::TriangleMesh& model :
          {models::wavy_grid(60), models::open_tube(40, 30), models::fins(12)}) {
         const faqem::MeshView view{model.positions, model.triangles};
@@ -90,5 +90,11 @@ int main(int, char** arguments) {
             faqem::compare(view, {truncated.positions, truncated.triangles}, {.samples = 1000}).chamfer);
     }
     std::cout << "faqem " << faqem::version() << "\n";
-    return out.good() ? 0 : 1;
+    return out.good();
+}
+
+extern "C" unsigned long SIMPLIFY_SQUARE(double ratio) {
+    const faqem::TriangleMesh mesh = models::wavy_grid(20);
+    return faqem::simplify({mesh.positions, mesh.triangles}, {.target = faqem::ratio(ratio)})
+        .mesh.triangles.size();
 }

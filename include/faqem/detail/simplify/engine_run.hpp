@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
+#include "faqem/detail/simplify/run_recorder.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/constraints/feature_curves.hpp"
@@ -59,13 +61,13 @@ inline std::vector<double> vertex_importance(const MeshView& mesh, const Preproc
 
 // Runs an engine to the target of `loop`. While should_continue(result) returns true, after which `loop` may
 // hold a lower target, continues to that target.
-template <class Recorder, class ShouldContinue>
-engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
-                              Recorder& recorder, const engine::LoopOptions& loop, const RunState& state,
-                              ShouldContinue&& should_continue) {
+inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
+                                     RunRecorder& recorder, const engine::LoopOptions& loop,
+                                     const RunState& state,
+                                     const std::function<bool(const engine::LoopResult&)>& should_continue) {
     engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
-        engine::Engine<decltype(metric), Queue, Recorder> engine(
+        engine::Engine<decltype(metric), Queue, RunRecorder> engine(
             work.collapse_mesh, pairs, work.wedges, work.locked, metric, recorder, curves, std::move(queue));
         engine::LoopResult result = engine.run(loop);
         while (should_continue(result)) result = engine.continue_to(loop);

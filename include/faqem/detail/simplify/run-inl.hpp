@@ -2,7 +2,8 @@
 
 #include "faqem/detail/simplify/run.hpp"
 
-#include <type_traits>
+#include <functional>
+#include <optional>
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
@@ -12,8 +13,8 @@
 #include "faqem/detail/simplify/engine_run.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
-#include "faqem/detail/simplify/recorders.hpp"
 #include "faqem/detail/simplify/result_fitting.hpp"
+#include "faqem/detail/simplify/run_recorder.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/detail/simplify/virtual_edges.hpp"
 
@@ -52,10 +53,11 @@ public:
             prepare();
             set_target();
             EngineInput work(state_.mesh(), check_cancelled_);
-            CostRecorder recorder;
+            std::vector<CostCurve::Step> steps;
+            RunRecorder recorder(work.collapse_mesh.vertex_slots(), nullptr, &steps);
             const engine::LoopResult loop_result =
                 collapse(work, recorder, [](const engine::LoopResult&) { return false; });
-            return {recorder.take(), work.collapse_mesh.face_count(), settings_.diagonal / prepared_.scale,
+            return {std::move(steps), work.collapse_mesh.face_count(), settings_.diagonal / prepared_.scale,
                     loop_result.stop != StopReason::cancelled};
         } catch (const engine::Cancelled&) {
             return {{}, 0, 0, false};
@@ -65,14 +67,10 @@ public:
 private:
     void simplify_to_targets() {
         prepare();
-        if (options_.history == Recording::on) {
-            engine::HistoryRecorder history(state_.mesh().vertex, state_.mesh().face,
-                                            static_cast<Index>(prepared_.positions.size()));
-            collapse_to_targets(history);
-        } else {
-            engine::NoRecorder nothing;
-            collapse_to_targets(nothing);
-        }
+        if (options_.history == Recording::on)
+            history_.emplace(state_.mesh().vertex, state_.mesh().face,
+                             static_cast<Index>(prepared_.positions.size()));
+        collapse_to_targets();
     }
 
     void prepare() {
@@ -132,21 +130,18 @@ private:
     }
 
     // Simplifies in blocks as far as possible and compacts the rest. \return false if cancelled
-    template <class Recorder>
-    bool simplify_in_blocks_first(Recorder& recorder) {
+    bool simplify_in_blocks_first() {
         if (!supports_blocks()) return true;
-        if (!state_.original()) return reduce_in_blocks(loop_.target_faces, nullptr, recorder);
+        if (!state_.original()) return reduce_in_blocks(loop_.target_faces, nullptr);
         const engine::OriginalSurface& original = *state_.original();
         const std::size_t far = engine::TrackedMetric::tracking_start_ratio * loop_.target_faces;
         const BlockTracking borders{original, state_.vertex_map(), Watched::borders};
-        if (!reduce_in_blocks(far, original.boundary_edges().empty() ? nullptr : &borders, recorder))
-            return false;
+        if (!reduce_in_blocks(far, original.boundary_edges().empty() ? nullptr : &borders)) return false;
         const BlockTracking all{original, state_.vertex_map()};
-        return reduce_in_blocks(loop_.target_faces, &all, recorder);
+        return reduce_in_blocks(loop_.target_faces, &all);
     }
 
-    template <class Recorder>
-    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking, Recorder& recorder) {
+    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking) {
         const std::size_t faces = state_.mesh().triangles.size();
         if (faces <= least) return true;
         engine::LoopOptions loop = loop_;
@@ -172,34 +167,32 @@ private:
         for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += blocks.rungs[i];
         CompactedMesh compacted = apply_steps(input, blocks.steps, check_cancelled_);
         totals_.components_collapsed += compacted.isolated_slots;  // blocks do not delete components
-        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
-            record_blocks(blocks, compacted, recorder);
+        if (history_) record_blocks(blocks, compacted);
         state_.advance_to(std::move(compacted));
         return true;
     }
 
     // Reserves memory for the remaining collapses as well: growing the arrays later would need twice the
     // memory.
-    void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted,
-                       engine::HistoryRecorder& recorder) const {
+    void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted) {
         const double faces_to_go = static_cast<double>(state_.mesh().triangles.size() - loop_.target_faces);
         const double wanted = std::max(faces_to_go / 2, static_cast<double>(blocks.steps.size()));
         const double share = 1.05 * wanted / static_cast<double>(blocks.steps.size());
-        recorder.reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
-                         static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
+        history_->reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
+                          static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
         for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
             const auto& [survivor, gone, to] = blocks.steps[i];
             const std::size_t begin = blocks.patch_begin[i];
             const std::size_t end =
                 i + 1 < blocks.steps.size() ? blocks.patch_begin[i + 1] : blocks.patch_faces.size();
-            recorder.add_collapse(survivor, gone, to,
-                                  std::span(blocks.patch_faces).subspan(begin, end - begin));
+            history_->add_collapse(survivor, gone, to,
+                                   std::span(blocks.patch_faces).subspan(begin, end - begin));
         }
-        recorder.renumber(compacted.vertices, compacted.faces);
+        history_->renumber(compacted.vertices, compacted.faces);
     }
 
-    template <class Recorder, class ShouldContinue>
-    engine::LoopResult collapse(EngineInput& work, Recorder& recorder, ShouldContinue&& should_continue) {
+    engine::LoopResult collapse(EngineInput& work, RunRecorder& recorder,
+                                const std::function<bool(const engine::LoopResult&)>& should_continue) {
         const CollapseMesh& collapse_mesh = work.collapse_mesh;
         std::vector<std::pair<Index, Index>> extra;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
@@ -227,20 +220,19 @@ private:
     // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
     // weight from the start. Otherwise one engine continues from target to target, since it has state that
     // cannot be transferred.
-    template <class Recorder>
-    void collapse_to_targets(Recorder& recorder) {
+    void collapse_to_targets() {
         while (results_.size() < targets_.size()) {
             set_target();
-            const bool is_cancelled = !simplify_in_blocks_first(recorder);
+            const bool is_cancelled = !simplify_in_blocks_first();
             EngineInput work(state_.mesh(), check_cancelled_);
-            TracingRecorder<Recorder> tracing(recorder, work.collapse_mesh.vertex_slots());
+            RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
             engine::LoopResult loop_result;
             if (is_cancelled) {
                 loop_result.stop = StopReason::cancelled;
-                add_result(work, tracing.trace(), recorder, loop_result);
+                add_result(work, recorder.trace(), loop_result);
             } else {
-                loop_result = collapse(work, tracing, [&](const engine::LoopResult& so_far) {
-                    add_result(work, tracing.trace(), recorder, so_far);
+                loop_result = collapse(work, recorder, [&](const engine::LoopResult& so_far) {
+                    add_result(work, recorder.trace(), so_far);
                     if (supports_blocks() || is_done()) return false;
                     set_target();
                     return true;
@@ -248,9 +240,8 @@ private:
             }
             if (is_done()) return;
             add_counts(loop_result, totals_);
-            CompactedMesh left = compacted(work.collapse_mesh, tracing.trace(), check_cancelled_);
-            if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>)
-                recorder.renumber(left.vertices, left.faces);
+            CompactedMesh left = compacted(work.collapse_mesh, recorder.trace(), check_cancelled_);
+            if (history_) history_->renumber(left.vertices, left.faces);
             state_.advance_to(std::move(left));
         }
     }
@@ -260,9 +251,7 @@ private:
     }
 
     // Adds the result of the current target, whether or not it was reached.
-    template <class Recorder>
-    void add_result(const EngineInput& work, const SlotTrace& trace, Recorder& recorder,
-                    const engine::LoopResult& loop_result) {
+    void add_result(const EngineInput& work, const SlotTrace& trace, const engine::LoopResult& loop_result) {
         SimplifyResult result;
         result.report = totals_;
         add_counts(loop_result, result.report);
@@ -273,10 +262,10 @@ private:
         const std::vector<Index> slots =
             build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
                          state_.source_vertices_of(trace.source_slots()), check_cancelled, result);
-        if constexpr (std::is_same_v<Recorder, engine::HistoryRecorder>) {
+        if (history_) {
             const bool is_last = results_.size() + 1 == targets_.size();
-            result.history = is_last ? recorder.take() : recorder.history();
-            for (const Index slot : slots) result.history.kept_versions.push_back(recorder.version(slot));
+            result.history = is_last ? history_->take() : history_->history();
+            for (const Index slot : slots) result.history.kept_versions.push_back(history_->version(slot));
             to_model_units(prepared_, check_cancelled, result.history.collapses);
             // The arrays are moved into the last result.
             finish_history(mesh_, prepared_.pruned,
@@ -302,6 +291,7 @@ private:
     Settings settings_;
     PreprocessedMesh prepared_;
     RunState state_;
+    std::optional<engine::HistoryRecorder> history_;  // if a history is recorded
     engine::LoopOptions loop_;
     double area_ = 0;  // of the original, engine units
     std::span<const std::uint64_t> targets_;
