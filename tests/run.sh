@@ -5,6 +5,8 @@
 #        tests/run.sh --module FOLDER [CTEST-OPTION...]
 #            builds what the tests of a folder of the source tree need, for example engine/queue or src/bake, and runs
 #            them; in a build tree of its own (preset module)
+#        tests/run.sh --module FILE [CATCH2-OPTION...]
+#            the same for the tests of one file, for example simplify/test_options.cpp
 #        tests/run.sh --suite fresh [OPTION...]
 #            tests/fresh/run.sh
 set -eu
@@ -28,7 +30,7 @@ case ${1:-} in
     --module)
         preset=module
         module=$(echo "${2:-}" | sed -E 's#/+$##; s#^\./##; s#^(tests|src|include/faqem/detail|include/faqem)/##')
-        [ -n "$module" ] || { echo "tests/run.sh: --module needs a folder, for example engine/queue" >&2; exit 2; }
+        [ -n "$module" ] || { echo "tests/run.sh: --module needs a folder or file, for example engine/queue" >&2; exit 2; }
         shift
         ;;
     -*)
@@ -58,19 +60,24 @@ else
     build=build/$preset
     [ -f $build/build.ninja ] || cmake --preset $preset
     targets_of() {
-        awk -v folder="$1" '$1 == folder || index($1, folder "/") == 1 { print $2 }' $build/tests/modules | sort -u
+        awk -v name="$1" '$1 == name || (index($1, name "/") == 1 && $1 !~ /\.cpp$/) { print $2 }' \
+            $build/tests/modules | sort -u
     }
-    # A folder without tests of its own is tested by those of the folder that contains it.
+    # A file or folder without tests of its own is tested by those of the folder that contains it.
     while targets=$(targets_of "$module") && [ -z "$targets" ] && [ "$module" != "${module%/*}" ]; do
         module=${module%/*}
     done
     if [ -z "$targets" ]; then
-        echo "tests/run.sh: no tests belong to the folder '$module'; known:" $(awk '{ print $1 }' $build/tests/modules) >&2
+        echo "tests/run.sh: no tests belong to '$module'; known:" \
+            $(awk '$1 !~ /\.cpp$/ { print $1 }' $build/tests/modules) >&2
         exit 2
     fi
     stage "build $targets"
     cmake --build $build --target $targets
     stage "test"
-    ctest --preset $preset -R "^$module(/|\$)" "$@"
+    case $module in
+        *.cpp) $build/tests/$targets "$@" ;;
+        *) ctest --preset $preset -R "^$module(/|\$)" "$@" ;;
+    esac
 fi
 stage "done"

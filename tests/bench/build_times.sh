@@ -4,9 +4,10 @@
 #   quickstart  examples/quickstart.sh, with an empty compiler cache
 #   cold        tests/run.sh, with an empty compiler cache
 #   warm        tests/run.sh in another folder with the cache of `cold`, and the share of compilations found in it
-#   engine      an edit of engine/engine.hpp, without cache: tests/run.sh --module engine; then all other objects
-#   options     an edit of options.hpp, without cache: tests/run.sh --module simplify -- those of test_options.cpp; then
-#               all other objects
+#   engine      an edit of engine/engine.hpp, without cache: tests/run.sh --module engine; then all objects of the
+#               preset test
+#   options     an edit of options.hpp, without cache: tests/run.sh --module simplify/test_options.cpp; then all objects
+#               of the preset test
 #   bake asset cli  an edit of one .cpp of the folder, without cache: tests/run.sh --module of its subfolder
 # Packages must be installed, and nothing else should run. Prints seconds of wall time and of CPU time.
 set -euo pipefail
@@ -55,22 +56,22 @@ edit_loop() {
     [ -d "$work/edit" ] || clone edit
     cd "$work/edit"
     git checkout -q .
-    export FAQEM_CCACHE=OFF
-    [ -d build/module ] || cmake --preset module -DFAQEM_CCACHE=OFF >"$work/log"
+    # The cache is for the first build only.
     tests/run.sh --module "$folder" "$@" >"$work/log" 2>&1
     for run in $(seq "$runs"); do
         edit "$file" "$run"
-        measure "$title: build and run tests" tests/run.sh --module "$folder" "$@"
+        CCACHE_DISABLE=1 measure "$title: build and run tests" tests/run.sh --module "$folder" "$@"
     done
 }
 
 # edit_all TITLE FILE: all objects that depend on the file.
 edit_all() {
     local run
-    cmake --build build/module >"$work/log" 2>&1
+    git checkout -q .
+    { cmake --preset test && cmake --build build/test; } >"$work/log" 2>&1
     for run in $(seq "$runs"); do
         edit "$2" "1$run"
-        measure "$1: all objects" cmake --build build/module
+        CCACHE_DISABLE=1 measure "$1: all objects" cmake --build build/test
     done
 }
 
@@ -111,7 +112,7 @@ for name in "$@"; do
             edit_all "engine/engine.hpp" include/faqem/engine/engine.hpp
             ;;
         options)
-            edit_loop "options.hpp" include/faqem/options.hpp simplify
+            edit_loop "options.hpp" include/faqem/options.hpp simplify/test_options.cpp
             edit_all "options.hpp" include/faqem/options.hpp
             ;;
         bake) edit_loop "bake/atlas/packing.cpp" src/bake/atlas/packing.cpp bake/atlas ;;
