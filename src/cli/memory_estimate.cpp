@@ -14,6 +14,7 @@
 #include "cli/gltf_memory.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::cli {
 

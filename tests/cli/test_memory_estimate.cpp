@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/exit_code.hpp"
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/sanitizers.hpp"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/output_file.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::cli {
 
