@@ -65,11 +65,11 @@ bool is_strictly_convex(const std::vector<Point>& points) {
     return reversals <= 2;
 }
 
-/// Ear clipping in passes over the ring. A pass tests the remaining corners in the order of the ring and then,
-/// repeatedly, the neighbours of the clipped ears.
+/// Ear clipping: a pass over the ring, and then repeatedly the neighbours of the clipped ears.
 ///
-/// A corner that is no ear is tested again only when this can change the answer: when one of its neighbours
-/// changes, or when the reflex corner that was found in its triangle is clipped or becomes convex.
+/// A corner that is no ear is tested again when one of its neighbours changes. In a simple polygon nothing else can
+/// make it an ear: what blocks it is outside the polygon, and stays there. A polygon that touches itself may have other
+/// ears left, also because of rounding, so that a few further passes test all corners.
 class EarClipper {
 public:
     explicit EarClipper(const std::vector<Point>& points)
@@ -77,19 +77,22 @@ public:
           next_(points.size()),
           prev_(points.size()),
           remaining_(points.size()),
-          blocked_(points.size()),
-          is_candidate_(points.size(), 0),
+          is_candidate_(points.size(), 1),
           reflex_(link_corners()) {}
 
     void run(std::vector<Triangle>& triangles) {
-        for (std::size_t i = 0; i < points_.size(); ++i) add_candidate(static_cast<Index>(i));
+        std::size_t retests = 8 * remaining_ + 1000;  // limit, so that the time remains near-linear
         for (int forced = 0; remaining_ > 3;) {
             const std::size_t before = remaining_;
             clip_ears(triangles);
-            if (remaining_ != before) continue;
-            // No ear was found: the polygon intersects itself or is too thin for the precision of double.
-            if (++forced > max_forced_clips) break;
-            clip(start_corner_, triangles);
+            if (remaining_ == before) {
+                // No ear was found: the polygon intersects itself or is too thin for the precision of double.
+                if (++forced > max_forced_clips) break;
+                clip(start_corner_, triangles);
+            }
+            if (remaining_ > retests) continue;
+            retests -= remaining_;
+            std::fill(is_candidate_.begin(), is_candidate_.end(), 1);
         }
         const Index apex = start_corner_;
         for (Index i = next_[apex]; next_[i] != apex; i = next_[i]) triangles.push_back({apex, i, next_[i]});
@@ -98,45 +101,15 @@ public:
 private:
     static constexpr int max_forced_clips = 64;
 
-    /// Corners that wait for a reflex corner to change: a linked list for each reflex corner.
-    class BlockedCorners {
-    public:
-        explicit BlockedCorners(std::size_t corners) : first_(corners, no_index), links_(corners) {}
-
-        void add(Index corner, Index blocker) {
-            remove(corner);
-            const Index next = first_[blocker];
-            links_[corner] = {blocker, no_index, next};
-            if (next != no_index) links_[next].prev = corner;
-            first_[blocker] = corner;
-        }
-        void remove(Index corner) {
-            const Link link = links_[corner];
-            if (link.blocker == no_index) return;
-            (link.prev == no_index ? first_[link.blocker] : links_[link.prev].next) = link.next;
-            if (link.next != no_index) links_[link.next].prev = link.prev;
-            links_[corner] = {};
-        }
-        /// One of the corners that wait for this one; no_index if there is none.
-        Index first(Index blocker) const { return first_[blocker]; }
-
-    private:
-        struct Link {
-            Index blocker = no_index, prev = no_index, next = no_index;
-        };
-        std::vector<Index> first_;
-        std::vector<Link> links_;
-    };
-
     ReflexCornerTree link_corners() {
         const std::size_t n = points_.size();
-        std::vector<Index> corners;
         for (std::size_t i = 0; i < n; ++i) {
             next_[i] = static_cast<Index>(i + 1 == n ? 0 : i + 1);
             prev_[i] = static_cast<Index>(i == 0 ? n - 1 : i - 1);
         }
-        for (std::size_t i = 0; i < n; ++i)
-            if (!is_convex_corner(static_cast<Index>(i))) corners.push_back(static_cast<Index>(i));
+        std::vector<Index> corners;
+        for (Index i = 0; i < n; ++i)
+            if (!is_convex_corner(i)) corners.push_back(i);
         return ReflexCornerTree(points_, corners);
     }
 
@@ -145,62 +118,28 @@ private:
         return orient2d(points_[prev_[i]], points_[i], points_[next_[i]]) > 0;
     }
 
-    /// Whether a corner is an ear. If not, the corner is no candidate until this can change.
-    bool is_ear(Index i) {
-        is_candidate_[i] = 0;
-        if (!is_convex_corner(i)) return false;
+    bool is_ear(Index i) const {
         // A corner at the position of the ear's corners is an end of a bridge to a hole and does not block it.
-        const Index blocker = reflex_.find_in({points_[prev_[i]], points_[i], points_[next_[i]]});
-        if (blocker == no_index) return true;
-        blocked_.add(i, blocker);
-        return false;
-    }
-
-    /// Number of corners from the beginning of the current pass to corner i.
-    std::size_t steps_to(Index i) const {
-        return i >= pass_begin_ ? i - pass_begin_ : i + points_.size() - pass_begin_;
-    }
-    /// Order of a heap whose first element is the first corner of the pass.
-    auto later_in_pass() const {
-        return [this](Index a, Index b) { return steps_to(a) > steps_to(b); };
-    }
-
-    /// Lets a corner be tested again: in this pass if its turn has yet to come, otherwise in the next one.
-    void add_candidate(Index i) {
-        blocked_.remove(i);
-        if (is_candidate_[i]) return;
-        is_candidate_[i] = 1;
-        if (pass_at_ == no_index || steps_to(i) <= steps_to(pass_at_)) {
-            next_pass_.push_back(i);
-        } else {
-            this_pass_.push_back(i);
-            std::push_heap(this_pass_.begin(), this_pass_.end(), later_in_pass());
-        }
+        return is_convex_corner(i) &&
+               reflex_.find_in({points_[prev_[i]], points_[i], points_[next_[i]]}) == no_index;
     }
 
     void clip_ears(std::vector<Triangle>& triangles) {
-        pass_begin_ = start_corner_;
-        std::sort(next_pass_.begin(), next_pass_.end(), later_in_pass());
-        next_pass_.erase(std::unique(next_pass_.begin(), next_pass_.end()), next_pass_.end());
-        this_pass_.assign(next_pass_.rbegin(), next_pass_.rend());
-        next_pass_.clear();
-        neighbours_.clear();
-        while (!this_pass_.empty() && remaining_ > 3) {
-            pass_at_ = this_pass_.front();
-            std::pop_heap(this_pass_.begin(), this_pass_.end(), later_in_pass());
-            this_pass_.pop_back();
-            clip_if_ear(pass_at_, triangles);
+        std::vector<Index> neighbours;  // of the clipped ears
+        const auto clip_if_ear = [&](Index i) {
+            if (!is_remaining(i) || !is_candidate_[i]) return;
+            is_candidate_[i] = 0;
+            if (!is_ear(i)) return;
+            neighbours.insert(neighbours.end(), {prev_[i], next_[i]});
+            clip(i, triangles);
+        };
+        Index i = start_corner_;
+        for (std::size_t left = remaining_; left > 0 && remaining_ > 3; --left) {
+            const Index next = next_[i];
+            clip_if_ear(i);
+            i = next;
         }
-        pass_at_ = no_index;
-        for (std::size_t q = 0; q < neighbours_.size() && remaining_ > 3; ++q)
-            clip_if_ear(neighbours_[q], triangles);
-    }
-
-    void clip_if_ear(Index i, std::vector<Triangle>& triangles) {
-        if (!is_remaining(i) || !is_candidate_[i] || !is_ear(i)) return;
-        neighbours_.push_back(prev_[i]);
-        neighbours_.push_back(next_[i]);
-        clip(i, triangles);
+        for (std::size_t q = 0; q < neighbours.size() && remaining_ > 3; ++q) clip_if_ear(neighbours[q]);
     }
 
     void clip(Index i, std::vector<Triangle>& triangles) {
@@ -212,29 +151,17 @@ private:
         next_[i] = no_index;
         --remaining_;
         reflex_.set_active(i, false);
-        unblock(i);
         for (const Index neighbour : {before, after}) {
-            const bool is_convex = is_convex_corner(neighbour);
-            reflex_.set_active(neighbour, !is_convex);
-            if (is_convex) unblock(neighbour);
-            add_candidate(neighbour);
+            reflex_.set_active(neighbour, !is_convex_corner(neighbour));
+            is_candidate_[neighbour] = 1;
         }
-    }
-
-    void unblock(Index blocker) {
-        while (blocked_.first(blocker) != no_index) add_candidate(blocked_.first(blocker));
     }
 
     const std::vector<Point>& points_;
     std::vector<Index> next_, prev_;  // ring of the remaining corners; next_ is no_index for clipped corners
     std::size_t remaining_;
-    Index start_corner_ = 0;  // one of the remaining corners
-    BlockedCorners blocked_;
-    std::vector<std::uint8_t> is_candidate_;     // per corner: it may be an ear
-    std::vector<Index> this_pass_;               // heap of candidates whose turn in this pass has yet to come
-    std::vector<Index> next_pass_;               // candidates for the next pass
-    std::vector<Index> neighbours_;              // of the ears clipped in this pass
-    Index pass_begin_ = 0, pass_at_ = no_index;  // first and current corner; no_index: not within the ring
+    Index start_corner_ = 0;                  // one of the remaining corners
+    std::vector<std::uint8_t> is_candidate_;  // per corner: it may have become an ear since its last test
     ReflexCornerTree reflex_;
 };
 
