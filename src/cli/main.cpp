@@ -14,7 +14,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/shell/command_tree.hpp"
-#include "cli/shell/deprecated_names.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 
@@ -49,13 +48,9 @@ int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
     build_command_line(app, action);
-    std::vector<std::string> warnings;
-    const std::vector<std::string> words =
-        replace_deprecated_names({argv + std::min(argc, 1), argv + argc}, warnings);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
-        std::vector<std::string> all =
-            replace_deprecated_names(expand_profile(command_tree(app), words), warnings);
-        for (const std::string& warning : warnings) std::cerr << "faqem: warning: " << warning << "\n";
+        std::vector<std::string> all = expand_profile(command_tree(app), words);
         std::reverse(all.begin(), all.end());  // CLI11 expects the arguments in reverse order
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {

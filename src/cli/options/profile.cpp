@@ -8,7 +8,6 @@
 #include "asset/io/file.hpp"
 #include "cli/json.hpp"
 #include "cli/protected_files.hpp"
-#include "cli/shell/deprecated_names.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 
@@ -132,7 +131,7 @@ std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std
     std::vector<std::string> added;
     for (const auto& [key, value] : profile.items()) {
         if (key == version_key || key == schema_key) continue;
-        const OptionInfo* option = find_option(*command, current_option_name("--" + key).substr(2));
+        const OptionInfo* option = find_option(*command, key);
         if (!option) throw_unknown_key(tree, *command, *file, key);
         const std::vector<std::string> more = to_arguments(*option, value, *file + ": " + key);
         if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
