@@ -54,6 +54,13 @@ void check_output(const fs::path& file, Overwrite overwrite) {
         throw WriteError(file.string() + ": the directory is not writable");
 }
 
+void check_different(const fs::path& file, const fs::path& other) {
+    std::error_code error;
+    if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(other)) ||
+        fs::equivalent(file, other, error))
+        throw OptionError(file.string() + ": is given for two files");
+}
+
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
     const std::string extension = lower_case_extension(file);
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;

@@ -27,6 +27,10 @@ using detail::lower_case_extension;
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite);
 
+/// Checks that two output files are not the same one, whether or not they exist. Links and relative paths do not
+/// matter. \throws OptionError  they are the same
+void check_different(const std::filesystem::path& file, const std::filesystem::path& other);
+
 /// Checks that a file name has one of the extensions, ignoring case.
 /// \param extensions  in lower case, with the dot
 /// \throws OptionError  the extension is another one

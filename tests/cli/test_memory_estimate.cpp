@@ -61,6 +61,10 @@ TEST_CASE("files that exceed the memory limit are rejected before they are read 
     CHECK_THAT(outcome.err,
                ContainsSubstring("faqem: a.glb: may need ") && ContainsSubstring("(--max-memory)"));
     CHECK_FALSE(fs::exists(folder / "out.glb"));
+    for (const auto& [size, megabytes] : {std::pair("2GB", "2000 MB"), std::pair("2GiB", "2148 MB")}) {
+        const std::string command = std::string("simplify a.glb out.glb --max-memory ") + size;
+        CHECK_THAT(run(folder, command).err, ContainsSubstring(std::string("but only ") + megabytes));
+    }
     // The buffers of a .gltf file are counted, too.
     write(folder / "a.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":1}]})");
     write(folder / "a.bin", "");

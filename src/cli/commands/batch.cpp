@@ -104,7 +104,7 @@ void add_batch_command(CLI::App& app, Action& action) {
         ->add_option("--max-memory", arguments->max_memory,
                      "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
                      "more runs alone (default: three quarters of the machine's memory)")
-        ->transform(CLI::AsSizeValue(false))
+        ->transform(CLI::AsSizeValue(true))
         ->check(positive_number());
     command->add_flag("--resume", arguments->resume,
                       "Skip results that are up to date, redo those that are not");

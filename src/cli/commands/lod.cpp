@@ -88,10 +88,7 @@ void prepare_outputs(const LodArguments& a, const Outputs& outputs) {
     check_output(a.history, a.overwrite());
     std::vector<fs::path> others = outputs.models;
     others.push_back(outputs.manifest);
-    for (const fs::path& other : others) {
-        if (other.lexically_normal() == fs::path(a.history).lexically_normal())
-            throw OptionError(a.history + ": is the path of two output files");
-    }
+    for (const fs::path& other : others) check_different(a.history, other);
 }
 
 /// Writes the histories of all parts one after the other, each with all levels.

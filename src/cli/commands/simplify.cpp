@@ -53,13 +53,7 @@ void check_outputs(const SimplifyCommandArguments& arguments) {
          {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
         if (file.empty()) continue;
         check_output(file, arguments.overwrite());
-        for (const auto& other : taken) {
-            std::error_code error;
-            if (std::filesystem::path(file).lexically_normal() == other.lexically_normal() ||
-                std::filesystem::equivalent(file, other, error)) {
-                throw OptionError(file + ": is given for two files");
-            }
-        }
+        for (const auto& other : taken) check_different(file, other);
         taken.emplace_back(file);
     }
 }
@@ -215,9 +209,9 @@ void add_run_options(CLI::App& command, SimplifyCommandArguments& a) {
         ->check(CLI::Range(0, 1024));
     command
         .add_option("--max-memory", a.max_memory,
-                    "Reject a model that may need more memory, as 8GB or 500MB (default: the machine's "
+                    "Use at most this memory, as 8GB or 500MB, or end with code 11 (default: the machine's "
                     "memory)")
-        ->transform(CLI::AsSizeValue(false))
+        ->transform(CLI::AsSizeValue(true))
         ->check(positive_number());
     command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
     command.add_option("--history", a.history, "Write the collapse history to this file");

@@ -61,10 +61,16 @@ double parse_number(const std::string& text, const char* option) {
     return value;
 }
 
+/// Parses `0.1` or `10%`, which is 0.1.
+double parse_ratio(const std::string& text, const char* option) {
+    if (!text.ends_with('%')) return parse_number(text, option);
+    return parse_number(text.substr(0, text.size() - 1), option) / 100;
+}
+
 /// Parses `0.01` (model units) or `0.1%` (of the diagonal).
 Length parse_length(const std::string& text, const char* option) {
-    if (!text.ends_with('%')) return model_units(parse_number(text, option));
-    return of_diagonal(parse_number(text.substr(0, text.size() - 1), option) / 100);
+    const double value = parse_ratio(text, option);
+    return text.ends_with('%') ? of_diagonal(value) : model_units(value);
 }
 
 /// Parses `kind:NUMBER`, removes the suffix from the text and returns the number. Returns nothing for other
@@ -100,7 +106,8 @@ std::string preset_names() {
 }
 
 void add_target_options(CLI::App& command, SimplifyArguments& a) {
-    auto* ratio = command.add_option("--ratio", a.ratio, "Ratio of faces to keep, in (0, 1] (default 0.1)");
+    auto* ratio =
+        command.add_option("--ratio", a.ratio, "Ratio of faces to keep, in (0, 1] or as 10% (default 0.1)");
     auto* faces = command.add_option("--faces", a.faces, "Number of faces to keep")->check(positive_number());
     ratio->excludes(faces);
     command.add_option("--max-error", a.max_error,
@@ -222,7 +229,7 @@ void validate_with_option_names(const Options& options) try {
 Options make_options(const SimplifyArguments& arguments) {
     Options options = arguments.options;
     if (arguments.faces > 0) options.target = faces(arguments.faces);
-    if (arguments.ratio) options.target = ratio(*arguments.ratio);
+    if (arguments.ratio) options.target = ratio(parse_ratio(*arguments.ratio, "--ratio"));
     if (arguments.max_error) options.max_error = parse_length(*arguments.max_error, "--max-error");
     if (!arguments.preset.empty()) options.preset = preset_named(arguments.preset);
     if (!arguments.budget.empty()) options.budget = parse_enum(budgets, arguments.budget, "--budget");

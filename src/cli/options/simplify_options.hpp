@@ -21,7 +21,7 @@ struct SimplifyArguments {
     std::string preset, budget, visibility, bake, mapping, normal_map, normals, image_format;
     std::string virtual_edges;  ///< empty: off
     std::optional<std::string> max_error, prune;
-    std::optional<double> ratio;
+    std::optional<std::string> ratio;
     std::uint64_t faces = 0;
     bool link = false, lock_boundary = false, keep_groups = false;
     bool strict = false, strict_target = false;

@@ -32,6 +32,8 @@ TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
                                   "simplify in.glb out.glb --ratio 1.5",
                                   "simplify in.glb out.glb --ratio nan",
                                   "simplify in.glb out.glb --ratio 0,5",
+                                  "simplify in.glb out.glb --ratio 150%",
+                                  "simplify in.glb out.glb --ratio %",
                                   "simplify in.glb out.glb --faces 0",
                                   "simplify in.glb out.glb --faces -3",
                                   "simplify in.glb out.glb --faces 10 --ratio 0.5",
@@ -101,6 +103,14 @@ TEST_CASE("messages about values out of range name the option of the command") {
     }
 }
 
+TEST_CASE("a ratio may be a percentage") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    CHECK(run(folder, "simplify in.glb a.glb --ratio 0.3 --bake none --quiet").code == 0);
+    CHECK(run(folder, "simplify in.glb b.glb --ratio 30% --bake none --quiet").code == 0);
+    CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
+}
+
 TEST_CASE("a flag with an optional value does not consume the next argument") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
@@ -159,6 +169,15 @@ TEST_CASE("an output file that is the input is rejected, also through links") {
     }
     CHECK(run(folder, "simplify in.glb new.glb --report new.glb").code == 2);
     CHECK(run(folder, "simplify in.glb new.glb --report r --history ./r").code == 2);
+    fs::create_directory_symlink(".", folder / "here");
+    for (const char* same : {"\"$PWD/new.glb\"", "here/new.glb", "../$(basename \"$PWD\")/new.glb"}) {
+        CAPTURE(same);
+        const Outcome outcome =
+            run(folder, std::string("simplify in.glb new.glb --bake none --force --report ") + same);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("is given for two files") != std::string::npos);
+    }
+    CHECK(run(folder, "lod in.glb . --bake none --force --history \"$PWD/in_LOD1.glb\"").code == 2);
     CHECK(read(folder / "in.glb") == before);
     CHECK(fs::is_symlink(folder / "link.glb"));
     CHECK(!fs::exists(folder / "new.glb"));
