@@ -58,7 +58,11 @@ if [ -z "$module" ]; then
     ctest --preset "$preset" "$@"
 else
     build=build/$preset
-    [ -f $build/build.ninja ] || cmake --preset $preset
+    if [ -f $build/build.ninja ]; then
+        cmake --build $build --target build.ninja  # configures again if there are new files
+    else
+        cmake --preset $preset
+    fi
     targets_of() {
         awk -v name="$1" '$1 == name || (index($1, name "/") == 1 && $1 !~ /\.cpp$/) { print $2 }' \
             $build/tests/modules | sort -u
