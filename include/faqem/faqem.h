@@ -189,7 +189,7 @@ typedef struct faqem_result faqem_result;
  * \param options  null: the defaults
  * \param result   receives a new object
  * \param error    may be null
- * Complexity: O(n log n) time in the number of faces for bounded valence, O(n) memory.
+ * Complexity: O(n log n) time and O(n) memory in the number n of faces, for bounded valence.
  */
 FAQEM_API faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options,
                                       faqem_result** result, faqem_error* error);
