@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The recorder of a run.
+/// The recorder of a run: slot trace, collapse history and cost curve.
 
 #include <algorithm>
 #include <limits>

@@ -155,8 +155,8 @@ Json without_extras(const Json& from) {
     return copy;
 }
 
-/// The document without extras, with every URI replaced by a token for the callbacks. Buffers without data get one byte, and
-/// accessors with Draco data get a view, since tinygltf requires both.
+/// The document without extras, with every URI replaced by a token for the callbacks. Buffers without data get
+/// one byte, and accessors with Draco data get a view, since tinygltf requires both.
 std::string json_with_uri_tokens(const Json& document) {
     Json copy = without_extras(document);
     for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
