@@ -3,8 +3,6 @@
 #include <new>
 
 #include "cli/byte_budget.hpp"
-#include "cli/memory_estimate.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::cli {
 

@@ -5,6 +5,8 @@
 #include <exception>
 #include <string>
 
+#include "faqem/error.hpp"
+
 namespace faqem::cli {
 
 /// Exit codes, documented in docs/cli.md.
@@ -21,6 +23,12 @@ enum ExitCode : int {
     exit_batch_incomplete = 9,
     exit_too_large = 10,
     exit_no_memory = 11,
+};
+
+/// Thrown if the estimated memory exceeds the limit. The command exits with code 11.
+class MemoryError : public Error {
+public:
+    using Error::Error;
 };
 
 /// Returns the exit code for an exception; exit_internal for unknown types.

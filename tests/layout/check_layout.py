@@ -45,6 +45,7 @@ ORDER = [
     ["src/bake/scene"],
     ["src/capi"],
     ["src/cli"],
+    ["src/cli/memory"],
     ["src/cli/shell"],
     ["src/cli/options"],
     ["src/cli/batch"],

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/interrupt.hpp"
-#include "cli/memory_estimate.hpp"
-#include "cli/memory_limit.hpp"
+#include "cli/memory/memory_estimate.hpp"
+#include "cli/memory/memory_limit.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
 #include "cli/simplify_model.hpp"

@@ -7,17 +7,11 @@
 #include <filesystem>
 #include <limits>
 
+#include "cli/exit_code.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/error.hpp"
 #include "faqem/option_types.hpp"
 
 namespace faqem::cli {
-
-/// Thrown if the estimated memory exceeds the limit. The command exits with code 11.
-class MemoryError : public Error {
-public:
-    using Error::Error;
-};
 
 /// Returns an upper estimate, in bytes, of the memory needed to load a model: from the file sizes, and from the
 /// JSON of glTF, which tells the sizes of everything that will be decoded. Files that an OBJ file refers to are

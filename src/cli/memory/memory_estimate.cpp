@@ -1,4 +1,4 @@
-#include "cli/memory_estimate.hpp"
+#include "cli/memory/memory_estimate.hpp"
 
 #include <sys/resource.h>
 
@@ -10,8 +10,8 @@
 #include "asset/image/image_size.hpp"
 #include "asset/io/file_format.hpp"
 #include "bake/transfer/material_groups.hpp"
-#include "cli/gltf_json_memory.hpp"
-#include "cli/gltf_memory.hpp"
+#include "cli/memory/gltf_json_memory.hpp"
+#include "cli/memory/gltf_memory.hpp"
 #include "cli/output_file.hpp"
 #include "cli/referenced_files.hpp"
 #include "faqem/options.hpp"

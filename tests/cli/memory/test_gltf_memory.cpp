@@ -1,4 +1,4 @@
-#include "cli/gltf_memory.hpp"
+#include "cli/memory/gltf_memory.hpp"
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/exit_code.hpp"
-#include "cli/gltf_json_memory.hpp"
-#include "cli/memory_estimate.hpp"
+#include "cli/memory/gltf_json_memory.hpp"
+#include "cli/memory/memory_estimate.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/machine_memory.hpp"
+#include "cli/memory/machine_memory.hpp"
 
 #include <limits>
 

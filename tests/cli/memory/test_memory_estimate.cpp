@@ -1,4 +1,4 @@
-#include "cli/memory_estimate.hpp"
+#include "cli/memory/memory_estimate.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "cli/json_scan.hpp"
+#include "cli/memory/json_scan.hpp"
 
 #include <fstream>
 #include <string_view>

@@ -1,8 +1,8 @@
-#include "cli/gltf_json_memory.hpp"
+#include "cli/memory/gltf_json_memory.hpp"
 
 #include <string>
 
-#include "cli/json_scan.hpp"
+#include "cli/memory/json_scan.hpp"
 
 namespace faqem::cli {
 

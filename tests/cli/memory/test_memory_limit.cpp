@@ -1,4 +1,4 @@
-#include "cli/memory_limit.hpp"
+#include "cli/memory/memory_limit.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

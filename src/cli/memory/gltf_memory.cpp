@@ -1,4 +1,4 @@
-#include "cli/gltf_memory.hpp"
+#include "cli/memory/gltf_memory.hpp"
 
 #include <algorithm>
 #include <map>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "asset/io/file.hpp"
-#include "cli/json_scan.hpp"
+#include "cli/memory/json_scan.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

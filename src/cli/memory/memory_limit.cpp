@@ -1,4 +1,4 @@
-#include "cli/memory_limit.hpp"
+#include "cli/memory/memory_limit.hpp"
 
 #include <pthread.h>
 #include <sys/resource.h>
