@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
