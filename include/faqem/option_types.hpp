@@ -156,7 +156,9 @@ enum class ImageFormat {
 
 /// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
-    automatic,  ///< if the source has one, or if normals differ by more than 5 degrees on average by area
+    /// If the source has one, or if it has other textures and normals differ by more than 5 degrees on average
+    /// by area.
+    automatic,
     on,         ///< for every lit material; made from the geometry if the source has no normal map
     off,
 };

@@ -13,11 +13,11 @@ done
 rm -rf "$work"
 mkdir -p "$work"
 cp "$tool" "$work/alone"
-printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >"$work/square.obj"
-"$work/alone" simplify "$work/square.obj" "$work/geometry.glb" --ratio 1 --bake none --quiet
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.3\nf 1 2 3\nf 1 3 4\n' >"$work/folded.obj"
+"$work/alone" simplify "$work/folded.obj" "$work/geometry.glb" --ratio 1 --bake none --quiet
 images="--ratio 1 --normal-map on --texture-size 64 --quiet"
-"$tool" simplify "$work/square.obj" "$work/textured.glb" $images
-if "$work/alone" simplify "$work/square.obj" "$work/none.glb" $images 2>"$work/errors"; then
+"$tool" simplify "$work/folded.obj" "$work/textured.glb" $images
+if "$work/alone" simplify "$work/folded.obj" "$work/none.glb" $images 2>"$work/errors"; then
     echo "the command has written an image without its image plugin"
     exit 1
 fi

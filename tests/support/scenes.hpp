@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "asset/image/srgb.hpp"
 #include "faqem/bake.hpp"
 #include "support/hand_history.hpp"
 #include "support/meshes.hpp"
@@ -129,9 +130,22 @@ auto blend(const std::vector<V>& values, const Triangle& t, const Vec3& w) {
     return result;
 }
 
-/// The texture colour at a point of a face, in [0, 255].
+/// The base colour of a material as an image: that of its texture or, if it has none, one texel of its factor.
+inline Pixels base_color_image(const Asset& asset, std::size_t material = 0) {
+    const Material& m = asset.materials.at(material);
+    if (m.base_color_texture) return decode(asset.images.at(m.base_color_texture.image));
+    Rgba texel;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double value = k < 3 ? detail::srgb_from_linear(m.base_color[k]) : m.base_color[k];
+        texel[k] = static_cast<std::uint8_t>(std::lround(255 * value));
+    }
+    return paint(1, 1, [&](std::uint32_t, std::uint32_t) { return texel; });
+}
+
+/// The texture colour at a point of a face, in [0, 255]. Without UVs, that of the first texel.
 /// \param w  barycentric coordinates
 inline std::array<double, 4> look(const Part& part, const Pixels& pixels, std::size_t face, const Vec3& w) {
+    if (part.uvs.empty()) return read(pixels, 0, 0);
     const auto uv = blend(part.uvs[0], part.triangles[face], w);
     return read(pixels, uv[0], uv[1]);
 }

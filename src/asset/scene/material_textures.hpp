@@ -81,4 +81,11 @@ void for_each_texture(M& material, const Visit& visit) {
     for (auto& extension : material.extension_textures) visit(extension.texture);
 }
 
+/// Whether a material refers to an image.
+inline bool has_textures(const Material& material) {
+    bool result = false;
+    for_each_texture(material, [&](const TextureRef& texture) { result = result || texture; });
+    return result;
+}
+
 }  // namespace faqem::detail

@@ -1,10 +1,10 @@
 #include <algorithm>
-
 #include <array>
 #include <cmath>
 #include <optional>
-#include "asset/scene/messages.hpp"
 
+#include "asset/scene/material_textures.hpp"
+#include "asset/scene/messages.hpp"
 #include "bake/atlas/point2.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
@@ -181,6 +181,26 @@ std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::v
     return result;
 }
 
+// Removes the UVs of parts that no texture of the result is on, and the tangents where no normal map is. With a
+// correspondence, UVs are kept: they place the faces on the page that it describes.
+void remove_unused_uvs(const BakeJob& job, const std::vector<GroupPage>& pages,
+                       std::vector<std::vector<Vec2f>>& uvs, std::vector<std::vector<Vec4f>>& tangents) {
+    std::vector<bool> has_texture(job.parts.size(), job.options.bake.correspondence == Recording::on);
+    std::vector<bool> has_normal_map(job.parts.size(), false);
+    for (std::size_t g = 0; g < pages.size(); ++g) {
+        const Material& material = job.result.asset.materials[g];
+        const bool textured = has_textures(material), bumpy = tangent_texture(material) != nullptr;
+        for (const PageFace& face : pages[g].faces) {
+            if (textured) has_texture[face.part] = true;
+            if (bumpy) has_normal_map[face.part] = true;
+        }
+    }
+    for (std::size_t p = 0; p < job.parts.size(); ++p) {
+        if (!has_texture[p]) uvs[p].clear();
+        if (!has_normal_map[p]) tangents[p].clear();
+    }
+}
+
 }  // namespace
 
 bool bake_pages(BakeJob& job) {
@@ -217,6 +237,7 @@ bool bake_pages(BakeJob& job) {
         out.materials.push_back(page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{},
                                               page.layers, images));
     }
+    remove_unused_uvs(job, pages, uvs, tangents);
     for (const BakePart& part : job.parts) {
         CornerValues values{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) values.uvs.push_back(std::move(uvs[part.index]));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "asset/scene/material_textures.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "bake/transfer/tangents.hpp"
 #include "bake/transfer/vector_conversion.hpp"
@@ -67,10 +68,12 @@ bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<
     const NormalMap choice = job.options.bake.normal_map;
     if (choice == NormalMap::off || group.material.unlit || faces.empty()) return false;
     if (choice == NormalMap::on) return true;
-    const bool has_one = std::any_of(group.materials.begin(), group.materials.end(), [&](Index m) {
-        return bool(material_or_default(job.source, m).normal_texture);
-    });
-    return has_one || normal_deviation(job, faces) > min_deviation;
+    const auto has_any = [&](bool (*has)(const Material&)) {
+        return std::any_of(group.materials.begin(), group.materials.end(),
+                           [&](Index m) { return has(material_or_default(job.source, m)); });
+    };
+    if (has_any([](const Material& m) { return bool(m.normal_texture); })) return true;
+    return has_any(has_textures) && normal_deviation(job, faces) > min_deviation;
 }
 
 void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,

@@ -141,6 +141,8 @@ public:
                             push_pull(image, known, {0, 3}, check_cancelled);
                             if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, check_cancelled);
                         });
+        images_.known = std::move(is_covered_);
+        images_.known_layers = std::move(has_layer_samples_);
         return std::move(images_);
     }
 

@@ -34,6 +34,9 @@ struct PageImages {
     std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
     std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
     std::uint64_t texels = 0;                   ///< texels that show a triangle
+    std::vector<std::uint8_t> known;            ///< by texel: nonzero if it shows a triangle
+    /// By texel: nonzero if `layers` are known. Empty without layers.
+    std::vector<std::uint8_t> known_layers;
     std::vector<TexelOrigin> origins;           ///< by texel; empty unless options.bake.correspondence is on
 };
 

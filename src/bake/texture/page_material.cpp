@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "asset/image/image.hpp"
+#include "asset/image/srgb.hpp"
+#include "bake/texture/constant_image.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -77,20 +80,47 @@ std::string suffix_of(const ExtensionTexture& texture) {
     return std::string("_").append(texture.name, 0, texture.name.size() - ending.size());
 }
 
+// Whether an image leaves the factors that it is multiplied by unchanged wherever it is known.
+bool is_neutral(const ExtensionLayer& layer, const Pixels& pixels, std::span<const std::uint8_t> known) {
+    if (layer.is_normal_map()) return is_flat_normal_map(pixels, known);
+    const auto values = constant_channels(pixels, known);
+    const auto is_one = [](const std::optional<float>& value) { return value && *value == 255; };
+    const bool color = std::all_of(values.begin(), values.begin() + 3, is_one);
+    return (color || !layer.has_color()) && (is_one(values[3]) || !layer.has_alpha());
+}
+
 void add_layers(ImageWriter& writer, const Material& source, std::span<const ExtensionLayer> layers,
-                const std::vector<Pixels>& images, Material& result) {
+                const PageImages& images, Material& result) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const ExtensionLayer& layer = layers[i];
+        if (is_neutral(layer, images.layers[i], images.known_layers)) continue;
         const Content content =
             layer.encoding() == TexelEncoding::color_and_data_alpha ? Content::color : Content::data;
         const TextureRef ref =
-            writer.add(images[i], suffix_of(source.extension_textures[layer.textures.front()]), content,
-                       {layer.texture_ref});
+            writer.add(images.layers[i], suffix_of(source.extension_textures[layer.textures.front()]),
+                       content, {layer.texture_ref});
         for (const Index t : layer.textures) {
             const ExtensionTexture& texture = source.extension_textures[t];
             result.extension_textures.push_back({texture.extension, texture.name, ref});
         }
     }
+}
+
+// Linear value of a constant sRGB channel.
+float linear_factor(float value) { return static_cast<float>(linear_from_srgb(value / 255)); }
+
+// The base colour as a factor, if it is constant.
+std::optional<Vec4f> constant_base_color(const PageImages& images) {
+    const auto [r, g, b, a] = constant_channels(images.base, images.known);
+    if (!r || !g || !b || !a) return std::nullopt;
+    return Vec4f{linear_factor(*r), linear_factor(*g), linear_factor(*b), *a / 255};
+}
+
+// The emitted light as a factor, if it is constant.
+std::optional<Vec3f> constant_emission(const PageImages& images) {
+    const auto [r, g, b, a] = constant_channels(images.emissive, images.known);
+    if (!r || !g || !b) return std::nullopt;
+    return Vec3f{linear_factor(*r), linear_factor(*g), linear_factor(*b)};
 }
 
 }  // namespace
@@ -118,31 +148,43 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
                                 ? "material" + std::to_string(job.result.asset.materials.size())
                                 : result.name);
     if (channels.base) {
-        result.base_color = {1, 1, 1, 1};
-        result.base_color_texture =
-            writer.add(images.base, "_baseColor", Content::color, uses({&Material::base_color_texture}));
+        const std::optional<Vec4f> constant = constant_base_color(images);
+        result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
+        if (!constant)
+            result.base_color_texture =
+                writer.add(images.base, "_baseColor", Content::color, uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
-        const TextureRef orm =
-            writer.add(images.occlusion_roughness_metallic, "_occlusionRoughnessMetallic", Content::data,
-                       uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
-        if (channels.occlusion) result.occlusion_texture = orm;
+        const auto [occlusion, roughness, metallic, alpha] =
+            constant_channels(images.occlusion_roughness_metallic, images.known);
+        const bool has_occlusion = channels.occlusion && occlusion != 255.0f;
+        const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
+        TextureRef orm;
+        if (has_occlusion || is_varying) {
+            orm =
+                writer.add(images.occlusion_roughness_metallic, "_occlusionRoughnessMetallic", Content::data,
+                           uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
+        }
+        if (has_occlusion) result.occlusion_texture = orm;
         if (channels.metallic_roughness) {
-            result.metallic = result.roughness = 1;
-            result.metallic_roughness_texture = orm;
+            result.metallic = is_varying ? 1 : *metallic / 255;
+            result.roughness = is_varying ? 1 : *roughness / 255;
+            if (is_varying) result.metallic_roughness_texture = orm;
         }
     }
     if (channels.emissive) {
-        result.emissive = {1, 1, 1};
-        result.emissive_texture =
-            writer.add(images.emissive, "_emissive", Content::color, uses({&Material::emissive_texture}));
+        const std::optional<Vec3f> constant = constant_emission(images);
+        result.emissive = constant.value_or(Vec3f{1, 1, 1});
+        if (!constant)
+            result.emissive_texture =
+                writer.add(images.emissive, "_emissive", Content::color, uses({&Material::emissive_texture}));
     }
-    if (channels.normal) {
+    if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
         result.normal_texture =
             writer.add(images.normal, "_normal", Content::data, uses({&Material::normal_texture}));
     }
-    add_layers(writer, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(),
-               images.layers, result);
+    add_layers(writer, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
+               result);
     writer.write();
     return result;
 }

@@ -26,7 +26,7 @@ double worst(const Part& source, const Pixels& painted, const Part& baked, const
 }
 
 Pixels base_pixels(const SimplifiedAsset& simplified, std::size_t material = 0) {
-    return decode(simplified.asset.images[simplified.asset.materials[material].base_color_texture.image]);
+    return base_color_image(simplified.asset, material);
 }
 
 bool mentions(const std::vector<std::string>& warnings, const std::string& word) {
@@ -84,14 +84,14 @@ TEST_CASE("base colour factor and vertex colours are applied in linear light") {
 }
 
 TEST_CASE("all texels of a page are filled") {
-    const Asset asset = textured_square(paint(32, 32, [](std::uint32_t, std::uint32_t) {
-        return Rgba{9, 99, 199, 255};
+    const Asset asset = textured_square(paint(32, 32, [](std::uint32_t x, std::uint32_t) {
+        return Rgba{9, static_cast<std::uint8_t>(x < 16 ? 99 : 101), 199, 255};
     }));
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
     const Pixels atlas = base_pixels(simplified);
     for (std::size_t t = 0; t < atlas.rgba.size(); t += 4) {
         REQUIRE(atlas.rgba[t] == 9);
-        REQUIRE(atlas.rgba[t + 1] == 99);
+        REQUIRE(std::abs(atlas.rgba[t + 1] - 100) <= 1);
         REQUIRE(atlas.rgba[t + 2] == 199);
         REQUIRE(atlas.rgba[t + 3] == 255);
     }
@@ -200,17 +200,19 @@ TEST_CASE("the alpha of an opaque material is ignored") {
 TEST_CASE("metallic, roughness, occlusion and emissive textures are baked with their factors") {
     Asset asset = textured_square(ramp(16));
     Material& m = asset.materials[0];
-    const auto flat = [](const Rgba& c) {
-        return paint(8, 8, [c](std::uint32_t, std::uint32_t) { return c; });
+    const auto left = [](const Rgba& c) {
+        return paint(8, 8, [c](std::uint32_t x, std::uint32_t) {
+            return x < 4 ? c : Rgba{255, 255, 255, 255};
+        });
     };
     m.metallic = 0.5f;
     m.roughness = 0.8f;
-    m.metallic_roughness_texture.image = add_texture(asset, flat({7, 100, 200, 255}));
-    m.occlusion_texture.image = add_texture(asset, flat({55, 0, 0, 255}));
+    m.metallic_roughness_texture.image = add_texture(asset, left({7, 100, 200, 255}));
+    m.occlusion_texture.image = add_texture(asset, left({55, 0, 0, 255}));
     m.occlusion_strength = 0.5f;
     m.emissive = {1, 0.5f, 0};
-    m.emissive_texture.image = add_texture(asset, flat({255, 188, 255, 255}));
-    m.normal_texture.image = add_texture(asset, flat({128, 128, 255, 255}));
+    m.emissive_texture.image = add_texture(asset, left({255, 188, 255, 255}));
+    m.normal_texture.image = add_texture(asset, left({128, 128, 255, 255}));
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
     const Material& out = simplified.asset.materials[0];
     REQUIRE(out.metallic_roughness_texture);
@@ -220,13 +222,16 @@ TEST_CASE("metallic, roughness, occlusion and emissive textures are baked with t
     CHECK(out.occlusion_strength == 1);
     CHECK(out.emissive == Vec3f{1, 1, 1});
     const Pixels orm = decode(simplified.asset.images[out.occlusion_texture.image]);
-    CHECK(orm.rgba[0] == 155);  // halfway from 255 to 55
-    CHECK(orm.rgba[1] == 80);
-    CHECK(orm.rgba[2] == 100);
+    const Vec3 on_left = {0.45, 0.1, 0.45};
+    const auto o = look(simplified.asset.parts[0], orm, 1, on_left);
+    CHECK(o[0] == Approx(155));  // halfway from 255 to 55
+    CHECK(o[1] == Approx(80));
+    CHECK(o[2] == Approx(100));
     const Pixels glow = decode(simplified.asset.images[out.emissive_texture.image]);
-    CHECK(glow.rgba[0] == 255);
-    CHECK(glow.rgba[1] == Approx(137).margin(1));
-    CHECK(glow.rgba[2] == 0);
+    const auto g = look(simplified.asset.parts[0], glow, 1, on_left);
+    CHECK(g[0] == Approx(255));
+    CHECK(g[1] == Approx(137).margin(1));
+    CHECK(g[2] == Approx(0));
     CHECK(out.normal_texture);
     CHECK(simplified.report.warnings.empty());
 }

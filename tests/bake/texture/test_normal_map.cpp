@@ -110,14 +110,28 @@ TEST_CASE("a normal map from geometry restores the shading of removed faces") {
     CHECK(mapped < 0.35 * plain);
 }
 
-TEST_CASE("automatic normal maps are made only if normals deviate") {
-    Asset asset;
+TEST_CASE("automatic normal maps of textured models are made only if normals deviate") {
+    Asset asset = textured_square(ramp(16));
     asset.parts = {steep_waves(false)};
+    asset.parts[0].uvs.resize(1);
+    for (const Vec3& p : asset.parts[0].positions)
+        asset.parts[0].uvs[0].push_back({static_cast<float>(p[0] / 7), static_cast<float>(p[1] / 7)});
+    asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
     CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
     for (Vec3& p : asset.parts[0].positions) p[2] = 0;
     const SimplifiedAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));
     CHECK_FALSE(flat.asset.materials[0].normal_texture);
     CHECK(flat.asset.parts[0].tangents.empty());
+}
+
+TEST_CASE("models without textures get a normal map only if it is requested") {
+    Asset asset;
+    asset.parts = {steep_waves(false)};
+    CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.images.empty());
+    CHECK(simplify(asset, with(NormalMap::on, 0.02)).asset.images.size() == 1);
+    for (const Vec3& p : asset.parts[0].positions)
+        asset.parts[0].colors.push_back({static_cast<float>(p[0] / 64), 0, 0, 1});
+    CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.images.size() == 1);
 }
 
 TEST_CASE("normal maps are omitted for unlit materials and with a warning if they are off") {
