@@ -89,6 +89,12 @@ struct MorphTarget {
     std::vector<Vec3f> positions, normals;
 };
 
+/// Order of the faces and vertices of a part in a glTF file. Other formats are written in the given order.
+enum class FileOrder {
+    given,    ///< that of the arrays; faces are grouped by material
+    for_gpu,  ///< faces that share vertices follow each other, and vertices are in the order of their first use
+};
+
 /// One mesh of a scene, with all its primitives in one set of arrays. Below, V is the number of vertices and
 /// F the number of faces. Vertices that differ in any attribute are separate, as in glTF; simplification
 /// welds them by position.
@@ -106,6 +112,8 @@ struct Part {
     std::vector<MorphTarget> morph_targets;
     /// Mesh of the source document whose name, extras, points and lines are written too; no_index: none.
     Index source = no_index;
+    /// bake() sets FileOrder::for_gpu for parts that lost faces. Their arrays are in the order of the history.
+    FileOrder file_order = FileOrder::given;
 };
 
 /// Data that a format's reader preserves for its writer (for glTF: scene graph, cameras, animations, extras).

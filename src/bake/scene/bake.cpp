@@ -84,6 +84,15 @@ void bake_by_kind(BakeJob& job) {
     }
 }
 
+// A part that lost faces has no order of its own that a file should preserve.
+void set_file_orders(BakeJob& job) {
+    for (const BakePart& part : job.parts) {
+        const bool lost_faces = part.faces() < part.source->triangles.size();
+        job.result.asset.parts[part.index].file_order =
+            lost_faces ? FileOrder::for_gpu : part.source->file_order;
+    }
+}
+
 // Bakes the parts with their histories. The callers add the histories to the result: one copies them, the
 // other moves them.
 SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
@@ -104,6 +113,7 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
         map_parts(job, simplified);
         seconds.map = watch.seconds();
         bake_by_kind(job);
+        set_file_orders(job);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
         job.result.asset.parts.clear();

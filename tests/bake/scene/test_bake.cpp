@@ -298,6 +298,34 @@ TEST_CASE("with more charts or triangles than texels vertex colours are baked wi
     CHECK(mentions(bake(asset, unchanged(asset), options).report.warnings, "more charts than texels"));
 }
 
+TEST_CASE("only parts that lost faces, or that have no order of their own, may be written in another order") {
+    Asset asset;
+    asset.parts = {square(),
+                   sheet(6,
+                         [](double x, double y) {
+                             return Vec3{x, y, std::sin(x) * y};
+                         }),
+                   square()};
+    asset.materials.resize(1);
+    asset.parts[2].file_order = FileOrder::for_gpu;
+    Options options;
+    options.bake.kind = GENERATE(Bake::automatic, Bake::vertex, Bake::keep, Bake::none);
+    options.history = GENERATE(Recording::on, Recording::off);
+    options.target = faces(40);
+    const SimplifiedAsset simplified = simplify(asset, options);
+    CHECK(simplified.asset.parts[0].file_order == FileOrder::given);
+    CHECK(simplified.asset.parts[1].file_order == FileOrder::for_gpu);
+    CHECK(simplified.asset.parts[2].file_order == FileOrder::for_gpu);
+    // The faces of the arrays are those of the history, in its order.
+    if (options.history != Recording::on) return;
+    const TriangleMesh replayed = replay(simplified.histories[1]);
+    const Part& part = simplified.asset.parts[1];
+    REQUIRE(replayed.triangles.size() == part.triangles.size());
+    for (std::size_t f = 0; f < part.triangles.size(); ++f)
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(part.positions[part.triangles[f][c]] == replayed.positions[replayed.triangles[f][c]]);
+}
+
 TEST_CASE("the progress callback can cancel bake") {
     const Asset asset = textured_square(ramp(64));
     Options options;

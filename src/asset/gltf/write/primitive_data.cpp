@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "asset/gltf/write/gpu_order.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -168,6 +169,7 @@ PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces
     for (const Index f : faces)
         for (const Index v : part.triangles[f]) data.corners.push_back(scratch[v]);
     for (const Index v : data.vertices) scratch[v] = no_index;
+    if (part.file_order == FileOrder::for_gpu) order_for_gpu(data.vertices, data.corners);
 
     gather_positions(part, origin, data);
     gather_normals(part, data);

@@ -13,7 +13,7 @@ namespace faqem::detail {
 
 /// Vertices and corners of a primitive. An array is empty if the primitive does not have the attribute.
 struct PrimitiveData {
-    std::vector<Index> vertices;  ///< used vertices of the part, ascending
+    std::vector<Index> vertices;  ///< used vertices of the part; ascending with FileOrder::given
     std::vector<Index> corners;   ///< indices into `vertices`, three per triangle
     std::vector<Vec3f> positions, normals;
     std::vector<Vec4f> tangents, colors, weights;
@@ -28,7 +28,7 @@ struct PrimitiveData {
 /// two of about the size of the bounding box.
 Vec3 local_origin(const std::vector<Part>& parts);
 
-/// Gathers the vertices and corners of some faces of a part. Zero normals are replaced by the area-weighted
+/// Gathers the vertices and corners of some faces of a part, in the order of Part::file_order. Zero normals are replaced by the area-weighted
 /// mean of the adjacent face normals.
 /// \param faces    indices of triangles of the part
 /// \param origin   subtracted from the positions
