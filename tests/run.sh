@@ -6,7 +6,7 @@
 #            builds what the tests of a folder of the source tree need, for example engine/queue or src/bake, and runs
 #            them; in a build tree of its own (preset module)
 #        tests/run.sh --module FILE [CATCH2-OPTION...]
-#            the same for the tests of one file, for example simplify/test_options.cpp
+#            the same for the tests of one file, for example options/test_validate.cpp
 #        tests/run.sh --suite fresh [OPTION...]
 #            tests/fresh/run.sh
 set -eu

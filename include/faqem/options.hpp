@@ -79,5 +79,5 @@ FAQEM_EXPORT void validate(const Options& options);
 FAQEM_NAMESPACE_END
 
 #ifdef FAQEM_HEADER_ONLY
-#include "faqem/detail/simplify/options-inl.hpp"
+#include "faqem/detail/options/option_table-inl.hpp"
 #endif

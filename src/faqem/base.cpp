@@ -1,2 +1,3 @@
 // Compiles include/faqem/detail/base.
+#include "faqem/detail/base/closest_word-inl.hpp"
 #include "faqem/detail/base/version-inl.hpp"

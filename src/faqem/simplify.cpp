@@ -1,11 +1,10 @@
-// Compiles the rest of include/faqem/detail/simplify: the runs, their options and reports.
+// Compiles the rest of include/faqem/detail/simplify: the runs and reports.
 #include "faqem/detail/simplify/block_decimation-inl.hpp"
 #include "faqem/detail/simplify/budget_by_cost-inl.hpp"
 #include "faqem/detail/simplify/build_result-inl.hpp"
 #include "faqem/detail/simplify/compaction-inl.hpp"
 #include "faqem/detail/simplify/error_bound_search-inl.hpp"
 #include "faqem/detail/simplify/face_count_search-inl.hpp"
-#include "faqem/detail/simplify/options-inl.hpp"
 #include "faqem/detail/simplify/presets-inl.hpp"
 #include "faqem/detail/simplify/report-inl.hpp"
 #include "faqem/detail/simplify/report_json-inl.hpp"

@@ -6,7 +6,7 @@
 #   warm        tests/run.sh in another folder with the cache of `cold`, and the share of compilations found in it
 #   engine      an edit of engine/engine.hpp, without cache: tests/run.sh --module engine; then all objects of the
 #               preset test
-#   options     an edit of options.hpp, without cache: tests/run.sh --module simplify/test_options.cpp; then all objects
+#   options     an edit of options.hpp, without cache: tests/run.sh --module options/test_validate.cpp; then all objects
 #               of the preset test
 #   bake asset cli  an edit of one .cpp of the folder, without cache: tests/run.sh --module of its subfolder
 # Packages must be installed, and nothing else should run. Prints seconds of wall time and of CPU time.
@@ -112,7 +112,7 @@ for name in "$@"; do
             edit_all "engine/engine.hpp" include/faqem/engine/engine.hpp
             ;;
         options)
-            edit_loop "options.hpp" include/faqem/options.hpp simplify/test_options.cpp
+            edit_loop "options.hpp" include/faqem/options.hpp options/test_validate.cpp
             edit_all "options.hpp" include/faqem/options.hpp
             ;;
         bake) edit_loop "bake/atlas/packing.cpp" src/bake/atlas/packing.cpp bake/atlas ;;

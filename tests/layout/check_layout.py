@@ -28,7 +28,7 @@ ORDER = [
     ["include/faqem/engine/tracking"],
     ["include/faqem/engine"],
     ["include/faqem/detail/base"],
-    ["include/faqem/detail/geometry"],
+    ["include/faqem/detail/geometry", "include/faqem/detail/options"],
     ["include/faqem/detail/measure", "include/faqem/detail/fitting", "include/faqem/detail/history"],
     ["include/faqem/detail/simplify", "include/faqem/detail/mapping"],
     ["include/faqem/detail/lod"],

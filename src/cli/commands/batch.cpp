@@ -17,6 +17,7 @@
 #include "cli/output_file.hpp"
 #include "cli/protected_files.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/version.hpp"
 
 namespace faqem::cli {
@@ -60,7 +61,7 @@ int run(const BatchArguments& arguments) {
     // Image libraries start a thread per hardware thread, besides those of the models.
     limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key = std::string(version()) + " " + extension + " " + options_key(options) +
+    const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
                             (arguments.strict ? " strict" : "") +
                             (arguments.strict_target ? " strict-target" : "");
     const BatchContext work = {options,

@@ -8,7 +8,7 @@
 #include "asset/io/file.hpp"
 #include "cli/json.hpp"
 #include "cli/protected_files.hpp"
-#include "cli/shell/suggestion.hpp"
+#include "faqem/detail/base/closest_word.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -63,7 +63,7 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
         const std::string name = option.names.back().substr(2);
         if (find_option(command, name)) known.push_back(name);
     }
-    const std::string suggested = closest_word(key, known);
+    const std::string suggested = detail::closest_word(key, known);
     const auto other = std::find_if(tree.commands.begin(), tree.commands.end(),
                                     [&](const CommandInfo& c) { return find_option(c, key) != nullptr; });
     if (!suggested.empty())

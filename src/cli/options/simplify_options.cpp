@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/json.hpp"
 #include "cli/options/common_options.hpp"
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
 
@@ -190,42 +190,6 @@ void add_options_without_targets(CLI::App& command, SimplifyArguments& a) {
                      "Exit with 5, and write no model, if the target is missed");
 }
 
-namespace {
-
-/// Beginnings of the library's error messages about options, and the texts with the command's option names
-/// that replace them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> option_names = {
-    {{"target ratio", "--ratio"},
-     {"max_error", "--max-error"},
-     {"visibility must be ignored if max_error is given without a target",
-      "--visibility must be ignored if --max-error is given without --ratio or --faces"},
-     {"weights.area", "--w-area"},
-     {"weights.boundary", "--w-boundary"},
-     {"weights.normal", "--w-normal"},
-     {"weights.uv", "--w-uv"},
-     {"weights.plane_area", "--w-plane-area"},
-     {"weld_distance", "--weld"},
-     {"virtual_edge_distance", "--virtual-edges"},
-     {"prune", "--prune"},
-     {"texture_size", "--texture-size"},
-     {"texel_density", "--texel-density"},
-     {"crease_angle", "--normals: the angle of smooth"},
-     {"normals may be none only if bake is none", "--normals may be none only if --bake is none"}}};
-
-/// Calls validate(). Error messages name the options of the command instead of those of the library.
-void validate_with_option_names(const Options& options) try {
-    validate(options);
-} catch (const OptionError& error) {
-    const std::string message = error.what();
-    for (const auto& [of_library, of_command] : option_names) {
-        if (message.starts_with(of_library))
-            throw OptionError(std::string(of_command) + message.substr(of_library.size()));
-    }
-    throw;
-}
-
-}  // namespace
-
 Options make_options(const SimplifyArguments& arguments) {
     Options options = arguments.options;
     if (arguments.faces > 0) options.target = faces(arguments.faces);
@@ -251,7 +215,7 @@ Options make_options(const SimplifyArguments& arguments) {
         options.topology.virtual_edges = VirtualEdges::on;
         options.topology.virtual_edge_distance = parse_number(arguments.virtual_edges, "--virtual-edges");
     }
-    validate_with_option_names(options);
+    detail::check_options(options, detail::command_spelling);
     return options;
 }
 
@@ -263,29 +227,6 @@ Level parse_level(const std::string& text) {
     if (!(value > 1 && value < 1e15 && value == std::floor(value)))
         throw OptionError("--levels: '" + text + "' is neither a ratio in (0, 1] nor a number of faces");
     return faces(static_cast<std::uint64_t>(value));
-}
-
-std::string options_key(const Options& o) {
-    const auto length = [](const std::optional<Length>& l) {
-        return l ? Json{l->value, static_cast<int>(l->unit)} : Json();
-    };
-    const auto number = [](const std::optional<double>& n) { return n ? Json(*n) : Json(); };
-    const auto index = [](auto value) { return static_cast<int>(value); };
-    const Weights& w = o.weights;
-    const Topology& t = o.topology;
-    return Json{index(o.target.kind),
-                o.target.value,
-                index(o.budget),
-                index(o.visibility),
-                length(o.max_error),
-                name(o.preset),
-                {number(w.area), number(w.boundary), number(w.normal), number(w.uv), number(w.plane_area)},
-                {index(t.link), index(t.boundary), index(t.group_boundaries), index(t.weld),
-                 number(t.weld_distance), index(t.virtual_edges), t.virtual_edge_distance, length(t.prune)},
-                {index(o.bake.kind), o.bake.texture_size, number(o.bake.texel_density), index(o.bake.mapping),
-                 o.bake.samples, o.bake.crease_angle, index(o.bake.normal_map), index(o.bake.normals),
-                 index(o.bake.image_format), o.bake.jpeg_quality}}
-        .dump();
 }
 
 }  // namespace faqem::cli

@@ -48,7 +48,4 @@ Level parse_level(const std::string& text);
 /// Converts and validates the arguments. \throws OptionError  a value is unknown or out of range
 Options make_options(const SimplifyArguments& arguments);
 
-/// Returns all options that the result depends on as text. Options with equal texts give equal results.
-std::string options_key(const Options& options);
-
 }  // namespace faqem::cli

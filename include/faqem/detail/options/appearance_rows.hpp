@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// Rows of the table of options: those for assets, mainly the baking.
+
+#include "faqem/detail/options/option_row.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+inline constexpr OptionRow appearance_rows[] = {
+    option_row<&Options::budget>(
+        {.name = "budget",
+         .choices = "scene|mesh",
+         .help = "How the faces are distributed among the meshes of a scene: scene (by error), mesh (in "
+                 "proportion to their face counts)",
+         .entry_points = in_all_but_truncate}),
+    option_row<&Options::visibility>({.name = "visibility",
+                                      .choices = "ignored|weighted",
+                                      .help = "Errors on hidden surface: ignored (visibility has no effect), "
+                                              "weighted (they count less)",
+                                      .entry_points = in_all_but_truncate}),
+    option_row<&Options::bake, &BakeOptions::kind>(
+        {.name = "bake",
+         .choices = "auto|atlas|per-triangle|vertex|keep|none",
+         .help = "Where colours are stored: auto (atlas or per-triangle, see docs/baking.md), atlas "
+                 "(charts), per-triangle, vertex, keep, none",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::texture_size>(
+        {.name = "texture-size",
+         .range = {.min = 64, .max = 16384, .power_of_two = true},
+         .value_name = "N",
+         .help = "Maximum side of a baked image in texels",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::texel_density>(
+        {.name = "texel-density",
+         .range = {.min = 0.125, .max = 8},
+         .value_name = "X",
+         .default_text = "1, more on small pages",
+         .help = "Texels per length of a new texture, relative to the source",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::normal_map>(
+        {.name = "normal-map",
+         .choices = "auto|on|off",
+         .help = "Normal map of a new texture: auto (if the source has one or its normals differ), on, off",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::normals>(
+        {.name = "normals",
+         .choices = "transfer|smooth|flat|none",
+         .help = "Vertex normals: transfer (from the original), smooth or smooth:ANGLE (averaged below ANGLE "
+                 "degrees, default 40), flat, none (only with --bake none)",
+         .suffix_choice = "smooth",
+         .suffix_option = "crease-angle",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::crease_angle>(
+        {.name = "crease-angle",
+         .command_name = "normals: the angle of smooth",
+         .range = {.max = 180},
+         .unit = "degrees",
+         .help = "Angle between normals above which smooth normals split a vertex"}),
+    option_row<&Options::bake, &BakeOptions::image_format>(
+        {.name = "image-format",
+         .choices = "png|jpeg|source",
+         .help = "Format of baked images: png, jpeg or jpeg:QUALITY (1 to 100, default 90), source (that of "
+                 "the images they are baked from)",
+         .suffix_choice = "jpeg",
+         .suffix_option = "jpeg-quality",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::jpeg_quality>(
+        {.name = "jpeg-quality",
+         .command_name = "image-format: the quality of jpeg",
+         .range = {.min = 1, .max = 100},
+         .help = "Quality of baked JPEG images"}),
+    option_row<&Options::bake, &BakeOptions::mapping>({.name = "mapping",
+                                                       .choices = "projection|lineage|closest",
+                                                       .help = "Map to the original",
+                                                       .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::samples>(
+        {.name = "samples", .range = {.min = 1, .max = 8}, .help = "Samples per texel along each axis"}),
+    option_row<&Options::bake, &BakeOptions::correspondence>(
+        {.name = "correspondence",
+         .choices = "off|on",
+         .help = "Whether to record the position of each texel of a new atlas on the original",
+         .entry_points = 0}),
+};
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

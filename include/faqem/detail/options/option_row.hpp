@@ -1,0 +1,135 @@
+#pragma once
+/// \file
+/// A row of the table of options: name, kind, range and help text of a member of Options.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "faqem/export.hpp"
+#include "faqem/options.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// Form of a value as text.
+enum class OptionKind {
+    number,
+    integer,
+    share,   ///< `0.1` or `10%`, which is 0.1
+    length,  ///< `0.01` (model units) or `0.1%` (of the diagonal)
+    choice,  ///< one of several words
+    // Kinds of options that only commands have:
+    flag,  ///< no value
+    text,  ///< for example a file name
+    size,  ///< bytes: `1000`, `2MB` or `2MiB`
+    list,  ///< words separated by commas
+};
+
+/// Range of a number. Infinity and NaN are never in it.
+struct OptionRange {
+    double min = 0, max = std::numeric_limits<double>::infinity();
+    bool excludes_min = false, power_of_two = false;
+};
+
+/// Interfaces that have an option, besides Options.
+enum EntryPoint : unsigned {
+    in_c_and_python = 1,
+    in_simplify = 2,
+    in_lod = 4,
+    in_truncate = 8,
+    in_batch = 16,
+    in_simplify_and_batch = in_c_and_python | in_simplify | in_batch,
+    in_all_but_truncate = in_simplify_and_batch | in_lod,
+    in_all = in_all_but_truncate | in_truncate,
+};
+
+/// Value of an option.
+struct OptionValue {
+    std::optional<double> number =
+        {};                 ///< number of the enumerator if the option is a choice; nothing: unset
+    bool is_given = false;  ///< false: unset, and `number` is the default if there is one
+    Length::Unit unit = Length::Unit::model;  ///< of lengths
+};
+
+/// An option as data. Interfaces, messages and documentation are made from these rows.
+struct OptionRow {
+    /// Name in C, and in Python with underscores; in the command (`--NAME`) and in profiles, too, unless
+    /// `command_name` is set.
+    std::string_view name;
+    std::string_view command_name = {};
+    /// Name in messages of the library; empty: `name` with underscores.
+    std::string_view member_name = {};
+    OptionKind kind = OptionKind::number;
+    std::string_view choices = {};  ///< words separated by bars, in the order of the enumeration
+    OptionRange range = {};
+    std::string_view unit = {};
+    std::string_view value_name = {};  ///< placeholder of the value in help; empty: the choices
+    /// Not empty: the option of the command is a flag with this value; `=VALUE` may follow if there is a
+    /// value_name. In C and Python the words `on` (this value) and `off` are then values, too.
+    std::string_view flag_value = {};
+    std::string_view default_text = {};  ///< default in help if it is not a fixed value
+    std::string_view help = {};          ///< one line without range and default
+    /// `smooth:30` sets this choice, and the option `suffix_option` to 30.
+    std::string_view suffix_choice = {}, suffix_option = {};
+    std::string_view excludes = {};  ///< option that cannot be given together with this one
+    unsigned entry_points = in_c_and_python;
+    bool affects_result = true;
+
+    OptionValue (*get)(const Options&) = nullptr;
+    void (*set)(Options&, const OptionValue&) = nullptr;  ///< \pre the value is in the range
+};
+
+/// The member at the end of a path of pointers to members.
+template <auto... path, class Struct>
+constexpr auto& member_at(Struct& options) {
+    return (options.*....*path);
+}
+
+inline OptionValue option_value(double number) { return {number, true}; }
+inline OptionValue option_value(std::uint32_t number) { return {static_cast<double>(number), true}; }
+inline OptionValue option_value(const std::optional<double>& number) { return {number, number.has_value()}; }
+inline OptionValue option_value(const std::optional<Length>& length) {
+    return length ? OptionValue{length->value, true, length->unit} : OptionValue{};
+}
+template <class Enum>
+requires std::is_enum_v<Enum> OptionValue option_value(Enum choice) {
+    return {static_cast<double>(choice), true};
+}
+
+inline void assign_option(std::optional<double>& member, const OptionValue& value) { member = value.number; }
+inline void assign_option(std::optional<Length>& member, const OptionValue& value) {
+    member.reset();
+    if (value.number) member = Length{*value.number, value.unit};
+}
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void assign_option(Number& member, const OptionValue& value) {
+    if (value.number) member = static_cast<Number>(*value.number);
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+void assign_option(Enum& member, const OptionValue& value) {
+    if (value.number) member = static_cast<Enum>(static_cast<int>(*value.number));
+}
+
+/// Completes a row with the functions that read and write a member of Options.
+/// \tparam path  pointers to members, for example `&Options::bake, &BakeOptions::samples`
+template <auto... path>
+constexpr OptionRow option_row(OptionRow row) {
+    using Member = std::remove_cvref_t<decltype(member_at<path...>(std::declval<Options&>()))>;
+    if constexpr (std::is_enum_v<Member>) row.kind = OptionKind::choice;
+    if constexpr (std::is_integral_v<Member>) row.kind = OptionKind::integer;
+    if constexpr (std::is_same_v<Member, std::optional<Length>>) row.kind = OptionKind::length;
+    row.get = [](const Options& options) { return option_value(member_at<path...>(options)); };
+    row.set = [](Options& options, const OptionValue& value) {
+        assign_option(member_at<path...>(options), value);
+    };
+    return row;
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -1,0 +1,213 @@
+#pragma once
+
+#include "faqem/detail/options/option_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include "faqem/detail/base/closest_word.hpp"
+#include "faqem/detail/options/appearance_rows.hpp"
+#include "faqem/detail/options/geometry_rows.hpp"
+#include "faqem/error.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// A combination of options that is allowed only under a condition.
+struct OptionRule {
+    bool (*holds)(const Options&);
+    std::string_view message;  ///< with the names of options in braces
+};
+
+inline constexpr OptionRule option_rules[] = {
+    {[](const Options& o) {
+         return o.visibility == Visibility::ignored || !o.max_error || o.target.kind != Target::Kind::unset;
+     },
+     "{visibility} must be ignored if {max-error} is given without {ratio} or {faces}: distances are not "
+     "weighted"},
+    {[](const Options& o) { return o.bake.normals != Normals::none || o.bake.kind == Bake::none; },
+     "{normals} may be none only if {bake} is none"},
+};
+
+FAQEM_INLINE OptionTable option_table() {
+    static constexpr auto all = [] {
+        std::array<OptionRow, std::size(geometry_rows) + std::size(appearance_rows)> rows;
+        std::copy(std::begin(geometry_rows), std::end(geometry_rows), rows.begin());
+        std::copy(std::begin(appearance_rows), std::end(appearance_rows),
+                  rows.begin() + std::size(geometry_rows));
+        return rows;
+    }();
+    return all;
+}
+
+FAQEM_INLINE std::string member_spelling(const OptionRow& row) {
+    std::string text(row.member_name.empty() ? row.name : row.member_name);
+    if (row.member_name.empty()) std::replace(text.begin(), text.end(), '-', '_');
+    return text;
+}
+FAQEM_INLINE std::string name_spelling(const OptionRow& row) { return std::string(row.name); }
+FAQEM_INLINE std::string command_spelling(const OptionRow& row) {
+    return "--" + std::string(row.command_name.empty() ? row.name : row.command_name);
+}
+
+FAQEM_INLINE const OptionRow& named_option(std::string_view name, OptionTable table) {
+    std::vector<std::string> known;
+    for (const OptionRow& row : table) {
+        if (!(row.entry_points & in_c_and_python)) continue;
+        if (row.name == name) return row;
+        known.emplace_back(row.name);
+    }
+    const std::string closest = closest_word(name, known);
+    throw OptionError("unknown option '" + std::string(name) + "'" +
+                      (closest.empty() ? "" : "; did you mean '" + closest + "'?"));
+}
+
+FAQEM_INLINE std::vector<std::string> split_choices(std::string_view choices) {
+    std::vector<std::string> words;
+    while (!choices.empty()) {
+        const std::size_t end = std::min(choices.find('|'), choices.size());
+        words.emplace_back(choices.substr(0, end));
+        choices.remove_prefix(std::min(end + 1, choices.size()));
+    }
+    return words;
+}
+
+inline std::string number_text(double number) {
+    std::array<char, 32> digits;
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+FAQEM_INLINE std::string range_text(OptionKind kind, const OptionRange& range, std::string_view unit) {
+    if (kind >= OptionKind::choice) return {};
+    const std::string min = number_text(range.min);
+    if (std::isinf(range.max)) {
+        return (kind == OptionKind::integer ? "" : "finite and ") +
+               std::string(range.excludes_min ? "> " : ">= ") + min;
+    }
+    return std::string(range.power_of_two ? "a power of two in " : "in ") + (range.excludes_min ? "(" : "[") +
+           min + ", " + number_text(range.max) + "]" + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
+FAQEM_INLINE bool is_in_range(double number, const OptionRange& range) {
+    return std::isfinite(number) && (range.excludes_min ? number > range.min : number >= range.min) &&
+           number <= range.max &&
+           (!range.power_of_two || std::has_single_bit(static_cast<std::uint64_t>(number)));
+}
+
+FAQEM_INLINE std::string default_text(const OptionRow& row) {
+    if (!row.default_text.empty()) return std::string(row.default_text);
+    const OptionValue value = row.get({});
+    if (!row.flag_value.empty()) return "off";
+    return value.is_given ? option_text({}, row) : "";
+}
+
+FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind kind, const OptionRange& range,
+                                             std::string_view unit, const std::string& shown) {
+    OptionValue value{0, true};
+    const char* const end = text.data() + text.size();
+    std::from_chars_result result{};
+    const bool in_percent = (kind == OptionKind::share || kind == OptionKind::length) && text.ends_with('%');
+    if (kind == OptionKind::integer) {
+        std::uint64_t number = 0;
+        result = std::from_chars(text.data(), end, number);
+        value.number = static_cast<double>(number);
+    } else {
+        double number = 0;
+        result = std::from_chars(text.data(), end - in_percent, number);
+        value.number = in_percent ? number / 100 : number;
+    }
+    if (result.ec != std::errc{} || result.ptr != end - in_percent) {
+        throw OptionError(shown + ": '" + std::string(text) + "' is not a " +
+                          (kind == OptionKind::integer ? "whole number" : "number"));
+    }
+    if (kind == OptionKind::length && in_percent) value.unit = Length::Unit::diagonal;
+    if (!is_in_range(*value.number, range))
+        throw OptionError(shown + " must be " + range_text(kind, range, unit));
+    return value;
+}
+
+/// Parses one of the words of a choice.
+inline OptionValue parse_choice(std::string_view text, const OptionRow& row, const std::string& shown) {
+    const std::vector<std::string> words = split_choices(row.choices);
+    const auto found = std::find(words.begin(), words.end(), text);
+    if (found != words.end()) return {static_cast<double>(found - words.begin()), true};
+    std::string known;
+    for (const std::string& word : words) known.append(known.empty() ? "" : ", ").append(word);
+    throw OptionError(shown + ": unknown value '" + std::string(text) + "' (known: " + known + ")");
+}
+
+FAQEM_INLINE void set_option(Options& options, const OptionRow& row, std::string_view text,
+                             OptionSpelling spelling, OptionTable table) {
+    const std::string shown = spelling(row);
+    if (row.kind == OptionKind::choice) {
+        const std::string_view suffix_choice = row.suffix_choice;
+        const bool has_suffix = !suffix_choice.empty() && text.starts_with(suffix_choice) &&
+                                text.substr(suffix_choice.size()).starts_with(':');
+        if (has_suffix) {
+            const OptionRow& other = named_option(row.suffix_option, table);
+            set_option(options, other, text.substr(suffix_choice.size() + 1), spelling, table);
+        }
+        row.set(options, parse_choice(has_suffix ? suffix_choice : text, row, shown));
+    } else if (!row.flag_value.empty() && text == "off") {
+        row.set(options, {});
+    } else {
+        const bool is_on = !row.flag_value.empty() && text == "on";
+        row.set(options,
+                parse_option_number(is_on ? row.flag_value : text, row.kind, row.range, row.unit, shown));
+    }
+}
+
+FAQEM_INLINE std::string option_text(const Options& options, const OptionRow& row) {
+    const OptionValue value = row.get(options);
+    if (!value.number) return {};
+    if (row.kind == OptionKind::choice)
+        return split_choices(row.choices).at(static_cast<std::size_t>(*value.number));
+    return (value.is_given ? "" : "unset, ") + number_text(*value.number) +
+           (value.unit == Length::Unit::diagonal ? " of the diagonal" : "");
+}
+
+FAQEM_INLINE void check_options(const Options& options, OptionSpelling spelling, OptionTable table) {
+    for (const OptionRow& row : table) {
+        const OptionValue value = row.get(options);
+        if (!value.number) continue;
+        if (row.kind == OptionKind::choice) {
+            const auto words = static_cast<double>(split_choices(row.choices).size());
+            if (!(*value.number >= 0 && *value.number < words))
+                throw OptionError(spelling(row) + " is not an enumerator");
+        } else if (!is_in_range(*value.number, row.range)) {
+            throw OptionError(spelling(row) + " must be " + range_text(row.kind, row.range, row.unit));
+        }
+    }
+    for (const OptionRule& rule : option_rules) {
+        if (rule.holds(options)) continue;
+        std::string message;
+        std::string_view rest = rule.message;
+        for (std::size_t open; (open = rest.find('{')) != rest.npos;) {
+            const std::size_t close = rest.find('}');
+            message += rest.substr(0, open);
+            message += spelling(named_option(rest.substr(open + 1, close - open - 1), table));
+            rest.remove_prefix(close + 1);
+        }
+        throw OptionError(message.append(rest));
+    }
+}
+
+FAQEM_INLINE std::string options_key(const Options& options, OptionTable table) {
+    std::string key;
+    for (const OptionRow& row : table) {
+        if (row.affects_result)
+            key.append(row.name).append("=").append(option_text(options, row)).append(";");
+    }
+    return key;
+}
+
+}  // namespace detail
+
+FAQEM_INLINE void validate(const Options& options) {
+    detail::check_options(options, detail::member_spelling);
+}
+
+FAQEM_NAMESPACE_END
