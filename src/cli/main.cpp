@@ -13,7 +13,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/profile.hpp"
-#include "cli/shell/command_tree.hpp"
+#include "cli/shell/parser.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 
@@ -47,15 +47,16 @@ int parse_and_run(int argc, char** argv) {
     default_image_codec_provider = detail::set_image_codec_provider(load_image_codec);
     CLI::App app;
     Action action;
-    build_command_line(app, action);
+    const CommandTree tree = command_tree();
+    add_to_parser(app, tree, action);
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
-        std::vector<std::string> all = expand_profile(command_tree(app), words);
-        std::reverse(all.begin(), all.end());  // CLI11 expects the arguments in reverse order
+        std::vector<std::string> all = expand_profile(tree, words);
+        std::reverse(all.begin(), all.end());  // CLI11 expects the words in reverse order
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) return exit_ok;
-        const std::string suggested = suggestion(command_tree(app), words);
+        const std::string suggested = suggestion(tree, words);
         if (!suggested.empty()) std::cerr << "Did you mean " << suggested << "?\n";
         return exit_usage;
     } catch (const std::exception& error) {

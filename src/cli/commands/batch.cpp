@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -11,7 +10,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_limit.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -44,7 +43,7 @@ void check_outputs_unprotected(const std::vector<BatchFile>& files, const std::s
 }
 
 int run(const BatchArguments& arguments) {
-    Options options = make_options(arguments);
+    Options options = make_options(arguments.options);
     const std::string extension = extension_of_format(arguments.format);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
     check_outputs_unprotected(files, arguments.out);
@@ -90,33 +89,35 @@ int run(const BatchArguments& arguments) {
 
 }  // namespace
 
-void add_batch_command(CLI::App& app, Action& action) {
+CommandInfo batch_command() {
     const auto arguments = std::make_shared<BatchArguments>();
-    CLI::App* command = app.add_subcommand(
-        "batch", "Simplify all models of a directory, several at a time; prints one line of JSON per model");
-    command->add_option("DIR", arguments->in, "Directory of the models; subdirectories are included")
-        ->required();
-    command->add_option("OUTDIR", arguments->out, "Directory for the results; created if necessary")
-        ->required();
-    command->add_option("--format", arguments->format, "Output format: glb (default), gltf, obj, ply, stl");
-    command->add_option("--jobs", arguments->jobs, "Models at a time; 0: the number of threads (default)")
-        ->check(CLI::Range(0, 1024));
-    command
-        ->add_option("--max-memory", arguments->max_memory,
-                     "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
-                     "more runs alone (default: three quarters of the machine's memory)")
-        ->transform(CLI::AsSizeValue(true))
-        ->check(positive_number());
-    command->add_flag("--resume", arguments->resume,
-                      "Skip results that are up to date, redo those that are not");
-    add_simplify_options(*command, *arguments);
-    add_profile_option(*command);
-    command
-        ->add_option("--threads", arguments->options.threads,
-                     "Maximum number of threads per model; 0: all, divided by the jobs (default)")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Overwrite existing files");
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    CommandInfo command{
+        "batch",
+        "Simplify all models of a directory, several at a time; prints one line of JSON per model",
+        {"faqem batch scans simplified --ratio 0.02 --resume >> simplified.jsonl",
+         "faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"}};
+    command.positionals = {
+        positional("DIR", arguments->in, "Directory of the models; subdirectories are included"),
+        positional("OUTDIR", arguments->out, "Directory for the results; created if necessary")};
+    command.options = {
+        format_option(arguments->format),
+        number_option("--jobs", "N", arguments->jobs, {.max = 1024},
+                      "Models at a time; 0: the number of threads (default)"),
+        size_option("--max-memory", arguments->max_memory,
+                    "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
+                    "more runs alone (default: three quarters of the machine's memory)"),
+        flag_option("--resume", arguments->resume,
+                    "Skip results that are up to date, redo those that are not")};
+    add_options(command.options, table_options(detail::in_batch, arguments->options));
+    for (OptionInfo& option : command.options) {
+        if (option.names.back() == "--threads")
+            option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
+    }
+    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
+    add_options(command.options,
+                {profile_option(), flag_option("--force", arguments->force, "Overwrite existing files")});
+    command.run = [arguments] { return run(*arguments); };
+    return command;
 }
 
 }  // namespace faqem::cli

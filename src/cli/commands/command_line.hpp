@@ -1,13 +1,15 @@
 #pragma once
 /// \file
-/// The complete command line: all commands, placeholders for option values, and examples.
+/// The complete command line.
 
-#include "cli/commands/commands.hpp"
+#include "cli/shell/command_tree.hpp"
 
 namespace faqem::cli {
 
-/// Adds all commands to an empty app. Parsing a command line sets `action` to the function that runs its
-/// command.
-void build_command_line(CLI::App& app, Action& action);
+/// All commands with their options. Each result has variables of its own for the values.
+CommandTree command_tree();
+
+/// Adds --help to each command, and to options that others exclude that they exclude these.
+void complete_options(CommandTree& tree);
 
 }  // namespace faqem::cli

@@ -1,28 +1,20 @@
 #pragma once
 /// \file
-/// Functions that add the subcommands to the command line. Parsing a command line with a subcommand sets
-/// `action` to the function that runs it.
+/// The commands, each with its options and the function that runs it.
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "cli/shell/command_tree.hpp"
 
 namespace faqem::cli {
 
-/// Runs a command. Returns an exit code, or throws an exception that exit_code_of() maps to one.
-using Action = std::function<int()>;
-
-void add_simplify_command(CLI::App& app, Action& action);
-void add_lod_command(CLI::App& app, Action& action);
-void add_truncate_command(CLI::App& app, Action& action);
-void add_batch_command(CLI::App& app, Action& action);
-void add_info_command(CLI::App& app, Action& action);
-void add_compare_command(CLI::App& app, Action& action);
-void add_render_command(CLI::App& app, Action& action);
-void add_report_command(CLI::App& app, Action& action);
-void add_completion_command(CLI::App& app, Action& action);
-void add_man_command(CLI::App& app, Action& action);
+CommandInfo simplify_command();
+CommandInfo lod_command();
+CommandInfo truncate_command();
+CommandInfo batch_command();
+CommandInfo info_command();
+CommandInfo compare_command();
+CommandInfo render_command();
+CommandInfo report_command();
+CommandInfo completion_command();
+CommandInfo man_command();
 
 }  // namespace faqem::cli

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,7 +6,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/report/model_comparison.hpp"
 
 namespace faqem::cli {
@@ -72,15 +71,15 @@ int run(const CompareArguments& arguments) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Action& action) {
+CommandInfo compare_command() {
     const auto arguments = std::make_shared<CompareArguments>();
-    CLI::App* command = app.add_subcommand(
-        "compare", "Print two-sided distances and colour differences between two models as JSON");
-    command->add_option("A", arguments->a, "The original; *_rel values are relative to its diagonal")
-        ->required();
-    command->add_option("B", arguments->b, "The other model")->required();
-    add_compare_options(*command, arguments->options);
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    return {"compare",
+            "Print two-sided distances and colour differences between two models as JSON",
+            {"faqem compare model.glb simplified.glb --samples 1000000"},
+            {positional("A", arguments->a, "The original; *_rel values are relative to its diagonal"),
+             positional("B", arguments->b, "The other model")},
+            compare_options(arguments->options),
+            [arguments] { return run(*arguments); }};
 }
 
 }  // namespace faqem::cli

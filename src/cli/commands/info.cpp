@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -9,6 +8,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
+#include "cli/options/bound_options.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -147,23 +147,23 @@ void print_text(const std::string& file, const AssetInfo& asset) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, Action& action) {
+CommandInfo info_command() {
     struct InfoArguments {
         std::string file;
         bool json = false;
     };
     const auto arguments = std::make_shared<InfoArguments>();
-    CLI::App* command = app.add_subcommand("info", "Count and measure the contents of a file");
-    command->add_option("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
-    command->add_flag("--json", arguments->json, "Print JSON instead of text");
-    command->final_callback([arguments, &action] {
-        action = [arguments] {
-            const AssetInfo asset = examine(load(arguments->file));
-            if (arguments->json) print_json(as_json(arguments->file, asset));
-            if (!arguments->json) print_text(arguments->file, asset);
-            return exit_ok;
-        };
-    });
+    return {"info",
+            "Count and measure the contents of a file",
+            {"faqem info model.glb --json"},
+            {positional("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")},
+            {flag_option("--json", arguments->json, "Print JSON instead of text")},
+            [arguments] {
+                const AssetInfo asset = examine(load(arguments->file));
+                if (arguments->json) print_json(as_json(arguments->file, asset));
+                if (!arguments->json) print_text(arguments->file, asset);
+                return exit_ok;
+            }};
 }
 
 }  // namespace faqem::cli

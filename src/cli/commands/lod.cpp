@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -13,7 +12,7 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -71,7 +70,7 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
     const Bake kind = options.bake.kind;
     if (kind != Bake::automatic && kind != Bake::atlas)
         throw OptionError("--textures shared: requires --bake auto or atlas");
-    if (a.keep_groups)
+    if (options.topology.group_boundaries == GroupBoundaries::kept)
         throw OptionError(
             "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
 }
@@ -255,7 +254,7 @@ private:
 };
 
 int run(const LodArguments& arguments) {
-    Options options = make_options(arguments);
+    Options options = make_options(arguments.options);
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels)
         levels.push_back(parse_lod_level(text, arguments.view_settings));
@@ -282,60 +281,50 @@ int run(const LodArguments& arguments) {
     return code;
 }
 
-void add_view_options(CLI::App& command, ViewSettings& view_settings) {
-    command
-        .add_option("--pixel-error", view_settings.pixel_error,
-                    "Allowed error in pixels, for switch distances (default 1)")
-        ->check(positive_number());
-    command
-        .add_option("--fov", view_settings.fov,
-                    "Vertical field of view in degrees, for switch distances (default 60)")
-        ->check(CLI::Range(1.0, 179.0));
-    command
-        .add_option("--screen-height", view_settings.screen_height,
-                    "Screen height in pixels, for switch distances (default 1080)")
-        ->check(CLI::Range(1, 1 << 20));
+/// The options that only this command has.
+std::vector<OptionInfo> chain_options(LodArguments& a) {
+    return {
+        list_option("--levels", a.levels,
+                    "Comma-separated, from fine to coarse: 0.5 (ratio of faces), 5000 (number of faces), "
+                    "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the "
+                    "size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
+        flag_option("--without-original", a.without_original,
+                    "LOD0 is the first level instead of the original"),
+        flag_option("--one-file", a.one_file,
+                    "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod"),
+        text_option("--textures", "each|shared", a.textures,
+                    "New textures: each (one for every level; default), shared (one for all levels, baked "
+                    "for the finest)"),
+        format_option(a.format),
+        text_option("--history", "FILE", a.history,
+                    "Write the collapse history of all levels to this file, for faqem truncate"),
+        number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
+                      "Allowed error in pixels, for switch distances (default 1)"),
+        number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
+                      "Vertical field of view in degrees, for switch distances (default 60)"),
+        number_option("--screen-height", "N", a.view_settings.screen_height, from_one(1 << 20),
+                      "Screen height in pixels, for switch distances (default 1080)")};
 }
 
 }  // namespace
 
-void add_lod_command(CLI::App& app, Action& action) {
+CommandInfo lod_command() {
     const auto arguments = std::make_shared<LodArguments>();
-    CLI::App* command =
-        app.add_subcommand("lod", "Create a chain of levels of detail with textures and measured errors");
-    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
-    command
-        ->add_option("OUTDIR", arguments->out,
-                     "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")
-        ->required();
-    command
-        ->add_option(
-            "--levels", arguments->levels,
-            "Comma-separated, from fine to coarse: 0.5 (ratio of faces), 5000 (number of faces), "
-            "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the size "
-            "of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)")
-        ->delimiter(',');
-    command->add_flag("--without-original", arguments->without_original,
-                      "LOD0 is the first level instead of the original");
-    command->add_flag("--one-file", arguments->one_file,
-                      "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod");
-    command
-        ->add_option("--textures", arguments->textures,
-                     "New textures: each (one for every level; default), shared (one for all levels, baked "
-                     "for the finest)")
-        ->check(CLI::IsMember({"each", "shared"}));
-    command->add_option("--format", arguments->format, "Output format: glb (default), gltf, obj, ply, stl");
-    command->add_option("--history", arguments->history,
-                        "Write the collapse history of all levels to this file, for faqem truncate");
-    add_view_options(*command, arguments->view_settings);
-    add_options_without_targets(*command, *arguments);
-    add_profile_option(*command);
-    command
-        ->add_option("--threads", arguments->options.threads, "Maximum number of threads; 0: all (default)")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Overwrite existing files");
-    command->add_flag("--quiet", arguments->quiet, "Print no summary and no progress bar");
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    CommandInfo command{"lod",
+                        "Create a chain of levels of detail with textures and measured errors",
+                        {"faqem lod statue.glb out --levels 0.5,0.25,0.1,0.01",
+                         "faqem lod scan.ply out --levels error:0.1%,error:2% --bake vertex --format ply"}};
+    command.positionals = {positional("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off"),
+                           positional("OUTDIR", arguments->out,
+                                      "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")};
+    command.options = chain_options(*arguments);
+    add_options(command.options, table_options(detail::in_lod, arguments->options));
+    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
+    add_options(command.options,
+                {profile_option(), flag_option("--force", arguments->force, "Overwrite existing files"),
+                 flag_option("--quiet", arguments->quiet, "Print no summary and no progress bar")});
+    command.run = [arguments] { return run(*arguments); };
+    return command;
 }
 
 }  // namespace faqem::cli

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -7,6 +6,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/protected_files.hpp"
 #include "render/contact_sheet.hpp"
@@ -51,20 +51,26 @@ int run(const RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Action& action) {
+CommandInfo render_command() {
     const auto arguments = std::make_shared<RenderArguments>();
-    CLI::App* command = app.add_subcommand("render", "Render models below each other with the same cameras");
-    command->add_option("FILES", arguments->files, "Models, then the output image: A [B ...] OUT.png")
-        ->required()
-        ->expected(2, 17);
-    command->add_option("--size", arguments->size, "Side of one view, pixels (default 480)")
-        ->check(CLI::Range(16, 2048));
-    command->add_option("--views", arguments->views, "Views around the models (default 4)")
-        ->check(CLI::Range(1, 16));
-    command->add_flag("--unlit", arguments->unlit, "Colours without lighting");
-    command->add_flag("--wireframe", arguments->wireframe, "Draw the mesh edges");
-    command->add_flag("--force", arguments->force, "Overwrite an existing image");
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    OptionInfo files =
+        list_option("FILES", arguments->files, "Models, then the output image: A [B ...] OUT.png");
+    files.kind = detail::OptionKind::text;  // commas do not separate names
+    files.is_required = true;
+    files.min_words = 2;
+    files.max_words = 17;
+    return {
+        "render",
+        "Render models below each other with the same cameras",
+        {"faqem render model.glb simplified.glb before-after.png --views 3"},
+        {files},
+        {number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
+                       "Side of one view, pixels (default 480)"),
+         number_option("--views", "N", arguments->views, from_one(16), "Views around the models (default 4)"),
+         flag_option("--unlit", arguments->unlit, "Colours without lighting"),
+         flag_option("--wireframe", arguments->wireframe, "Draw the mesh edges"),
+         flag_option("--force", arguments->force, "Overwrite an existing image")},
+        [arguments] { return run(*arguments); }};
 }
 
 }  // namespace faqem::cli

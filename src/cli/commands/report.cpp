@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -8,7 +7,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/protected_files.hpp"
 #include "cli/referenced_files.hpp"
@@ -133,22 +132,26 @@ int run(const ReportArguments& arguments) {
 
 }  // namespace
 
-void add_report_command(CLI::App& app, Action& action) {
+CommandInfo report_command() {
     const auto arguments = std::make_shared<ReportArguments>();
-    CLI::App* command = app.add_subcommand(
-        "report", "Compare two models on an HTML page with a 3D view, figures, pictures and a heat map");
-    command->add_option("A", arguments->a, "The original")->required();
-    command->add_option("B", arguments->b, "The other model")->required();
-    command->add_option("-o,--out", arguments->out, "The page, .html or .htm")->required();
-    command->add_option("--size", arguments->size, "Side of one view of a picture, pixels (default 320)")
-        ->check(CLI::Range(16, 2048));
-    command->add_option("--views", arguments->views, "Views of a picture (default 4)")
-        ->check(CLI::Range(1, 16));
-    command->add_flag("--without-view", arguments->without_view,
-                      "Figures and pictures only, without the 3D view");
-    add_compare_options(*command, arguments->options);
-    command->add_flag("--force", arguments->force, "Overwrite an existing page");
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    CommandInfo command{"report",
+                        "Compare two models on an HTML page with a 3D view, figures, pictures and a heat map",
+                        {"faqem report model.glb simplified.glb -o report.html"}};
+    command.positionals = {positional("A", arguments->a, "The original"),
+                           positional("B", arguments->b, "The other model")};
+    OptionInfo page = text_option("-o,--out", "FILE", arguments->out, "The page, .html or .htm");
+    page.is_required = true;
+    command.options = {
+        page,
+        number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
+                      "Side of one view of a picture, pixels (default 320)"),
+        number_option("--views", "N", arguments->views, from_one(16), "Views of a picture (default 4)"),
+        flag_option("--without-view", arguments->without_view,
+                    "Figures and pictures only, without the 3D view")};
+    add_options(command.options, compare_options(arguments->options));
+    add_options(command.options, {flag_option("--force", arguments->force, "Overwrite an existing page")});
+    command.run = [arguments] { return run(*arguments); };
+    return command;
 }
 
 }  // namespace faqem::cli

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -15,7 +14,7 @@
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -140,12 +139,12 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
 std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments) {
     if (arguments.max_bytes == 0) return std::nullopt;
     return ByteBudget{arguments.max_bytes, arguments.out,
-                      arguments.image_format.empty() ? ImageEncodingChoice::automatic
-                                                     : ImageEncodingChoice::user_specified};
+                      is_given(arguments.options, "image-format") ? ImageEncodingChoice::user_specified
+                                                                  : ImageEncodingChoice::automatic};
 }
 
 int run(const SimplifyCommandArguments& arguments) {
-    Options options = make_options(arguments);
+    Options options = make_options(arguments.options);
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
         if (!makes_atlas(options.bake.kind))
@@ -194,45 +193,43 @@ int run(const SimplifyCommandArguments& arguments) {
     return rejection;
 }
 
-void add_run_options(CLI::App& command, SimplifyCommandArguments& a) {
-    command
-        .add_option(
-            "--max-bytes", a.max_bytes,
-            "Maximum total size of all output files, as 2MB or 500KB; faces and images are reduced until "
-            "they fit")
-        ->transform(CLI::AsSizeValue(true))
-        ->check(positive_number())
-        ->excludes("--max-error");
-    command
-        .add_option("--threads", a.options.threads,
-                    "Maximum number of threads; 0: all (default). The result does not depend on it")
-        ->check(CLI::Range(0, 1024));
-    command
-        .add_option("--max-memory", a.max_memory,
-                    "Use at most this memory, as 8GB or 500MB, or end with code 11 (default: the machine's "
-                    "memory)")
-        ->transform(CLI::AsSizeValue(true))
-        ->check(positive_number());
-    command.add_option("--report", a.report, "Write counts, warnings and times to this JSON file");
-    command.add_option("--history", a.history, "Write the collapse history to this file");
-    command.add_option("--correspondence", a.correspondence,
-                       "Write the position of each texel of the new atlas on the original to this file");
-    command.add_flag("--force", a.force, "Overwrite existing files");
-    command.add_flag("--quiet", a.quiet, "Print no summary and no progress bar");
+std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
+    OptionInfo max_bytes =
+        size_option("--max-bytes", a.max_bytes,
+                    "Maximum total size of all output files, as 2MB or 500KB; faces and images are reduced "
+                    "until they fit");
+    max_bytes.excludes = {"--max-error"};
+    return {max_bytes,
+            size_option("--max-memory", a.max_memory,
+                        "Use at most this memory, as 8GB or 500MB, or end with code 11 (default: the "
+                        "machine's memory)"),
+            text_option("--report", "FILE", a.report, "Write counts, warnings and times to this JSON file"),
+            text_option("--history", "FILE", a.history, "Write the collapse history to this file"),
+            text_option("--correspondence", "FILE", a.correspondence,
+                        "Write the position of each texel of the new atlas on the original to this file"),
+            profile_option(),
+            flag_option("--force", a.force, "Overwrite existing files"),
+            flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
 }
 
 }  // namespace
 
-void add_simplify_command(CLI::App& app, Action& action) {
+CommandInfo simplify_command() {
     const auto arguments = std::make_shared<SimplifyCommandArguments>();
-    CLI::App* command =
-        app.add_subcommand("simplify", "Simplify a model and bake its appearance into a new texture");
-    command->add_option("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off")->required();
-    command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
-    add_simplify_options(*command, *arguments);
-    add_run_options(*command, *arguments);
-    add_profile_option(*command);
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    CommandInfo command{
+        "simplify",
+        "Simplify a model and bake its appearance into a new texture",
+        {"faqem simplify model.glb simplified.glb --ratio 0.05",
+         "faqem simplify scan.ply simplified.ply --bake vertex --faces 20000 --report simplified.json",
+         "faqem simplify part.stl simplified.stl --max-error 0.05",
+         "faqem simplify model.glb web.glb --max-bytes 2MB"}};
+    command.positionals = {positional("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off"),
+                           positional("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")};
+    command.options = table_options(detail::in_simplify, arguments->options);
+    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
+    add_options(command.options, run_options(*arguments));
+    command.run = [arguments] { return run(*arguments); };
+    return command;
 }
 
 }  // namespace faqem::cli

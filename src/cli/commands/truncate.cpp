@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -11,7 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/options/common_options.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/protected_files.hpp"
@@ -23,8 +22,10 @@ namespace faqem::cli {
 
 namespace {
 
-struct TruncateArguments : SimplifyArguments {
+struct TruncateArguments {
+    GivenOptions options;
     std::string history, out, source;
+    std::uint64_t faces = 0;
     bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -64,7 +65,7 @@ Asset geometry_only(const SimplifiedParts& simplified_parts) {
 
 Asset baked_model(const TruncateArguments& arguments, const SimplifiedParts& simplified_parts,
                   const Options& options) {
-    const Asset source = load_model(arguments.source, arguments.strictness());
+    const Asset source = load_model(arguments.source, Strictness::lenient);
     Options bake_options = options;
     bake_options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
@@ -74,7 +75,7 @@ Asset baked_model(const TruncateArguments& arguments, const SimplifiedParts& sim
 }
 
 int run(const TruncateArguments& arguments) {
-    const Options options = make_options(arguments);
+    const Options options = make_options(arguments.options);
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
@@ -117,26 +118,24 @@ int run(const TruncateArguments& arguments) {
 
 }  // namespace
 
-void add_truncate_command(CLI::App& app, Action& action) {
+CommandInfo truncate_command() {
     const auto arguments = std::make_shared<TruncateArguments>();
-    CLI::App* command =
-        app.add_subcommand("truncate", "Extract a level of detail from a stored history without another run");
-    command->add_option("HISTORY", arguments->history, "File written by simplify --history or lod --history")
-        ->required();
-    command->add_option("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")->required();
-    command->add_option("--faces", arguments->faces, "Maximum number of faces")
-        ->required()
-        ->check(positive_number());
-    command->add_option("--source", arguments->source,
-                        "The original model, from which the appearance is baked with the options below. "
-                        "Without it: geometry only");
-    add_bake_options(*command, *arguments);
-    command
-        ->add_option("--threads", arguments->options.threads, "Maximum number of threads; 0: all (default)")
-        ->check(CLI::Range(0, 1024));
-    command->add_flag("--force", arguments->force, "Overwrite an existing file");
-    command->add_flag("--quiet", arguments->quiet, "Print no summary");
-    command->final_callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+    CommandInfo command{"truncate",
+                        "Extract a level of detail from a stored history without another run",
+                        {"faqem truncate statue.history statue-5000.glb --faces 5000 --source statue.glb"}};
+    command.positionals = {
+        positional("HISTORY", arguments->history, "File written by simplify --history or lod --history"),
+        positional("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")};
+    OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
+    faces.is_required = true;
+    command.options = {faces, text_option("--source", "FILE", arguments->source,
+                                          "The original model, from which the appearance is baked with the "
+                                          "options below. Without it: geometry only")};
+    add_options(command.options, table_options(detail::in_truncate, arguments->options));
+    add_options(command.options, {flag_option("--force", arguments->force, "Overwrite an existing file"),
+                                  flag_option("--quiet", arguments->quiet, "Print no summary")});
+    command.run = [arguments] { return run(*arguments); };
+    return command;
 }
 
 }  // namespace faqem::cli

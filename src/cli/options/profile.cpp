@@ -1,6 +1,5 @@
 #include "cli/options/profile.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -50,7 +49,7 @@ Json parse_profile(const std::string& file) {
 
 const OptionInfo* find_option(const CommandInfo& command, const std::string& key) {
     for (const OptionInfo& option : command.options) {
-        if (key != "config" && key != "help" && option.names.back() == "--" + key) return &option;
+        if (!key.empty() && profile_key(option) == key) return &option;
     }
     return nullptr;
 }
@@ -60,8 +59,7 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
     std::string text = file + ": '" + key + "' is not an option of faqem " + command.name;
     std::vector<std::string> known;
     for (const OptionInfo& option : command.options) {
-        const std::string name = option.names.back().substr(2);
-        if (find_option(command, name)) known.push_back(name);
+        if (const std::string name = profile_key(option); !name.empty()) known.push_back(name);
     }
     const std::string suggested = detail::closest_word(key, known);
     const auto other = std::find_if(tree.commands.begin(), tree.commands.end(),
@@ -80,11 +78,11 @@ std::string text_of(const Json& value, const std::string& where) {
 }
 
 /// Converts an entry of a profile to words of the command line; none for a flag that is false.
-std::vector<std::string> to_arguments(const OptionInfo& option, const Json& value, const std::string& where) {
+std::vector<std::string> to_words(const OptionInfo& option, const Json& value, const std::string& where) {
     const std::string& name = option.names.back();
-    if (option.value_name.empty()) {
+    if (option.kind == detail::OptionKind::flag) {
         if (value.is_boolean()) return value.get<bool>() ? std::vector{name} : std::vector<std::string>();
-        if (option.optional_value_name.empty()) throw OptionError(where + ": must be true or false");
+        if (option.flag_value.empty()) throw OptionError(where + ": must be true or false");
     }
     if (!value.is_array()) return {name + "=" + text_of(value, where)};
     std::string list;
@@ -108,10 +106,22 @@ void check_version(const Json& profile, const std::string& file) {
 
 }  // namespace
 
-void add_profile_option(CLI::App& command) {
-    command.add_option_function<std::string>(
-        "--config", [](const std::string&) {},
-        "Read options from a profile (JSON file); options on the command line take precedence");
+OptionInfo profile_option() {
+    OptionInfo info{{"--config"},
+                    "FILE",
+                    "Read options from a profile (JSON file); options on the command line take precedence"};
+    info.read = [](const std::vector<std::string>&) {};
+    return info;
+}
+
+bool reads_profiles(const CommandInfo& command) {
+    return std::any_of(command.options.begin(), command.options.end(),
+                       [](const OptionInfo& option) { return option.names.back() == "--config"; });
+}
+
+std::string profile_key(const OptionInfo& option) {
+    const std::string& name = option.names.back();
+    return name == "--config" || name == "--help" ? "" : name.substr(2);
 }
 
 std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
@@ -119,11 +129,8 @@ std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std
         return !words.empty() && c.name == words[0];
     });
     if (command == tree.commands.end()) return words;
-    const bool has_config_option =
-        std::any_of(command->options.begin(), command->options.end(),
-                    [](const OptionInfo& o) { return o.names.back() == "--config"; });
     const std::optional<std::string> file = value_of("--config", words);
-    if (!has_config_option || !file || file->empty()) return words;
+    if (!reads_profiles(*command) || !file || file->empty()) return words;
 
     protect_input(*file);
     const Json profile = parse_profile(*file);
@@ -133,7 +140,7 @@ std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std
         if (key == version_key || key == schema_key) continue;
         const OptionInfo* option = find_option(*command, key);
         if (!option) throw_unknown_key(tree, *command, *file, key);
-        const std::vector<std::string> more = to_arguments(*option, value, *file + ": " + key);
+        const std::vector<std::string> more = to_words(*option, value, *file + ": " + key);
         if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
     }
     // Inserted before `--`, because words after it are not options.

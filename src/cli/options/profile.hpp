@@ -7,15 +7,16 @@
 
 #include "cli/shell/command_tree.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace faqem::cli {
 
-/// Adds --config to a command. The option itself has no effect: expand_profile() reads the profile before
-/// parsing.
-void add_profile_option(CLI::App& command);
+/// The option --config. It has no effect itself: expand_profile() reads the profile before parsing.
+OptionInfo profile_option();
+
+/// Tests whether a command has --config.
+bool reads_profiles(const CommandInfo& command);
+
+/// The key of an option in profiles: its name without dashes; empty if profiles do not have it.
+std::string profile_key(const OptionInfo& option);
 
 /// Returns the command line with the options of its profile appended; unchanged if there is no --config. The
 /// command line takes precedence: entries of the profile are omitted if their option, or one that excludes

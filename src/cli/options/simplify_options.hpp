@@ -2,50 +2,46 @@
 /// \file
 /// Options that determine the result, shared by `faqem simplify`, `batch`, `lod` and `truncate`.
 
-#include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "cli/shell/command_tree.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/options.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace faqem::cli {
 
-/// Values of the options as parsed from the command line.
+/// Options of the table (detail/options) on a command line, with their values.
+using GivenOptions = std::vector<std::pair<const detail::OptionRow*, std::string>>;
+
+/// What the parsed command lines of these commands have in common.
 struct SimplifyArguments {
-    std::string preset, budget, visibility, bake, mapping, normal_map, normals, image_format;
-    std::string virtual_edges;  ///< empty: off
-    std::optional<std::string> max_error, prune;
-    std::optional<std::string> ratio;
-    std::uint64_t faces = 0;
-    bool link = false, lock_boundary = false, keep_groups = false;
+    GivenOptions options;
     bool strict = false, strict_target = false;
-    Options options;  ///< options whose values are parsed directly into their member
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
 };
 
-/// Adds all options of SimplifyArguments to a command.
-/// \param arguments  receives the values; must outlive the command
-void add_simplify_options(CLI::App& command, SimplifyArguments& arguments);
+/// The options of the table that a command has.
+/// \param given  receives the values; must exist until the command has run
+std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& given,
+                                      detail::OptionTable table = detail::option_table());
 
-/// Adds all options except the targets (--ratio, --faces and --max-error). \param arguments  as above
-void add_options_without_targets(CLI::App& command, SimplifyArguments& arguments);
+/// --strict and --strict-target.
+std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 
-/// Adds only the options of baking. \param arguments  as above
-void add_bake_options(CLI::App& command, SimplifyArguments& arguments);
+/// Tests whether an option is given. \param name  OptionRow::name
+bool is_given(const GivenOptions& given, std::string_view name);
 
 /// Parses one level: `0.5` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
 /// or `error:0.1%` (distance relative to the diagonal).
 /// \throws OptionError  the text has another form
 Level parse_level(const std::string& text);
 
-/// Converts and validates the arguments. \throws OptionError  a value is unknown or out of range
-Options make_options(const SimplifyArguments& arguments);
+/// Converts and validates options. \throws OptionError  a value is unknown or out of range
+Options make_options(const GivenOptions& given, detail::OptionTable table = detail::option_table());
 
 }  // namespace faqem::cli

@@ -1,41 +1,55 @@
 #pragma once
 /// \file
-/// Commands and options as plain data, from which the manual page, completion scripts and suggestions are
-/// made.
+/// Commands and options as plain data. The parser, the manual page, completion scripts, suggestions and the
+/// schema of profiles are made from it.
 
+#include <functional>
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "faqem/detail/options/option_table.hpp"
 
 namespace faqem::cli {
 
 /// An option or a positional argument.
 struct OptionInfo {
-    std::vector<std::string> names;     ///< for example `-h` and `--help`; one name for an argument
-    std::string value_name;             ///< placeholder for the value; empty for flags and arguments
-    std::vector<std::string> choices;   ///< the possible values; empty if they are not enumerated
-    std::string optional_value_name;    ///< placeholder for the value of a flag that accepts `=VALUE`
-    std::vector<std::string> excludes;  ///< options that cannot be given together with this one, sorted
-    std::string description;
+    std::vector<std::string> names;  ///< for example `-h` and `--help`; one name without dashes: positional
+    std::string value_name = {};     ///< placeholder of the value; words with bars between: its choices
+    std::string description = {};
+    detail::OptionKind kind = detail::OptionKind::text;
+    detail::OptionRange range = {};
+    std::string flag_value = {};             ///< not empty: value of a flag that accepts `=VALUE`
+    std::string suffix_choice = {};          ///< choice that a number may follow: `smooth:30`
+    std::vector<std::string> excludes = {};  ///< options that cannot be given together with this one, sorted
+    bool is_required = false;
+    int min_words = 1, max_words = 1;  ///< number of values
+
+    /// Receives the values after parsing; that of a flag is `flag_value`, or what follows the equals sign.
+    /// Throws OptionError if they are invalid. Empty: the parser itself handles the option.
+    std::function<void(const std::vector<std::string>& values)> read = {};
 };
+
+/// The possible values of an option; empty if they are not enumerated.
+inline std::vector<std::string> choices_of(const OptionInfo& option) {
+    if (option.value_name.find('|') == std::string::npos) return {};
+    return detail::split_choices(option.value_name);
+}
+
+/// Runs a command. Returns an exit code, or throws an exception that exit_code_of() maps to one.
+using Action = std::function<int()>;
 
 struct CommandInfo {
     std::string name, description;
-    std::vector<std::string> examples;  ///< one line each
-    std::vector<OptionInfo> arguments, options;
+    std::vector<std::string> examples = {};  ///< one line each
+    std::vector<OptionInfo> positionals = {}, options = {};
+    Action run = {};
 };
 
 struct CommandTree {
-    std::string description;
-    std::string exit_codes;           ///< paragraph that lists the exit codes
-    std::vector<OptionInfo> options;  ///< options of `faqem` without a subcommand
-    std::vector<CommandInfo> commands;
+    std::string description = {};
+    std::string exit_codes = {};           ///< paragraph that lists the exit codes
+    std::vector<OptionInfo> options = {};  ///< options of `faqem` without a subcommand
+    std::vector<CommandInfo> commands = {};
 };
-
-/// Extracts commands and options. \param app  filled by build_command_line()
-CommandTree command_tree(const CLI::App& app);
 
 }  // namespace faqem::cli

@@ -26,22 +26,22 @@ std::string command_names(const CommandTree& tree, const char* between) {
     return text;
 }
 
-/// Returns the possible values of a command's argument, separated by spaces; empty if the arguments are
-/// files.
-std::string argument_words(const CommandInfo& command) {
-    return command.name == "completion" ? "bash zsh" : "";
+/// Returns the possible values of a command's positional argument, separated by spaces; empty for files.
+std::string positional_words(const CommandInfo& command) {
+    return command.positionals.empty() ? "" : joined(choices_of(command.positionals.front()));
 }
 
 std::string bash_case(const CommandInfo& command) {
     std::ostringstream text;
     text << "        " << command.name << ")\n            options='" << all_names(command.options) << "'\n";
-    if (const std::string words = argument_words(command); !words.empty())
+    if (const std::string words = positional_words(command); !words.empty())
         text << "            words='" << words << "'\n";
     text << "            case $previous in\n";
     for (const OptionInfo& option : command.options) {
-        if (option.choices.empty()) continue;
+        const std::vector<std::string> choices = choices_of(option);
+        if (choices.empty()) continue;
         for (const std::string& name : option.names)
-            text << "                " << name << ") words='" << joined(option.choices) << "' options= ;;\n";
+            text << "                " << name << ") words='" << joined(choices) << "' options= ;;\n";
     }
     text << "            esac ;;\n";
     return text.str();
@@ -66,11 +66,12 @@ std::string zsh_escaped(const std::string& text) {
 // ends with the description.
 std::string zsh_option(const OptionInfo& option) {
     std::ostringstream text;
+    const std::vector<std::string> choices = choices_of(option);
     for (const std::string& name : option.names) {
         text << "            '" << name << "[" << zsh_escaped(option.description) << "]";
-        if (!option.choices.empty())
-            text << ":value:(" << joined(option.choices) << ")";
-        else if (!option.value_name.empty())
+        if (!choices.empty())
+            text << ":value:(" << joined(choices) << ")";
+        else if (option.kind != detail::OptionKind::flag)
             text << ":" << zsh_escaped(option.value_name) << ":"
                  << (option.value_name == "FILE" ? "_files" : "");
         text << "' \\\n";
@@ -82,7 +83,7 @@ std::string zsh_case(const CommandInfo& command) {
     std::ostringstream text;
     text << "    " << command.name << ")\n        _arguments \\\n";
     for (const OptionInfo& option : command.options) text << zsh_option(option);
-    const std::string words = argument_words(command);
+    const std::string words = positional_words(command);
     text << "            '*:argument:";
     if (words.empty())
         text << "_files";

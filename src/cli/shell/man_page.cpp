@@ -32,18 +32,18 @@ std::string entry(const OptionInfo& option) {
     std::string text = ".TP\n";
     for (std::size_t i = 0; i < option.names.size(); ++i)
         text.append(i > 0 ? ", " : "").append((is_option ? bold : italic)(option.names[i]));
-    if (!option.value_name.empty())
-        text.append(" ").append((option.choices.empty() ? italic : escape_troff)(option.value_name));
+    if (is_option && option.kind != detail::OptionKind::flag)
+        text.append(" ").append((choices_of(option).empty() ? italic : escape_troff)(option.value_name));
     return text.append("\n").append(escape_troff(option.description)).append("\n");
 }
 
 std::string section(const CommandInfo& command) {
     std::string text = ".SS ";
     text += bold(std::string("faqem ") + command.name);
-    for (const OptionInfo& argument : command.arguments)
-        text.append(" ").append(italic(argument.names.front()));
+    for (const OptionInfo& positional : command.positionals)
+        text.append(" ").append(italic(positional.names.front()));
     text.append("\n").append(escape_troff(command.description)).append(".\n");
-    for (const OptionInfo& argument : command.arguments) text += entry(argument);
+    for (const OptionInfo& positional : command.positionals) text += entry(positional);
     for (const OptionInfo& option : command.options) text += entry(option);
     return text;
 }

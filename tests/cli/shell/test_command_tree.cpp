@@ -4,6 +4,7 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "cli/shell/parser.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -16,7 +17,8 @@ namespace {
 bool parses(const std::string& line) {
     CLI::App app;
     Action action;
-    build_command_line(app, action);
+    const CommandTree tree = command_tree();
+    add_to_parser(app, tree, action);
     try {
         app.parse(line, true);
     } catch (const CLI::ParseError&) {
@@ -25,17 +27,10 @@ bool parses(const std::string& line) {
     return action != nullptr;
 }
 
-CommandTree whole_tree() {
-    CLI::App app;
-    Action action;
-    build_command_line(app, action);
-    return command_tree(app);
-}
-
 }  // namespace
 
 TEST_CASE("every command and option has a description and every value a placeholder") {
-    const CommandTree tree = whole_tree();
+    const CommandTree tree = command_tree();
     CHECK(tree.commands.size() == 10);
     CHECK(tree.exit_codes.find("11 not enough memory") != std::string::npos);
     for (const CommandInfo& command : tree.commands) {
@@ -50,7 +45,7 @@ TEST_CASE("every command and option has a description and every value a placehol
 }
 
 TEST_CASE("every command has examples that can be parsed") {
-    const CommandTree tree = whole_tree();
+    const CommandTree tree = command_tree();
     for (const CommandInfo& command : tree.commands) {
         CAPTURE(command.name);
         CHECK(!command.examples.empty());
@@ -66,30 +61,34 @@ TEST_CASE("every command has examples that can be parsed") {
 }
 
 TEST_CASE("enumerated options accept exactly the values of their placeholder") {
-    const auto accepts = [](const std::string& line) {
+    GivenOptions given;
+    CommandTree tree{.commands = {{.name = "simplify",
+                                   .description = "",
+                                   .options = table_options(faqem::detail::in_simplify, given),
+                                   .run = [&given]() -> int { return make_options(given), 0; }}}};
+    const auto accepts = [&](const std::string& line) {
         CLI::App app;
-        SimplifyArguments arguments;
-        add_simplify_options(app, arguments);
-        app.parse(line);
+        Action action;
+        add_to_parser(app, tree, action);
+        given.clear();
+        app.parse("simplify " + line);
         try {
-            make_options(arguments);
+            action();
         } catch (const faqem::OptionError&) {
             return false;
         }
         return true;
     };
-    const CommandTree tree = whole_tree();
     std::size_t choices = 0;
     for (const OptionInfo& option : tree.commands.front().options) {  // of simplify
-        if (option.choices.empty()) continue;
         CAPTURE(option.names);
-        for (const std::string& choice : option.choices) {
+        for (const std::string& choice : choices_of(option)) {
             CAPTURE(choice);
             const bool without_baking = choice == "none" && option.names.back() == "--normals";
             CHECK(accepts((without_baking ? "--bake none " : "") + option.names.back() + " " + choice));
         }
-        CHECK(!accepts(option.names.back() + " nothing"));
-        choices += option.choices.size();
+        if (!choices_of(option).empty()) CHECK(!accepts(option.names.back() + " nothing"));
+        choices += choices_of(option).size();
     }
     CHECK(choices == 29);
 }

@@ -73,8 +73,8 @@ TEST_CASE("zsh completes commands, options and values") {
     const WordSet options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
     CHECK(options.count(
-        "--budget[How the faces are distributed among the meshes of a scene\\: scene (by error, default), "
-        "mesh (in proportion to their face counts)]:value:(scene mesh)"));
+        "--budget[How the faces are distributed among the meshes of a scene\\: scene (by error), "
+        "mesh (in proportion to their face counts); default\\: scene]:value:(scene mesh)"));
     CHECK(options.count("--force[Overwrite existing files]"));
     CHECK(options.count("*:argument:_files"));
 }

@@ -8,13 +8,10 @@ using tool_test::Folder;
 
 TEST_CASE("suggestion refers to the first unknown command or option") {
     CommandTree tree;
-    tree.options = {{{"--version"}, "", {}, "", {}, ""}};
-    tree.commands = {{"simplify",
-                      "",
-                      {},
-                      {},
-                      {{{"-h", "--help"}, "", {}, "", {}, ""}, {{"--ratio"}, "R", {}, "", {}, ""}}},
-                     {"info", "", {}, {}, {{{"--json"}, "", {}, "", {}, ""}}}};
+    tree.options = {{{"--version"}}};
+    tree.commands = {
+        {.name = "simplify", .description = "", .options = {{{"-h", "--help"}}, {{"--ratio"}, "R"}}},
+        {.name = "info", .description = "", .options = {{{"--json"}}}}};
     CHECK(suggestion(tree, {}).empty());
     CHECK(suggestion(tree, {"smplify"}) == "simplify");
     CHECK(suggestion(tree, {"--versoin"}) == "--version");

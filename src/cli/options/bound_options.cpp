@@ -1,0 +1,115 @@
+#include "cli/options/bound_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+using detail::OptionKind;
+
+template <class Number>
+OptionInfo bound_number(const std::string& name, const std::string& value_name, Number& value,
+                        const detail::OptionRange& range, const std::string& description) {
+    OptionInfo info{{name}, value_name, description};
+    info.kind = std::is_integral_v<Number> ? OptionKind::integer : OptionKind::number;
+    info.range = range;
+    info.read = [&value, name, range, kind = info.kind](const std::vector<std::string>& values) {
+        value =
+            static_cast<Number>(*detail::parse_option_number(values.back(), kind, range, "", name).number);
+    };
+    return info;
+}
+
+}  // namespace
+
+OptionInfo flag_option(const std::string& name, bool& value, const std::string& description) {
+    OptionInfo info{{name}, "", description, OptionKind::flag};
+    info.read = [&value](const std::vector<std::string>&) { value = true; };
+    return info;
+}
+
+OptionInfo text_option(const std::string& names, const std::string& value_name, std::string& value,
+                       const std::string& description) {
+    OptionInfo info{CLI::detail::split(names, ','), value_name, description};
+    const std::vector<std::string> choices = choices_of(info);
+    if (!choices.empty()) info.kind = OptionKind::choice;
+    info.read = [&value, choices, name = info.names.back()](const std::vector<std::string>& values) {
+        value = values.back();
+        if (choices.empty() || std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+        throw OptionError(name + ": unknown value '" + value +
+                          "' (known: " + CLI::detail::join(choices, ", ") + ")");
+    };
+    return info;
+}
+
+OptionInfo number_option(const std::string& name, const std::string& value_name, double& value,
+                         const detail::OptionRange& range, const std::string& description) {
+    return bound_number(name, value_name, value, range, description);
+}
+OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint32_t& value,
+                         const detail::OptionRange& range, const std::string& description) {
+    return bound_number(name, value_name, value, range, description);
+}
+OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint64_t& value,
+                         const detail::OptionRange& range, const std::string& description) {
+    return bound_number(name, value_name, value, range, description);
+}
+
+OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description) {
+    OptionInfo info{{name}, "SIZE", description, OptionKind::size};
+    info.read = [&bytes, name](const std::vector<std::string>& values) {
+        std::string number = values.back();
+        // The result is a text for a wrong unit, and an exception for what is not a number.
+        std::string problem;
+        try {
+            problem = CLI::AsSizeValue(true)(number);
+        } catch (const CLI::Error& error) {
+            problem = error.what();
+        }
+        if (!problem.empty() || !CLI::detail::lexical_cast(number, bytes) || bytes == 0)
+            throw OptionError(name + ": '" + values.back() +
+                              "' is not a size above 0, such as 500MB or 2GiB");
+    };
+    return info;
+}
+
+OptionInfo list_option(const std::string& name, std::vector<std::string>& words,
+                       const std::string& description) {
+    OptionInfo info{{name}, "LIST", description, OptionKind::list};
+    info.max_words = CLI::detail::expected_max_vector_size;
+    info.read = [&words](const std::vector<std::string>& values) { words = values; };
+    return info;
+}
+
+OptionInfo positional(const std::string& name, std::string& value, const std::string& description,
+                      const std::string& choices) {
+    OptionInfo info = text_option(name, choices, value, description);
+    info.is_required = true;
+    return info;
+}
+
+OptionInfo format_option(std::string& format) {
+    return text_option("--format", "glb|gltf|obj|ply|stl", format, "Output format (default glb)");
+}
+
+std::vector<OptionInfo> compare_options(CompareOptions& options) {
+    return {
+        number_option("--samples", "N", options.samples, from_one(0x1p32),
+                      "Samples on each model (default 200000)"),
+        number_option("--seed", "N", options.seed, {}, "Seed of the samples (default 1)"),
+        number_option("--tolerance", "T", options.tolerance, {.max = 1e9},
+                      "Relative difference allowed between a maximum distance and its bound (default 0.01)"),
+        number_option("--threads", "N", options.threads, {.max = 1024},
+                      "Maximum number of threads; 0: all (default). The result does not depend on it")};
+}
+
+void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more) {
+    options.insert(options.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace faqem::cli

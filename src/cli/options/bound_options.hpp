@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// Options that write their value to a variable, which must exist until the command has run, and options that
+/// several commands share.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/shell/command_tree.hpp"
+#include "faqem/compare.hpp"
+
+namespace faqem::cli {
+
+/// A number above 0.
+inline constexpr detail::OptionRange above_zero = {.excludes_min = true};
+/// A number of pixels, faces or others that must not be 0. \param max  largest number
+constexpr detail::OptionRange from_one(double max = 0x1p53) { return {.min = 1, .max = max}; }
+
+/// A flag, which sets the variable to true.
+OptionInfo flag_option(const std::string& name, bool& value, const std::string& description);
+
+/// A text, such as a file name. If `value_name` has bars, it lists the possible values.
+/// \param names  one name, or two with a comma between
+OptionInfo text_option(const std::string& names, const std::string& value_name, std::string& value,
+                       const std::string& description);
+
+/// A number in a range.
+OptionInfo number_option(const std::string& name, const std::string& value_name, double& value,
+                         const detail::OptionRange& range, const std::string& description);
+/// As above, an integer. \pre range.max can be represented by the type
+OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint32_t& value,
+                         const detail::OptionRange& range, const std::string& description);
+OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint64_t& value,
+                         const detail::OptionRange& range, const std::string& description);
+
+/// A number of bytes above 0: `1000`, `2MB` (10^6 bytes each) or `2MiB` (2^20).
+OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description);
+
+/// Words separated by commas or spaces.
+OptionInfo list_option(const std::string& name, std::vector<std::string>& words,
+                       const std::string& description);
+
+/// A required positional argument. \param choices  its possible values with bars between; empty: any text
+OptionInfo positional(const std::string& name, std::string& value, const std::string& description,
+                      const std::string& choices = "");
+
+/// --format of the commands that write several models.
+OptionInfo format_option(std::string& format);
+
+/// The options of comparing two models (`faqem compare` and `faqem report`).
+std::vector<OptionInfo> compare_options(CompareOptions& options);
+
+/// Appends options to those of a command.
+void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more);
+
+}  // namespace faqem::cli
