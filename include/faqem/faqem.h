@@ -75,24 +75,27 @@ typedef enum faqem_unit FAQEM_ENUM {
     FAQEM_UNIT_DIAGONAL = 1 /**< diagonal of the original's bounding box: 0.001 is a thousandth of it */
 } faqem_unit;
 
-/** When the link condition is enforced, see faqem::LinkCondition. */
-typedef enum faqem_link FAQEM_ENUM {
-    FAQEM_LINK_AS_PRESET = 0,
-    FAQEM_LINK_OFF = 1,
-    FAQEM_LINK_BY_SIZE = 2,
-    FAQEM_LINK_ON = 3,
-    FAQEM_LINK_STRICT = 4
-} faqem_link;
-
-/** Whether a boundary is preserved. */
-typedef enum faqem_boundary FAQEM_ENUM { FAQEM_BOUNDARY_FREE = 0, FAQEM_BOUNDARY_KEPT = 1 } faqem_boundary;
-
 /** Whether optional data is recorded. */
 typedef enum faqem_recording FAQEM_ENUM { FAQEM_RECORDING_OFF = 0, FAQEM_RECORDING_ON = 1 } faqem_recording;
 
+/**
+ * Sets any option from text, for example "texel-density" to "1.5". docs/c-api.md lists the options.
+ * \param name   as faqem_option_name() returns it
+ * \param value  a number, a length (`0.01` in model units, `0.1%` of the diagonal) or a word, as in the command
+ * \param error  its message names the option, and suggests one if there is none with this name; may be null
+ * \return FAQEM_ERROR_OPTION if an argument is null, the option does not exist, or the value is not of its kind
+ *         or out of its range; the options are then unchanged
+ */
+FAQEM_API faqem_status faqem_options_set(faqem_options* options, const char* name, const char* value,
+                                         faqem_error* error);
+/** Number of options that faqem_options_set() accepts. */
+FAQEM_API size_t faqem_option_count(void);
+/** Name of an option. \return null if `index` is not below faqem_option_count() */
+FAQEM_API const char* faqem_option_name(size_t index);
+
 /*
- * Setters. Each returns FAQEM_OK, or FAQEM_ERROR_OPTION if `options` is null or an enumerator is unknown; the
- * options are then unchanged. Numeric ranges are checked by the call that uses the options.
+ * Typed setters of frequent options. Each returns FAQEM_OK, or FAQEM_ERROR_OPTION if `options` is null or an
+ * enumerator is unknown; the options are then unchanged. The call that uses the options checks the ranges.
  */
 /** Target as a share of the input's faces, in (0, 1]. Replaces a target face count. */
 FAQEM_API faqem_status faqem_options_set_ratio(faqem_options* options, double ratio);
@@ -104,24 +107,8 @@ FAQEM_API faqem_status faqem_options_set_faces(faqem_options* options, uint64_t 
  */
 FAQEM_API faqem_status faqem_options_set_max_error(faqem_options* options, double distance, faqem_unit unit);
 FAQEM_API faqem_status faqem_options_set_preset(faqem_options* options, faqem_preset preset);
-FAQEM_API faqem_status faqem_options_set_link(faqem_options* options, faqem_link link);
-/** Surface boundaries; with FAQEM_BOUNDARY_KEPT boundary vertices do not move. */
-FAQEM_API faqem_status faqem_options_set_boundary(faqem_options* options, faqem_boundary boundary);
-/** Boundaries between faces of different groups (for a model file: materials), see faqem::GroupBoundaries. */
-FAQEM_API faqem_status faqem_options_set_group_boundaries(faqem_options* options, faqem_boundary boundary);
-/** Maximum distance between welded vertices, model units, finite and >= 0. */
-FAQEM_API faqem_status faqem_options_set_weld_distance(faqem_options* options, double distance);
-/**
- * Turns on virtual edges: nearby boundary vertices of different components may be collapsed.
- * \param share  maximum length of a virtual edge as a share of the diagonal, in (0, 1]
- */
-FAQEM_API faqem_status faqem_options_set_virtual_edges(faqem_options* options, double share);
-/** Connected components whose bounding box has a smaller diagonal are deleted first; finite and > 0. */
-FAQEM_API faqem_status faqem_options_set_prune(faqem_options* options, double size, faqem_unit unit);
 /** Whether results have a collapse history, which functions in faqem/faqem_levels.h need. */
 FAQEM_API faqem_status faqem_options_set_history(faqem_options* options, faqem_recording history);
-/** Maximum number of threads; 0: all. The result does not depend on it. */
-FAQEM_API faqem_status faqem_options_set_threads(faqem_options* options, uint32_t threads);
 
 /** Phases of a run, in order. */
 typedef enum faqem_phase FAQEM_ENUM {

@@ -13,56 +13,6 @@
 extern "C" {
 #endif
 
-/* ---- Options of the appearance, see faqem::BakeOptions; setters as in faqem.h ---- */
-
-/** How colours are stored, see faqem::Bake. */
-typedef enum faqem_bake FAQEM_ENUM {
-    FAQEM_BAKE_AUTOMATIC = 0,
-    FAQEM_BAKE_ATLAS = 1,
-    FAQEM_BAKE_PER_TRIANGLE = 2,
-    FAQEM_BAKE_VERTEX = 3,
-    FAQEM_BAKE_KEEP = 4,
-    FAQEM_BAKE_NONE = 5
-} faqem_bake;
-
-/** Whether a new atlas has a normal map, see faqem::NormalMap. */
-typedef enum faqem_normal_map FAQEM_ENUM {
-    FAQEM_NORMAL_MAP_AUTOMATIC = 0,
-    FAQEM_NORMAL_MAP_ON = 1,
-    FAQEM_NORMAL_MAP_OFF = 2
-} faqem_normal_map;
-
-/** Vertex normals, see faqem::Normals. */
-typedef enum faqem_normals FAQEM_ENUM {
-    FAQEM_NORMALS_TRANSFER = 0,
-    FAQEM_NORMALS_SMOOTH = 1,
-    FAQEM_NORMALS_FLAT = 2,
-    FAQEM_NORMALS_NONE = 3
-} faqem_normals;
-
-/** Encoding of baked images, see faqem::ImageFormat. */
-typedef enum faqem_image_format FAQEM_ENUM {
-    FAQEM_IMAGE_PNG = 0,
-    FAQEM_IMAGE_JPEG = 1,
-    FAQEM_IMAGE_SOURCE = 2
-} faqem_image_format;
-
-/** Whether errors on hidden surface count less, see faqem::Visibility. */
-typedef enum faqem_visibility FAQEM_ENUM {
-    FAQEM_VISIBILITY_IGNORED = 0,
-    FAQEM_VISIBILITY_WEIGHTED = 1
-} faqem_visibility;
-
-FAQEM_API faqem_status faqem_options_set_visibility(faqem_options* options, faqem_visibility visibility);
-FAQEM_API faqem_status faqem_options_set_bake(faqem_options* options, faqem_bake kind);
-/** Maximum side of a baked image in texels, a power of two in [64, 16384]. */
-FAQEM_API faqem_status faqem_options_set_texture_size(faqem_options* options, uint32_t texels);
-/** Texels per length relative to the source, in [0.125, 8]. Unset: 1, rising to 1.41 on small pages. */
-FAQEM_API faqem_status faqem_options_set_texel_density(faqem_options* options, double factor);
-FAQEM_API faqem_status faqem_options_set_normal_map(faqem_options* options, faqem_normal_map kind);
-FAQEM_API faqem_status faqem_options_set_normals(faqem_options* options, faqem_normals kind);
-FAQEM_API faqem_status faqem_options_set_image_format(faqem_options* options, faqem_image_format format);
-
 /* ---- Models ---- */
 
 /** A scene of parts (meshes), materials and images. Only saving modifies it: it may add warnings. */
@@ -156,7 +106,7 @@ FAQEM_API faqem_status faqem_asset_history_create(const faqem_asset* const* leve
  * \param source      the model that was simplified
  * \param history     history of its parts
  * \param faces       maximum number of faces over all parts, >= 1
- * \param options     baking options of the run; null: the defaults. FAQEM_BAKE_KEEP is rejected
+ * \param options     baking options of the run; null: the defaults. The kind `keep` is rejected
  * \param simplified  receives a new object, which has a report
  * \param error       may be null
  * \return FAQEM_ERROR_INPUT if the history is not that of `source`

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "capi/guard.hpp"
-#include "capi/options.hpp"
 #include "capi/report.hpp"
 #include "faqem/surface_map.hpp"
 

@@ -2,14 +2,14 @@
 
 #include <new>
 
-#include "capi/options.hpp"
+#include "capi/guard.hpp"
+#include "capi/report.hpp"
+#include "faqem/detail/options/option_table.hpp"
 
 namespace {
 
 using namespace faqem;
 using faqem::capi::has_same_value;
-using faqem::capi::set;
-using faqem::capi::set_enum;
 
 static_assert(has_same_value(FAQEM_PRESET_QEM, Preset::qem) &&
               has_same_value(FAQEM_PRESET_PAPER, Preset::paper) &&
@@ -19,15 +19,6 @@ static_assert(has_same_value(FAQEM_PRESET_QEM, Preset::qem) &&
               has_same_value(FAQEM_PRESET_BEST, Preset::best));
 static_assert(has_same_value(FAQEM_UNIT_MODEL, Length::Unit::model) &&
               has_same_value(FAQEM_UNIT_DIAGONAL, Length::Unit::diagonal));
-static_assert(has_same_value(FAQEM_LINK_AS_PRESET, LinkCondition::as_preset) &&
-              has_same_value(FAQEM_LINK_OFF, LinkCondition::off) &&
-              has_same_value(FAQEM_LINK_BY_SIZE, LinkCondition::by_size) &&
-              has_same_value(FAQEM_LINK_ON, LinkCondition::on) &&
-              has_same_value(FAQEM_LINK_STRICT, LinkCondition::strict));
-static_assert(has_same_value(FAQEM_BOUNDARY_FREE, Boundary::free) &&
-              has_same_value(FAQEM_BOUNDARY_KEPT, Boundary::locked) &&
-              has_same_value(FAQEM_BOUNDARY_FREE, GroupBoundaries::free) &&
-              has_same_value(FAQEM_BOUNDARY_KEPT, GroupBoundaries::kept));
 static_assert(has_same_value(FAQEM_RECORDING_OFF, Recording::off) &&
               has_same_value(FAQEM_RECORDING_ON, Recording::on));
 static_assert(has_same_value(FAQEM_PHASE_LOAD, Phase::load) &&
@@ -36,11 +27,16 @@ static_assert(has_same_value(FAQEM_PHASE_LOAD, Phase::load) &&
               has_same_value(FAQEM_PHASE_MAP, Phase::map) && has_same_value(FAQEM_PHASE_BAKE, Phase::bake) &&
               has_same_value(FAQEM_PHASE_SAVE, Phase::save));
 
-/// Sets the Length that `member` returns a reference to.
-template <class Member>
-faqem_status set_length(faqem_options* options, double value, faqem_unit unit, Member&& member) {
-    if (unit != FAQEM_UNIT_MODEL && unit != FAQEM_UNIT_DIAGONAL) return FAQEM_ERROR_OPTION;
-    return set(options, [&](Options& o) { member(o) = Length{value, static_cast<Length::Unit>(unit)}; });
+/// Applies a change to the options if they are not null and the enumerator is in [0, last].
+template <class Change>
+faqem_status change_options(faqem_options* options, int enumerator, int last, Change&& change) {
+    if (!options || enumerator < 0 || enumerator > last) return FAQEM_ERROR_OPTION;
+    change(options->options);
+    return FAQEM_OK;
+}
+template <class Change>
+faqem_status change_options(faqem_options* options, Change&& change) {
+    return change_options(options, 0, 0, change);
 }
 
 }  // namespace
@@ -49,67 +45,56 @@ faqem_options* faqem_options_create(void) { return new (std::nothrow) faqem_opti
 
 void faqem_options_destroy(faqem_options* options) { delete options; }
 
-faqem_status faqem_options_set_ratio(faqem_options* options, double share) {
-    return set(options, [&](Options& o) { o.target = ratio(share); });
-}
-
-faqem_status faqem_options_set_faces(faqem_options* options, uint64_t count) {
-    return set(options, [&](Options& o) { o.target = faces(count); });
-}
-
-faqem_status faqem_options_set_max_error(faqem_options* options, double distance, faqem_unit unit) {
-    return set_length(
-        options, distance, unit, [](Options & o) -> auto& { return o.max_error; });
-}
-
-faqem_status faqem_options_set_preset(faqem_options* options, faqem_preset preset) {
-    return set_enum(
-        options, preset, FAQEM_PRESET_BEST, [](Options & o) -> auto& { return o.preset; });
-}
-
-faqem_status faqem_options_set_link(faqem_options* options, faqem_link link) {
-    return set_enum(
-        options, link, FAQEM_LINK_STRICT, [](Options & o) -> auto& { return o.topology.link; });
-}
-
-faqem_status faqem_options_set_boundary(faqem_options* options, faqem_boundary boundary) {
-    return set_enum(
-        options, boundary, FAQEM_BOUNDARY_KEPT, [](Options & o) -> auto& { return o.topology.boundary; });
-}
-
-faqem_status faqem_options_set_group_boundaries(faqem_options* options, faqem_boundary boundary) {
-    return set_enum(
-        options, boundary, FAQEM_BOUNDARY_KEPT,
-        [](Options & o) -> auto& { return o.topology.group_boundaries; });
-}
-
-faqem_status faqem_options_set_weld_distance(faqem_options* options, double distance) {
-    return set(options, [&](Options& o) { o.topology.weld_distance = distance; });
-}
-
-faqem_status faqem_options_set_virtual_edges(faqem_options* options, double share) {
-    return set(options, [&](Options& o) {
-        o.topology.virtual_edges = VirtualEdges::on;
-        o.topology.virtual_edge_distance = share;
+faqem_status faqem_options_set(faqem_options* options, const char* name, const char* value,
+                               faqem_error* error) {
+    return faqem::capi::catch_exceptions(error, [&] {
+        faqem::capi::require_argument(options, "options");
+        faqem::capi::require_argument(name, "name");
+        faqem::capi::require_argument(value, "value");
+        set_option(options->options, detail::named_option(name), value, detail::name_spelling);
     });
 }
 
-faqem_status faqem_options_set_prune(faqem_options* options, double size, faqem_unit unit) {
-    return set_length(
-        options, size, unit, [](Options & o) -> auto& { return o.topology.prune; });
+size_t faqem_option_count(void) {
+    size_t count = 0;
+    while (faqem_option_name(count)) ++count;
+    return count;
+}
+
+const char* faqem_option_name(size_t index) {
+    for (const detail::OptionRow& row : detail::option_table()) {
+        // Names are string literals, so they end with a zero.
+        if ((row.entry_points & detail::in_c_and_python) && index-- == 0) return row.name.data();
+    }
+    return nullptr;
+}
+
+faqem_status faqem_options_set_ratio(faqem_options* options, double share) {
+    return change_options(options, [&](Options& o) { o.target = ratio(share); });
+}
+
+faqem_status faqem_options_set_faces(faqem_options* options, uint64_t count) {
+    return change_options(options, [&](Options& o) { o.target = faces(count); });
+}
+
+faqem_status faqem_options_set_max_error(faqem_options* options, double distance, faqem_unit unit) {
+    return change_options(options, unit, FAQEM_UNIT_DIAGONAL, [&](Options& o) {
+        o.max_error = Length{distance, static_cast<Length::Unit>(unit)};
+    });
+}
+
+faqem_status faqem_options_set_preset(faqem_options* options, faqem_preset preset) {
+    return change_options(options, preset, FAQEM_PRESET_BEST,
+                          [&](Options& o) { o.preset = static_cast<Preset>(preset); });
 }
 
 faqem_status faqem_options_set_history(faqem_options* options, faqem_recording history) {
-    return set_enum(
-        options, history, FAQEM_RECORDING_ON, [](Options & o) -> auto& { return o.history; });
-}
-
-faqem_status faqem_options_set_threads(faqem_options* options, uint32_t threads) {
-    return set(options, [&](Options& o) { o.threads = threads; });
+    return change_options(options, history, FAQEM_RECORDING_ON,
+                          [&](Options& o) { o.history = static_cast<Recording>(history); });
 }
 
 faqem_status faqem_options_set_progress(faqem_options* options, faqem_progress progress, void* user) {
-    return set(options, [&](Options& o) {
+    return change_options(options, [&](Options& o) {
         o.progress = {};
         if (!progress) return;
         o.progress = [progress, user](Phase phase, double fraction) {

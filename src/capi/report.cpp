@@ -1,6 +1,5 @@
 #include <limits>
 
-#include "capi/options.hpp"
 #include "capi/report.hpp"
 
 namespace faqem::capi {

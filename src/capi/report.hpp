@@ -18,6 +18,12 @@ struct faqem_options {
 
 namespace faqem::capi {
 
+/// Tests whether a C enumerator and a C++ enumerator have the same value.
+template <class CEnum, class CppEnum>
+constexpr bool has_same_value(CEnum c_value, CppEnum cpp_value) {
+    return static_cast<int>(c_value) == static_cast<int>(cpp_value);
+}
+
 /// A report and its JSON, which is made in the constructor, so that getters are thread-safe.
 struct ReportWithJson {
     explicit ReportWithJson(const Report& r) : report(r), json(to_json(r)) {}

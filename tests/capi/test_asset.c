@@ -29,14 +29,11 @@ static void a_model_is_saved_loaded_and_simplified(void) {
 
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_faces(options, 50) == FAQEM_OK);
-    CHECK(faqem_options_set_visibility(options, FAQEM_VISIBILITY_WEIGHTED) == FAQEM_OK);
-    CHECK(faqem_options_set_visibility(options, (faqem_visibility)2) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_bake(options, FAQEM_BAKE_NONE) == FAQEM_OK);
-    CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);
-    CHECK(faqem_options_set_texel_density(options, 0.5) == FAQEM_OK);
-    CHECK(faqem_options_set_normal_map(options, FAQEM_NORMAL_MAP_OFF) == FAQEM_OK);
-    CHECK(faqem_options_set_normals(options, FAQEM_NORMALS_FLAT) == FAQEM_OK);
-    CHECK(faqem_options_set_image_format(options, FAQEM_IMAGE_JPEG) == FAQEM_OK);
+    static const char* const values[][2] = {
+        {"visibility", "weighted"}, {"bake", "none"},    {"texture-size", "128"},    {"texel-density", "0.5"},
+        {"normal-map", "off"},      {"normals", "flat"}, {"image-format", "jpeg:80"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+        CHECK(faqem_options_set(options, values[i][0], values[i][1], &error) == FAQEM_OK);
     faqem_asset* simplified = NULL;
     CHECK(faqem_asset_simplify(loaded, options, &simplified, &error) == FAQEM_OK);
     CHECK(faqem_asset_face_count(simplified, 0) <= 50 && faqem_asset_face_count(simplified, 0) > 0);
@@ -44,14 +41,13 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(report.faces_in == 288 && report.faces_out == faqem_asset_face_count(simplified, 0));
     CHECK(strstr(faqem_asset_report_json(simplified), "\"faces_in\": 288") != NULL);
 
-    CHECK(faqem_options_set_texture_size(options, 100) == FAQEM_OK);
     faqem_asset* none = NULL;
+    CHECK(faqem_options_set(options, "texture-size", "100", &error) == FAQEM_ERROR_OPTION);
+    CHECK(strstr(error.message, "texture-size") != NULL);
+    CHECK(faqem_options_set(options, "bake", "vertex", &error) == FAQEM_OK);
+    CHECK(faqem_options_set(options, "normals", "none", &error) == FAQEM_OK);  // only with bake none
     CHECK(faqem_asset_simplify(loaded, options, &none, &error) == FAQEM_ERROR_OPTION);
-    CHECK(none == NULL && strstr(error.message, "texture_size") != NULL);
-    CHECK(faqem_options_set_texture_size(options, 128) == FAQEM_OK);
-    CHECK(faqem_options_set_texel_density(options, 0) == FAQEM_OK);
-    CHECK(faqem_asset_simplify(loaded, options, &none, &error) == FAQEM_ERROR_OPTION);
-    CHECK(none == NULL && strstr(error.message, "texel_density") != NULL);
+    CHECK(none == NULL && strstr(error.message, "normals") != NULL);
     faqem_options_destroy(options);
     faqem_asset_destroy(loaded);
     faqem_asset_destroy(simplified);
@@ -113,7 +109,6 @@ static void null_arguments_are_accepted(void) {
     CHECK(faqem_asset_positions(NULL, 0) == NULL && faqem_asset_triangles(NULL, 0) == NULL);
     CHECK(faqem_asset_warning_count(NULL) == 0 && faqem_asset_report_json(NULL) == NULL);
     CHECK(faqem_asset_simplify(NULL, NULL, NULL, NULL) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_bake(NULL, FAQEM_BAKE_NONE) == FAQEM_ERROR_OPTION);
 }
 
 void test_asset(void) {

@@ -66,7 +66,7 @@ static faqem_asset* two_waves(void) {
 
 static faqem_options* small_textures(void) {
     faqem_options* options = faqem_options_create();
-    CHECK(faqem_options_set_texture_size(options, 64) == FAQEM_OK);
+    CHECK(faqem_options_set(options, "texture-size", "64", NULL) == FAQEM_OK);
     return options;
 }
 
@@ -152,7 +152,7 @@ static void a_history_of_several_meshes_reproduces_every_level(void) {
     CHECK(faqem_asset_bake_truncated(levels[0], history, 150, options, &none, &error) == FAQEM_ERROR_INPUT);
     CHECK(faqem_asset_bake_truncated(source, history, 0, options, &none, &error) == FAQEM_ERROR_OPTION);
     CHECK(faqem_asset_bake_truncated(source, NULL, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_bake(options, FAQEM_BAKE_KEEP) == FAQEM_OK);
+    CHECK(faqem_options_set(options, "bake", "keep", NULL) == FAQEM_OK);
     CHECK(faqem_asset_bake_truncated(source, history, 150, options, &none, &error) == FAQEM_ERROR_OPTION);
     CHECK(none == NULL && faqem_history_part_count(NULL) == 0);
     faqem_history* no_history = NULL;

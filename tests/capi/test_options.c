@@ -28,14 +28,12 @@ static void every_option_can_be_set(void) {
         CHECK(faqem_options_set_preset(options, (faqem_preset)preset) == FAQEM_OK);
         CHECK(faces_with(options) <= 80);
     }
-    for (int link = FAQEM_LINK_AS_PRESET; link <= FAQEM_LINK_STRICT; ++link)
-        CHECK(faqem_options_set_link(options, (faqem_link)link) == FAQEM_OK);
-    CHECK(faqem_options_set_boundary(options, FAQEM_BOUNDARY_KEPT) == FAQEM_OK);
-    CHECK(faqem_options_set_group_boundaries(options, FAQEM_BOUNDARY_KEPT) == FAQEM_OK);
-    CHECK(faqem_options_set_weld_distance(options, 1e-9) == FAQEM_OK);
-    CHECK(faqem_options_set_virtual_edges(options, 0.01) == FAQEM_OK);
-    CHECK(faqem_options_set_prune(options, 0.1, FAQEM_UNIT_MODEL) == FAQEM_OK);
-    CHECK(faqem_options_set_threads(options, 2) == FAQEM_OK);
+    static const char* const values[][2] = {
+        {"link", "strict"},        {"boundary", "kept"},      {"group-boundaries", "kept"},
+        {"weld-distance", "1e-9"}, {"virtual-edges", "0.01"}, {"prune", "0.1"},
+        {"threads", "2"},          {"w-area", "100"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+        CHECK(faqem_options_set(options, values[i][0], values[i][1], NULL) == FAQEM_OK);
     CHECK(faces_with(options) >= 78);  // a triangulation of the polygon with the 80 boundary vertices
     faqem_options_destroy(options);
 }
@@ -44,10 +42,10 @@ static void values_out_of_range_are_rejected(void) {
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_preset(options, (faqem_preset)6) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_preset(options, (faqem_preset)-1) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_link(options, (faqem_link)99) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_boundary(options, (faqem_boundary)2) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set(options, "link", "maybe", NULL) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set(options, "boundary", "", NULL) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_max_error(options, 1, (faqem_unit)2) == FAQEM_ERROR_OPTION);
-    CHECK(faqem_options_set_prune(options, 1, (faqem_unit)-1) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set(options, "prune", "-1", NULL) == FAQEM_ERROR_OPTION);
     CHECK(faces_with(options) <= 80);  // the options are unchanged
 
     CHECK(faqem_options_set_ratio(options, NAN) == FAQEM_OK);  // validated when the options are used
@@ -63,6 +61,37 @@ static void values_out_of_range_are_rejected(void) {
     CHECK(faqem_options_set_max_error(NULL, 1, FAQEM_UNIT_MODEL) == FAQEM_ERROR_OPTION);
     CHECK(faqem_options_set_progress(NULL, NULL, NULL) == FAQEM_ERROR_OPTION);
     faqem_options_destroy(NULL);
+}
+
+static void errors_name_the_option_and_suggest_one(void) {
+    faqem_options* options = faqem_options_create();
+    faqem_error error;
+    CHECK(faqem_options_set(options, "texel-density", "1.5", &error) == FAQEM_OK && error.message[0] == 0);
+    CHECK(faqem_options_set(options, "texel-density", "9", &error) == FAQEM_ERROR_OPTION);
+    CHECK(error.status == FAQEM_ERROR_OPTION);
+    CHECK(strcmp(error.message, "texel-density must be in [0.125, 8]") == 0);
+    CHECK(faqem_options_set(options, "texel-densty", "1.5", &error) == FAQEM_ERROR_OPTION);
+    CHECK(strcmp(error.message, "unknown option 'texel-densty'; did you mean 'texel-density'?") == 0);
+    CHECK(faqem_options_set(options, "ratio", NULL, &error) == FAQEM_ERROR_OPTION);
+    CHECK(strstr(error.message, "value") != NULL);
+    CHECK(faqem_options_set(options, NULL, "1", NULL) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set(NULL, "ratio", "1", NULL) == FAQEM_ERROR_OPTION);
+    faqem_options_destroy(options);
+}
+
+static void the_names_of_all_options_can_be_listed(void) {
+    faqem_options* options = faqem_options_create();
+    int ratios = 0;
+    for (size_t i = 0; i < faqem_option_count(); ++i) {
+        faqem_error error;
+        const char* const name = faqem_option_name(i);
+        CHECK(faqem_options_set(options, name, "?", &error) == FAQEM_ERROR_OPTION);
+        CHECK(strncmp(error.message, name, strlen(name)) == 0);  // known, but its value is wrong
+        ratios += strcmp(name, "ratio") == 0;
+    }
+    CHECK(ratios == 1);
+    CHECK(faqem_option_name(faqem_option_count()) == NULL);
+    faqem_options_destroy(options);
 }
 
 struct calls {
@@ -107,6 +136,8 @@ void test_options(void) {
     the_last_target_is_used();
     every_option_can_be_set();
     values_out_of_range_are_rejected();
+    errors_name_the_option_and_suggest_one();
+    the_names_of_all_options_can_be_listed();
     the_progress_callback_is_called_and_may_cancel();
     the_version_has_three_numbers();
 }
