@@ -136,8 +136,21 @@ class Arrays(unittest.TestCase):
                     faqem.simplify(vertices, triangles, **{option: value})
         with self.assertRaises(faqem.OptionError):
             faqem.simplify(vertices, triangles, ratio=0.5, faces=5)
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "unknown option 'frobnicate'$"):
             faqem.simplify(vertices, triangles, frobnicate=1)
+        with self.assertRaisesRegex(TypeError, "unknown option 'texeldensity'; did you mean 'texel_density'"):
+            faqem.simplify(vertices, triangles, texeldensity=1)
+        with self.assertRaisesRegex(faqem.OptionError, r"^texel_density must be in \[0.125, 8\]$"):
+            faqem.simplify(vertices, triangles, texel_density=9)
+
+    def test_every_option_of_the_library_is_a_keyword(self):
+        vertices, triangles = flat_grid(4)
+        names = faqem._options.option_names()
+        self.assertIn("w_area", names)
+        for name in names:
+            faqem.simplify(vertices, triangles, **{name: None})
+        faqem.simplify(vertices, triangles, link="as_preset", boundary="kept", w_area=100, virtual_edges=True,
+                       bake="automatic", weld_distance=0, max_error="5%", threads=numpy.uint8(1))
 
     def test_invalid_arrays_are_rejected_by_name(self):
         vertices, triangles = flat_grid(4)

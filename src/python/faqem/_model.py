@@ -92,8 +92,7 @@ def load(path):
 def bake(model, /, **options):
     """Simplifies a model and bakes its appearance into new textures; the given model is unchanged.
 
-    options  those of simplify(), and visibility, bake, texture_size, texel_density, normal_map, normals,
-             image_format; see docs/python.md
+    options  those of simplify(), and those for models; see docs/python.md
 
     Returns a Model. Raises OptionError, InputError, UnsupportedError, MemoryError, and the exceptions of
     `progress`.

@@ -1,19 +1,12 @@
 """Conversion of keyword arguments to the options of the C API."""
 
+import difflib
 import operator
 import weakref
 
-from ._library import Progress, library
+from ._library import Progress, call, library
 from .errors import OptionError
 
-_presets = ["qem", "paper", "stmw", "fast", "balanced", "best"]
-_links = ["as_preset", "off", "by_size", "on", "strict"]
-_boundaries = ["free", "kept"]
-_visibilities = ["ignored", "weighted"]
-_bakes = ["automatic", "atlas", "per_triangle", "vertex", "keep", "none"]
-_normal_maps = ["automatic", "on", "off"]
-_normals = ["transfer", "smooth", "flat", "none"]
-_image_formats = ["png", "jpeg", "source"]
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 
@@ -45,58 +38,52 @@ def checked_integer(value, option, bits):
     return number
 
 
-class Options:
-    """Options object of the C API. None leaves an option at its default."""
+def option_names():
+    """Returns the options of the C API as keywords, for example "texel_density"."""
+    return [library.faqem_option_name(i).decode().replace("-", "_") for i in range(library.faqem_option_count())]
 
-    def __init__(self, *, ratio=None, faces=None, max_error=None, preset=None, link=None, boundary=None,
-                 group_boundaries=None, weld_distance=None, virtual_edges=None, prune=None, threads=None,
-                 progress=None, history=None, visibility=None, bake=None, texture_size=None, texel_density=None,
-                 normal_map=None, normals=None, image_format=None):
-        if ratio is not None and faces is not None:
+
+def _text(value):
+    """Converts the value of an option to text. None if it is neither a number nor a text."""
+    if isinstance(value, str):
+        return {"automatic": "auto"}.get(value, value).replace("_", "-")
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    for convert in (lambda: str(operator.index(value)), lambda: repr(float(value))):
+        try:
+            return convert()
+        except (TypeError, ValueError):
+            pass
+    return None
+
+
+class Options:
+    """Options object of the C API. The keywords are option_names(); None leaves an option at its default."""
+
+    def __init__(self, *, progress=None, **options):
+        given = {keyword: value for keyword, value in options.items() if value is not None}
+        if "ratio" in given and "faces" in given:
             raise OptionError("ratio and faces: only one of them can be set")
         self.object = library.faqem_options_create()
         if not self.object:
             raise MemoryError
         weakref.finalize(self, library.faqem_options_destroy, self.object)
         self._callback_exception = None
-        if ratio is not None:
-            self._set("ratio", float(ratio))
-        if faces is not None:
-            self._set("faces", checked_integer(faces, "faces", 53))
-        if max_error is not None:
-            self._set("max_error", *parse_length(max_error, "max_error"))
-        if weld_distance is not None:
-            self._set("weld_distance", float(weld_distance))
-        if virtual_edges is not None:
-            self._set("virtual_edges", float(virtual_edges))
-        if prune is not None:
-            self._set("prune", *parse_length(prune, "prune"))
-        if threads is not None:
-            self._set("threads", checked_integer(threads, "threads", 32))
-        if history is not None:
-            self._set("history", 1 if history else 0)
-        if texture_size is not None:
-            self._set("texture_size", checked_integer(texture_size, "texture_size", 32))
-        if texel_density is not None:
-            self._set("texel_density", float(texel_density))
-        for option, setter, name, names in [
-            ("preset", "preset", preset, _presets),
-            ("link", "link", link, _links),
-            ("boundary", "boundary", boundary, _boundaries),
-            ("group_boundaries", "group_boundaries", group_boundaries, _boundaries),
-            ("visibility", "visibility", visibility, _visibilities),
-            ("bake", "bake", bake, _bakes),
-            ("normal_map", "normal_map", normal_map, _normal_maps),
-            ("normals", "normals", normals, _normals),
-            ("image_format", "image_format", image_format, _image_formats),
-        ]:
-            if name is not None:
-                self._set(setter, enum_value(names, name, option))
+        for keyword in options.keys() - set(option_names()):
+            close = difflib.get_close_matches(keyword, option_names(), 1)
+            raise TypeError(f"unknown option {keyword!r}" + (f"; did you mean {close[0]!r}?" if close else ""))
+        for keyword, value in given.items():
+            self._set(keyword, bool(value) if keyword == "history" else value)
         self._set_progress(progress)
 
-    def _set(self, name, *values):
-        if getattr(library, "faqem_options_set_" + name)(self.object, *values) != 0:
-            raise OptionError(f"{name}: invalid value {values}")
+    def _set(self, keyword, value):
+        name, text = keyword.replace("_", "-"), _text(value)
+        if text is None:
+            raise OptionError(f"{keyword}: {value!r} is neither a number nor a text")
+        try:
+            call(library.faqem_options_set, self.object, name.encode(), text.encode())
+        except OptionError as error:
+            raise OptionError(str(error).replace(name, keyword, 1)) from None
 
     def _set_progress(self, progress):
         """Sets the callback. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
@@ -111,7 +98,7 @@ class Options:
             return 0
 
         self._callback = Progress(called)  # keeps the callback alive: C has only a pointer to it
-        self._set("progress", self._callback, None)
+        library.faqem_options_set_progress(self.object, self._callback, None)
 
     def run(self, work):
         """Calls `work` and returns its result. Raises the exception of the progress callback, if any."""

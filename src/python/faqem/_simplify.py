@@ -77,8 +77,7 @@ def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, u
     locks      (v,) booleans: true for vertices that must not move
     weights    (v,) factors on the costs, in [1e-6, 1e6]
     uvs        (f, 3, n) attributes of the corners, which are preserved
-    options    ratio, faces, max_error, preset, link, boundary, group_boundaries, weld_distance,
-               virtual_edges, prune, history, threads, progress; see docs/python.md
+    options    ratio, faces, max_error, preset, history, progress and others; see docs/python.md
 
     Returns a Simplified. Raises OptionError, InputError, MemoryError, and the exceptions of `progress`.
     """
