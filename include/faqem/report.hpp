@@ -79,7 +79,7 @@ struct RemovedComponent {
     std::string part;         ///< of an asset: name of its part, as in warnings; empty for a mesh
     std::uint64_t faces = 0;  ///< in the input, over all instances
     double area_share = 0;    ///< share of the area of the input, in [0, 1]
-    /// Largest share of the pixels of the input's silhouette, seen along one of the coordinate axes, in [0, 1].
+    /// Largest share of the input's silhouette, seen along one of the coordinate axes, in [0, 1].
     double silhouette_share = 0;
     Vec3 box_min = {}, box_max = {};  ///< axis-aligned bounding box, model units; for an asset, scene units
 };

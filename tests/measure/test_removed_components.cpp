@@ -14,8 +14,13 @@ namespace {
 std::vector<detail::FoundComponent> removed_of(const TriangleMesh& mesh, std::vector<std::uint8_t> is_left) {
     const detail::FaceComponents components = detail::face_components(mesh.positions, mesh.triangles);
     REQUIRE(components.count == is_left.size());
-    const detail::PlacedFaces all{mesh.positions, mesh.triangles, components.component};
-    return detail::removed_components({&all, 1}, is_left);
+    std::vector<detail::PlacedFace> faces;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        faces.push_back(
+            {components.component[f], {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
+    }
+    return detail::removed_components(std::move(faces), is_left);
 }
 
 // A square of side 1 at z = 0 and one of the given side beside it.

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
-#include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
 
@@ -16,15 +15,11 @@ std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[
 
 // Minimum face count that keeps all components of a part: 4 faces for each component, or all it has. O(faces)
 std::uint64_t min_faces_for_components(const Part& part) {
-    const std::vector<Index> welded = engine::weld_exact(part.positions);
-    engine::UnionFind joined(welded.size());
-    for (const Triangle& t : part.triangles) {
-        for (const Index v : {t[1], t[2]}) joined.unite(welded[t[0]], welded[v]);
-    }
-    std::vector<std::uint8_t> counted(welded.size(), 0);
+    const FaceComponents components = face_components(part.positions, part.triangles);
+    std::vector<std::uint8_t> counted(components.count, 0);
     std::uint64_t sum = 0;
-    for (const Triangle& t : part.triangles) {
-        std::uint8_t& count = counted[joined.find(welded[t[0]])];
+    for (const Index component : components.component) {
+        std::uint8_t& count = counted[component];
         if (count == 4) continue;
         ++count;
         ++sum;

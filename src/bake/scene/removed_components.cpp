@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "asset/scene/messages.hpp"
@@ -9,19 +10,6 @@
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
-namespace {
-
-std::vector<Vec3> transformed(const std::vector<Vec3>& positions, const std::array<double, 16>& transform) {
-    const Eigen::Map<const Eigen::Matrix4d> matrix(transform.data());
-    std::vector<Vec3> result;
-    result.reserve(positions.size());
-    for (const Vec3& p : positions)
-        result.push_back(
-            engine::to_array(engine::Vector3((matrix * engine::to_eigen(p).homogeneous()).head<3>())));
-    return result;
-}
-
-}  // namespace
 
 void report_removed_components(const Asset& source, SimplifiedParts& result) {
     Report& report = result.report;
@@ -37,13 +25,20 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
         for (Index& component : of_part[p].component) component += first[p];
         for (const Index f : result.parts[p].face_origin) is_left[of_part[p].component[f]] = 1;
     }
-    std::vector<PlacedFaces> scene;
+    std::vector<PlacedFace> faces;
     for (const Instance& instance : instances(source)) {
         const Part& part = source.parts[instance.part];
-        scene.push_back({transformed(part.positions, instance.transform), part.triangles,
-                         of_part[instance.part].component});
+        const Eigen::Map<const Eigen::Matrix4d> matrix(instance.transform.data());
+        const auto place = [&](Index v) {
+            const Eigen::Vector4d p = matrix * engine::to_eigen(part.positions[v]).homogeneous();
+            return engine::to_array(p.head<3>());
+        };
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            const Triangle& t = part.triangles[f];
+            faces.push_back({of_part[instance.part].component[f], {place(t[0]), place(t[1]), place(t[2])}});
+        }
     }
-    for (FoundComponent& found : removed_components(scene, is_left)) {
+    for (FoundComponent& found : removed_components(std::move(faces), is_left)) {
         const auto after = std::upper_bound(first.begin(), first.end(), found.component);
         found.removed.part = part_title(source, static_cast<std::size_t>(after - first.begin()) - 1);
         report.removed_components.push_back(std::move(found.removed));

@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -18,175 +18,80 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A picture with one bit per pixel.
-class PixelMask {
-public:
-    static constexpr int size = 256;
+/// Measures of a component.
+struct ComponentMeasures {
+    std::uint64_t faces = 0;
+    double area = 0;
+    engine::Vector3 cells =
+        engine::Vector3::Zero();  ///< of ViewGrids: number of cells with a point of the component
+    Eigen::AlignedBox3d box;
+};
 
-    /// Sets the pixels that a triangle touches, or a few more.
-    /// \param corners  in pixels, within [0, size]
-    void add(const std::array<Eigen::Vector2d, 3>& corners) {
-        double low = size, high = 0;
-        for (const Eigen::Vector2d& p : corners) low = std::min(low, p.y()), high = std::max(high, p.y());
-        for (int row = pixel(low); row <= pixel(high); ++row) {
-            double left = size, right = 0;
-            const auto extend = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Eigen::Vector2d &p = corners[k], &q = corners[(k + 1) % 3];
-                if (pixel(p.y()) == row) extend(p.x());
-                for (const double y : {row, row + 1}) {
-                    if ((p.y() < y) == (q.y() < y)) continue;
-                    extend(p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
-                }
+/// Square grids over the unit cube, one for each view along an axis.
+struct ViewGrids {
+    int side;                                ///< number of cells
+    std::array<std::vector<Index>, 3> last;  ///< by cell: the last component with a point in it
+};
+
+/// Adds points of a face, at most one cell apart, to the grids. Components are added one after the other.
+/// \param all  counts the cells with a point of any component
+inline void add_face(ViewGrids& grids, const PlacedFace& face, ComponentMeasures& own,
+                     ComponentMeasures& all) {
+    const engine::Vector3 a = grids.side * engine::to_eigen(face.corners[0]);
+    const engine::Vector3 u = grids.side * engine::to_eigen(face.corners[1]) - a;
+    const engine::Vector3 v = grids.side * engine::to_eigen(face.corners[2]) - a;
+    const int n =
+        1 + static_cast<int>(u.cwiseAbs().cwiseMax(v.cwiseAbs()).cwiseMax((u - v).cwiseAbs()).maxCoeff());
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j) {
+            const Eigen::Array3i cell =
+                (a + (i * u + j * v) / n).array().cast<int>().max(0).min(grids.side - 1);
+            for (int k = 0; k < 3; ++k) {
+                const int index = cell[(k + 1) % 3] * grids.side + cell[(k + 2) % 3];
+                Index& last = grids.last[static_cast<std::size_t>(k)][static_cast<std::size_t>(index)];
+                if (last == no_index) ++all.cells[k];
+                if (std::exchange(last, face.component) != face.component) ++own.cells[k];
             }
-            if (left <= right) set(row, pixel(left), pixel(right));
-        }
-    }
-
-    /// Number of pixels that are set.
-    std::uint64_t count() const {
-        std::uint64_t sum = 0;
-        for (const std::uint64_t word : words_) sum += static_cast<std::uint64_t>(std::popcount(word));
-        return sum;
-    }
-
-private:
-    static constexpr int words_per_row = size / 64;
-
-    static int pixel(double x) { return std::clamp(static_cast<int>(x), 0, size - 1); }
-
-    void set(int row, int first, int last) {
-        for (int word = first / 64; word <= last / 64; ++word) {
-            const int begin = std::max(first - 64 * word, 0), end = std::min(last - 64 * word, 63);
-            const std::uint64_t bits = ~std::uint64_t{0} >> (63 - (end - begin)) << begin;
-            words_[static_cast<std::size_t>(row * words_per_row + word)] |= bits;
-        }
-    }
-
-    std::array<std::uint64_t, std::size_t{size}* words_per_row> words_ = {};
-};
-
-/// What the shares of components are computed from.
-struct ComponentSizes {
-    std::vector<double> area;
-    std::vector<std::uint64_t> faces;
-    std::vector<Eigen::AlignedBox3d> box;
-    double total_area = 0;
-    Eigen::AlignedBox3d total_box;
-};
-
-/// Calls visit(component, corners) for each face. Positions are divided by 4, so that differences are finite.
-template <class Visit>
-void for_each_placed_face(std::span<const PlacedFaces> model, engine::CancellationCheck check_cancelled,
-                          Visit&& visit) {
-    for (const PlacedFaces& placed : model) {
-        for (std::size_t f = 0; f < placed.triangles.size(); ++f) {
-            check_cancelled();
-            std::array<engine::Vector3, 3> corners;
-            const Triangle t = placed.triangles[f];
-            for (std::size_t k = 0; k < 3; ++k) corners[k] = 0.25 * engine::to_eigen(placed.positions[t[k]]);
-            visit(placed.component[f], corners);
         }
     }
 }
 
-inline ComponentSizes component_sizes(std::span<const PlacedFaces> model, std::size_t count,
-                                      engine::CancellationCheck check_cancelled) {
-    ComponentSizes sizes{std::vector<double>(count, 0),
-                         std::vector<std::uint64_t>(count, 0),
-                         std::vector<Eigen::AlignedBox3d>(count),
-                         0,
-                         {}};
-    for_each_placed_face(model, check_cancelled, [&](Index c, const auto& corners) {
-        for (const engine::Vector3& p : corners) sizes.box[c].extend(p);
-    });
-    for (const Eigen::AlignedBox3d& box : sizes.box) {
-        if (!box.isEmpty()) sizes.total_box.extend(box);
+/// Measures components. Areas are relative to the square of the longest side of the model.
+/// \param all  receives the sums
+inline std::vector<ComponentMeasures> component_sizes(std::vector<PlacedFace> faces, std::size_t count,
+                                                      ComponentMeasures& all) {
+    std::sort(faces.begin(), faces.end());
+    std::vector<ComponentMeasures> sizes(count);
+    // Positions are divided by 4, so that differences are finite.
+    for (const PlacedFace& face : faces)
+        for (const Vec3& p : face.corners) sizes[face.component].box.extend(0.25 * engine::to_eigen(p));
+    for (const ComponentMeasures& size : sizes) all.box.extend(size.box);
+    const double scale = 1 / std::max(all.box.sizes().maxCoeff(), std::numeric_limits<double>::min());
+    double squares = 0;
+    for (PlacedFace& face : faces) {
+        for (Vec3& p : face.corners)
+            p = engine::to_array(scale * (0.25 * engine::to_eigen(p) - all.box.min()));
+        const engine::Vector3 a = engine::to_eigen(face.corners[0]);
+        const engine::Vector3 u = engine::to_eigen(face.corners[1]) - a,
+                              v = engine::to_eigen(face.corners[2]) - a;
+        ++sizes[face.component].faces;
+        sizes[face.component].area += 0.5 * u.cross(v).norm();
+        squares += std::max(u.squaredNorm(), v.squaredNorm());
     }
-    // Relative to the longest side, so that areas neither overflow nor underflow.
-    const double side = sizes.total_box.isEmpty() ? 0 : sizes.total_box.sizes().maxCoeff();
-    const double scale = 1 / std::max(side, std::numeric_limits<double>::min());
-    for_each_placed_face(model, check_cancelled, [&](Index c, const auto& corners) {
-        const auto& [p, q, r] = corners;
-        const double area = 0.5 * (scale * (q - p)).cross(scale * (r - p)).norm();
-        sizes.area[c] += area;
-        sizes.total_area += area;
-        ++sizes.faces[c];
-    });
+    for (const ComponentMeasures& size : sizes) all.area += size.area;
+    // If many faces are large, cells are larger, so that large faces need at most 10^8 points.
+    ViewGrids grids{static_cast<int>(std::min(256.0, 1 + std::sqrt(2e8 / squares))), {}};
+    grids.last.fill(std::vector<Index>(static_cast<std::size_t>(grids.side * grids.side), no_index));
+    for (const PlacedFace& face : faces) add_face(grids, face, sizes[face.component], all);
     return sizes;
 }
 
-/// Shares of the components in the silhouette of one view.
-struct SilhouetteView {
-    double pixels = 0;                 ///< of the silhouette
-    std::vector<double> of_component;  ///< pixels of each component that is not left; 0 for the others
-};
-
-/// Draws the silhouette along a coordinate axis.
-inline SilhouetteView draw_silhouette(std::span<const PlacedFaces> model, const ComponentSizes& sizes,
-                                      std::span<const std::uint8_t> is_left, int axis,
-                                      engine::CancellationCheck check_cancelled) {
-    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
-    const engine::Vector3 low = sizes.total_box.min();
-    const double scale = PixelMask::size / sizes.total_box.sizes().maxCoeff();
-    const auto project = [&](const std::array<engine::Vector3, 3>& corners) {
-        std::array<Eigen::Vector2d, 3> pixels;
-        for (std::size_t k = 0; k < 3; ++k)
-            pixels[k] = scale * Eigen::Vector2d(corners[k][x] - low[x], corners[k][y] - low[y]);
-        return pixels;
-    };
-    PixelMask all;
-    for_each_placed_face(model, check_cancelled,
-                         [&](Index, const auto& corners) { all.add(project(corners)); });
-    SilhouetteView view{static_cast<double>(all.count()), std::vector<double>(is_left.size(), 0)};
-    // The pixels of a box bound those of its component, so that few components need a picture of their own.
-    std::vector<PixelMask> masks;
-    std::vector<Index> mask_of(is_left.size(), no_index);
-    for (Index c = 0; c < is_left.size(); ++c) {
-        if (is_left[c] || sizes.box[c].isEmpty()) continue;
-        const engine::Vector3 extent = scale * sizes.box[c].sizes();
-        if (!((extent[x] + 2) * (extent[y] + 2) > RemovedComponent::min_share * view.pixels)) continue;
-        mask_of[c] = static_cast<Index>(masks.size());
-        masks.emplace_back();
-    }
-    for_each_placed_face(model, check_cancelled, [&](Index c, const auto& corners) {
-        if (mask_of[c] != no_index) masks[mask_of[c]].add(project(corners));
-    });
-    for (Index c = 0; c < is_left.size(); ++c) {
-        if (mask_of[c] != no_index) view.of_component[c] = static_cast<double>(masks[mask_of[c]].count());
-    }
-    return view;
-}
-
-/// Largest share of each component in the silhouettes along the axes; 0 for components that are left.
-inline std::vector<double> silhouette_shares(std::span<const PlacedFaces> model, const ComponentSizes& sizes,
-                                             std::span<const std::uint8_t> is_left,
-                                             engine::CancellationCheck check_cancelled) {
-    std::vector<double> shares(is_left.size(), 0);
-    if (!(sizes.total_box.sizes().maxCoeff() > 0)) return shares;
-    std::vector<SilhouetteView> views;
-    double most = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        views.push_back(draw_silhouette(model, sizes, is_left, axis, check_cancelled));
-        most = std::max(most, views.back().pixels);
-    }
-    for (const SilhouetteView& view : views) {
-        // The silhouette of a flat model seen from the side is a line, in which parts hide each other.
-        if (!(view.pixels >= 0.05 * most)) continue;
-        for (std::size_t c = 0; c < shares.size(); ++c)
-            shares[c] = std::max(shares[c], view.of_component[c] / view.pixels);
-    }
-    return shares;
-}
-
-FAQEM_INLINE FaceComponents face_components(const PositionView& positions, TriangleView triangles,
-                                            engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE FaceComponents face_components(const PositionView& positions, TriangleView triangles) {
     std::vector<Vec3> copy(positions.size());
     for (std::size_t v = 0; v < copy.size(); ++v) copy[v] = positions[v];
-    const std::vector<Index> representative = engine::weld_exact(copy, check_cancelled);
+    const std::vector<Index> representative = engine::weld_exact(copy);
     engine::UnionFind joined(copy.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         const Triangle t = triangles[f];
         joined.unite(representative[t[0]], representative[t[1]]);
         joined.unite(representative[t[0]], representative[t[2]]);
@@ -194,7 +99,6 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     FaceComponents found;
     std::vector<Index> number(copy.size(), no_index);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         Index& own = number[joined.find(representative[triangles[f][0]])];
         if (own == no_index) own = found.count++;
         found.component.push_back(own);
@@ -202,28 +106,31 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     return found;
 }
 
-FAQEM_INLINE std::vector<FoundComponent> removed_components(std::span<const PlacedFaces> model,
-                                                            std::span<const std::uint8_t> is_left,
-                                                            engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<FoundComponent> removed_components(std::vector<PlacedFace> faces,
+                                                            std::span<const std::uint8_t> is_left) {
     std::vector<FoundComponent> removed;
-    if (std::all_of(is_left.begin(), is_left.end(), [](std::uint8_t left) { return left != 0; }))
-        return removed;
-    const ComponentSizes sizes = component_sizes(model, is_left.size(), check_cancelled);
-    const std::vector<double> silhouettes = silhouette_shares(model, sizes, is_left, check_cancelled);
+    if (faces.empty() || std::find(is_left.begin(), is_left.end(), 0) == is_left.end()) return removed;
+    ComponentMeasures all;
+    const std::vector<ComponentMeasures> sizes = component_sizes(std::move(faces), is_left.size(), all);
     for (Index c = 0; c < is_left.size(); ++c) {
-        if (is_left[c]) continue;
-        const double area = sizes.total_area > 0 ? sizes.area[c] / sizes.total_area : 0;
-        if (!(std::max(area, silhouettes[c]) > RemovedComponent::min_share)) continue;
-        removed.push_back(
-            {c,
-             {"", sizes.faces[c], area, silhouettes[c], engine::to_array(4 * sizes.box[c].min()),
-              engine::to_array(4 * sizes.box[c].max())}});
+        const ComponentMeasures& size = sizes[c];
+        if (is_left[c] || size.faces == 0) continue;
+        double silhouette = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            // The silhouette of a flat model seen from the side is a line, in which parts hide each other.
+            if (all.cells[axis] < 0.05 * all.cells.maxCoeff()) continue;
+            silhouette = std::max(silhouette, size.cells[axis] / all.cells[axis]);
+        }
+        const double area = all.area > 0 ? size.area / all.area : 0;
+        if (std::max(area, silhouette) > RemovedComponent::min_share)
+            removed.push_back({c,
+                               {"", size.faces, area, silhouette, engine::to_array(4 * size.box.min()),
+                                engine::to_array(4 * size.box.max())}});
     }
-    const auto share = [](const FoundComponent& found) {
-        return std::max(found.removed.area_share, found.removed.silhouette_share);
-    };
-    std::stable_sort(removed.begin(), removed.end(),
-                     [&](const FoundComponent& a, const FoundComponent& b) { return share(a) > share(b); });
+    std::stable_sort(removed.begin(), removed.end(), [](const FoundComponent& a, const FoundComponent& b) {
+        return std::max(a.removed.area_share, a.removed.silhouette_share) >
+               std::max(b.removed.area_share, b.removed.silhouette_share);
+    });
     return removed;
 }
 
@@ -234,9 +141,13 @@ FAQEM_INLINE void report_removed_components(const MeshView& mesh, SimplifyResult
     const FaceComponents components = face_components(mesh.positions, mesh.triangles);
     std::vector<std::uint8_t> is_left(components.count, 0);
     for (const Index f : result.face_origin) is_left[components.component[f]] = 1;
-    PlacedFaces all{{}, mesh.triangles, components.component};
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) all.positions.push_back(mesh.positions[v]);
-    for (FoundComponent& found : removed_components({&all, 1}, is_left))
+    std::vector<PlacedFace> faces;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle t = mesh.triangles[f];
+        faces.push_back(
+            {components.component[f], {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
+    }
+    for (FoundComponent& found : removed_components(std::move(faces), is_left))
         report.removed_components.push_back(std::move(found.removed));
     warn_of_removed_components(report);
 }

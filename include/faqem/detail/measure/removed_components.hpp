@@ -2,11 +2,12 @@
 /// \file
 /// Finds the connected components that a simplification has removed although they were visible.
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/report.hpp"
@@ -15,12 +16,11 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Faces of a model, each of them in one component. Components have numbers below a common count; several
-/// placements (instances) may have faces of the same component.
-struct PlacedFaces {
-    std::vector<Vec3> positions;       ///< finite
-    TriangleView triangles;            ///< indices into `positions`; borrowed
-    std::span<const Index> component;  ///< one per face; borrowed
+/// A face of a model, where an instance of its part is placed.
+struct PlacedFace {
+    Index component;              ///< number of its component; instances may have faces of the same one
+    std::array<Vec3, 3> corners;  ///< finite
+    auto operator<=>(const PlacedFace&) const = default;
 };
 
 /// Connected components, with vertices at equal positions joined.
@@ -39,24 +39,19 @@ struct FoundComponent {
 /// \param positions  one per vertex; read where faces refer to them
 /// \param triangles  indices into `positions`
 /// \return components in the order of their first face
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(vertices log vertices + faces)
-FAQEM_EXPORT FaceComponents face_components(const PositionView& positions, TriangleView triangles,
-                                            engine::CancellationCheck check_cancelled = {});
+FAQEM_EXPORT FaceComponents face_components(const PositionView& positions, TriangleView triangles);
 
 /// Finds the components without a face in the result that had more than RemovedComponent::min_share of the area,
 /// or of the silhouette seen along one of the coordinate axes. Views in which the model covers less than 5% of the
-/// pixels of another view do not count. Silhouettes are drawn with 256 pixels along the
-/// longest side of the bounding box; a pixel counts if the face touches it, so that shares of small components
-/// are rather too large.
-/// \param model    all faces of the source
+/// cells of another view do not count. A silhouette is the cells with points of the faces, of at most 256 along the
+/// longest side of the bounding box, so that shares of small components are rather too large.
+/// \param faces    of the source, over all instances
 /// \param is_left  one per component: nonzero if the result has a face of it
 /// \return in descending order of the larger share
-/// \throws whatever `check_cancelled` throws
-/// Complexity: O(faces), times at most 256
-FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::span<const PlacedFaces> model,
-                                                            std::span<const std::uint8_t> is_left,
-                                                            engine::CancellationCheck check_cancelled = {});
+/// Complexity: O(faces log faces), and at most 10^8 points of large faces
+FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::vector<PlacedFace> faces,
+                                                            std::span<const std::uint8_t> is_left);
 
 /// Adds the components without a face in the result to its report, with a warning. Does nothing unless the report
 /// counts components that were collapsed, deleted or pruned.
