@@ -14,12 +14,13 @@ set(faqem_libraries_faqem Threads)
 set(faqem_libraries_header_only Threads)
 set(faqem_libraries_openmesh OpenMesh)
 set(faqem_libraries_openmesh_header_only OpenMesh)
-set(faqem_libraries_asset Threads OpenImageIO tinygltf)  # and faqem_decoders, those it was built with
+set(faqem_libraries_asset Threads OpenImageIO PNG libdeflate tinygltf)  # and faqem_decoders, those it was built with
 set(faqem_libraries_bake "")
 
-# For each library: its CMake package, its target, and its Debian package. OpenImageIO and tinygltf are searched for by
-# their header and library instead of their CMake packages: Debian's OpenImageIO package requires programs of another
-# Debian package and lists include directories that are not installed, and the target of tinygltf has two names.
+# For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and
+# library instead of their CMake packages: Debian's OpenImageIO package requires programs of another Debian package and
+# lists include directories that are not installed, Debian 12 has no package for libdeflate, and the target of tinygltf
+# has two names.
 set(faqem_find_Threads Threads)
 set(faqem_target_Threads Threads::Threads)
 set(faqem_debian_Threads libc6-dev)
@@ -41,6 +42,11 @@ set(faqem_debian_nlohmann_json nlohmann-json3-dev)
 set(faqem_find_CLI11 CLI11 2.0 CONFIG)
 set(faqem_target_CLI11 CLI11::CLI11)
 set(faqem_debian_CLI11 libcli11-dev)
+set(faqem_find_PNG PNG)
+set(faqem_target_PNG PNG::PNG)
+set(faqem_debian_PNG libpng-dev)
+set(faqem_target_libdeflate faqem::libdeflate)
+set(faqem_debian_libdeflate libdeflate-dev)
 set(faqem_target_OpenImageIO faqem::openimageio)
 set(faqem_debian_OpenImageIO libopenimageio-dev)
 set(faqem_target_tinygltf faqem::tinygltf)
@@ -75,22 +81,26 @@ function(faqem_find_openimageio problem)
                           INTERFACE_LINK_LIBRARIES "${FAQEM_OPENIMAGEIO_UTIL_LIBRARY}")
 endfunction()
 
-function(faqem_find_tinygltf)
-    foreach(target IN ITEMS tinygltf::tinygltf TinyGLTF::TinyGLTF)
+# faqem_find_by_header(LIBRARY HEADER TARGET...) creates the target of a library from one of the given targets, or from
+# its header and the library of that name.
+function(faqem_find_by_header library header)
+    set(own ${faqem_target_${library}})
+    foreach(target IN LISTS ARGN)
         if(TARGET ${target})
-            add_library(faqem::tinygltf INTERFACE IMPORTED)
-            target_link_libraries(faqem::tinygltf INTERFACE ${target})
+            add_library(${own} INTERFACE IMPORTED)
+            target_link_libraries(${own} INTERFACE ${target})
             return()
         endif()
     endforeach()
-    find_path(FAQEM_TINYGLTF_INCLUDE_DIR tiny_gltf.h)
-    find_library(FAQEM_TINYGLTF_LIBRARY tinygltf)
-    mark_as_advanced(FAQEM_TINYGLTF_INCLUDE_DIR FAQEM_TINYGLTF_LIBRARY)
-    if(FAQEM_TINYGLTF_INCLUDE_DIR AND FAQEM_TINYGLTF_LIBRARY)
-        add_library(faqem::tinygltf UNKNOWN IMPORTED)
-        set_target_properties(faqem::tinygltf PROPERTIES
-                              IMPORTED_LOCATION "${FAQEM_TINYGLTF_LIBRARY}"
-                              INTERFACE_INCLUDE_DIRECTORIES "${FAQEM_TINYGLTF_INCLUDE_DIR}")
+    string(TOUPPER FAQEM_${library} prefix)
+    string(REGEX REPLACE "^lib" "" name ${library})
+    find_path(${prefix}_INCLUDE_DIR ${header})
+    find_library(${prefix}_LIBRARY ${name})
+    mark_as_advanced(${prefix}_INCLUDE_DIR ${prefix}_LIBRARY)
+    if(${prefix}_INCLUDE_DIR AND ${prefix}_LIBRARY)
+        add_library(${own} UNKNOWN IMPORTED)
+        set_target_properties(${own} PROPERTIES IMPORTED_LOCATION "${${prefix}_LIBRARY}"
+                                                INTERFACE_INCLUDE_DIRECTORIES "${${prefix}_INCLUDE_DIR}")
     endif()
 endfunction()
 
@@ -106,7 +116,9 @@ function(faqem_find_libraries missing)
         elseif(library STREQUAL "OpenImageIO")
             faqem_find_openimageio(problem)
         elseif(library STREQUAL "tinygltf")
-            faqem_find_tinygltf()
+            faqem_find_by_header(tinygltf tiny_gltf.h tinygltf::tinygltf TinyGLTF::TinyGLTF)
+        elseif(library STREQUAL "libdeflate")
+            faqem_find_by_header(libdeflate libdeflate.h libdeflate::libdeflate_shared libdeflate::libdeflate_static)
         else()
             list(GET faqem_find_${library} 0 package)
             find_package(${faqem_find_${library}} QUIET)

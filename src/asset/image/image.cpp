@@ -3,12 +3,11 @@
 #include <array>
 #include <optional>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_codec.hpp"
-#include "asset/image/png_chunks.hpp"
+#include "asset/image/png_reader.hpp"
+#include "asset/image/png_writer.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -87,17 +86,17 @@ Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancel
                 decodable_format_names() + " are supported");
     check_header(image);
     if (type == "image/png") {
-        std::vector<std::uint8_t> pixels_only = without_metadata(image.encoded);
-        if (!pixels_only.empty())
-            return image_codec().decode({image.name, image.mime_type, std::move(pixels_only), image.uri},
-                                        "png", check_cancelled);
+        check_cancelled.now();
+        return read_png(image);
     }
     return image_codec().decode(image, type.substr(6), check_cancelled);
 }
 
 Image detail::encode_png(const Pixels& pixels, const std::string& name,
                          engine::CancellationCheck check_cancelled) {
-    return image_codec().encode_png(pixels, name, check_cancelled);
+    check_pixel_count(pixels, name);
+    check_cancelled.now();
+    return write_png(pixels, name);
 }
 
 Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Errors of encoded images, and checks of the image size. Inline, because both the asset library and the
+/// Errors of encoded images, and checks of sizes and pixels. Inline, because both the asset library and the
 /// codec libraries, which the asset library links to, use them.
 
 #include <cstdint>
@@ -46,6 +46,22 @@ inline void check_image_size(const Image& image, const ImageSize& size) {
         size.pixels() * 4 > max_decoded_bytes)
         fail_image(image, "is " + image_size_text(size) + " pixels, at most " +
                               image_size_text({max_image_side, max_image_side}) + " are supported");
+}
+
+/// Checks that the pixels to encode are as many as width and height say, and at least one.
+/// \param name  of the image, for the message
+/// \throws InputError  otherwise
+inline void check_pixel_count(const Pixels& pixels, const std::string& name) {
+    const std::size_t count = std::size_t{pixels.width} * pixels.height;
+    if (count == 0 || pixels.rgba.size() != count * 4)
+        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
+}
+
+/// Whether the alpha of any pixel is below 255.
+inline bool has_transparent_pixel(const Pixels& pixels) {
+    for (std::size_t i = 3; i < pixels.rgba.size(); i += 4)
+        if (pixels.rgba[i] != 255) return true;
+    return false;
 }
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Interface of the image codec, and the choice of the codec that a program uses.
+/// Interface of the image codec for formats other than PNG, and the choice of the codec that a program uses.
 ///
 /// There are two codecs: oiio_image_codec() links to OpenImageIO, and plugin_image_codec() loads a plugin
 /// that links to it. A program links to the library of one of them, which contains image_codec() and makes the
@@ -20,19 +20,17 @@ namespace faqem::detail {
 struct ImageCodec {
     /// Version of faqem that the codec was built with.
     const char* version;
-    /// Whether WebP can be decoded. PNG and JPEG always can.
+    /// Whether WebP can be decoded. JPEG always can.
     bool (*reads_webp)();
     /// Decodes an image.
     /// \param image            its header has been checked
-    /// \param format           png, jpeg or webp
+    /// \param format           jpeg or webp
     /// \param check_cancelled  called between bands of rows
     /// \throws InputError  if the image is damaged
     /// \throws Cancelled   if `check_cancelled` requests it; its other exceptions are passed on
     Pixels (*decode)(const Image& image, const std::string& format,
                      engine::CancellationCheck check_cancelled);
-    /// Same as the functions of these names in image.hpp.
-    Image (*encode_png)(const Pixels& pixels, const std::string& name,
-                        engine::CancellationCheck check_cancelled);
+    /// Same as the function of this name in image.hpp.
     Image (*encode_jpeg)(const Pixels& pixels, const std::string& name, std::uint32_t quality,
                          Content content, engine::CancellationCheck check_cancelled);
 };

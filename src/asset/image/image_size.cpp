@@ -74,13 +74,6 @@ std::uint64_t jpeg_coefficient_bytes(Bytes bytes) {
     return is_single_scan ? 0 : 2 * components;
 }
 
-/// Bytes per pixel of the image that libpng keeps if the rows are interlaced, with up to four channels.
-std::uint64_t interlaced_png_bytes(Bytes bytes) {
-    constexpr std::size_t depth_at = 24, interlace_at = 28;
-    if (bytes.size() <= interlace_at || bytes[interlace_at] == 0) return 0;
-    return bytes[depth_at] == 16 ? 8 : 4;
-}
-
 /// Size in the first chunk, which must be VP8X, VP8L or VP8 (RFC 9649).
 std::optional<ImageSize> webp_size(Bytes bytes) {
     if (bytes.size() < 30) return {};
@@ -111,7 +104,7 @@ std::uint64_t decoding_memory(Bytes bytes) {
     const std::string type = sniff_mime_type(bytes);
     // libwebp keeps the canvas, a frame and its own copy of the pixels.
     std::uint64_t per_pixel = 16;
-    if (type == "image/png") per_pixel = interlaced_png_bytes(bytes);
+    if (type == "image/png") per_pixel = 0;  // libpng keeps single rows
     if (type == "image/jpeg") per_pixel = jpeg_coefficient_bytes(bytes);
     return bytes.size() + per_pixel * size->pixels();
 }

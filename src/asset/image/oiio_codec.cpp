@@ -17,16 +17,12 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// Checks the image that the decoder is about to produce. A PNG that is too short for its pixels is detected
-/// before memory is allocated: deflate expands one byte to at most 1032 bytes (zlib, "Technical Details").
-void check_spec(const Image& image, const OIIO::ImageSpec& spec, const std::string& format) {
+/// Checks the image that the decoder is about to produce.
+void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
     if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
         fail_image(image, "is not a two-dimensional image");
-    const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
-    check_image_size(image, size);
-    const auto bits = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("oiio:BitsPerSample"), 1));
-    if (format == "png" && size.pixels() * bits / 8 / 1032 > image.encoded.size())
-        fail_truncated_image(image, size);
+    check_image_size(image,
+                     {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
 }
 
 /// Calls work(begin, end) for bands of rows and checks for cancellation before each band. A band takes a few
@@ -60,9 +56,7 @@ void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t ch
 }
 
 OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int channels) {
-    const std::size_t count = std::size_t{pixels.width} * pixels.height;
-    if (count == 0 || pixels.rgba.size() != count * 4)
-        throw InputError("", "image '" + name + "'", "its pixels do not match its width and height");
+    check_pixel_count(pixels, name);
     return OIIO::ImageSpec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
                            OIIO::TypeDesc::UINT8);
 }
@@ -117,7 +111,7 @@ Pixels decode_as(const Image& image, const std::string& format, engine::Cancella
     OIIO::ImageSpec spec, config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (!input->open("memory." + format, spec, config)) fail_image(image, first_line(input->geterror()));
-    check_spec(image, spec, format);
+    check_spec(image, spec);
 
     Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(spec.width);
@@ -144,13 +138,6 @@ Pixels decode_as(const Image& image, const std::string& format, engine::Cancella
     return pixels;
 }
 
-Image encode_as_png(const Pixels& pixels, const std::string& name,
-                    engine::CancellationCheck check_cancelled) {
-    OIIO::ImageSpec spec = spec_of(pixels, name, pixels.has_alpha ? 4 : 3);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    return encode(pixels, name, spec, "png", check_cancelled);
-}
-
 Image encode_as_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content,
                      engine::CancellationCheck check_cancelled) {
     OIIO::ImageSpec spec = spec_of(pixels, name, 3);
@@ -162,7 +149,7 @@ Image encode_as_jpeg(const Pixels& pixels, const std::string& name, std::uint32_
 }  // namespace
 
 const ImageCodec& oiio_image_codec() {
-    static constexpr ImageCodec codec = {FAQEM_VERSION, reads_webp, decode_as, encode_as_png, encode_as_jpeg};
+    static constexpr ImageCodec codec = {FAQEM_VERSION, reads_webp, decode_as, encode_as_jpeg};
     return codec;
 }
 

@@ -29,12 +29,6 @@ Pixels decode_to_nothing(const Image&, const std::string& format, engine::Cancel
     return {static_cast<std::uint32_t>(format.size()), 0, {}, false};
 }
 
-Image encode_png_to_name(const Pixels&, const std::string& name, engine::CancellationCheck) {
-    Image image;
-    image.name = "PNG " + name;
-    return image;
-}
-
 Image encode_jpeg_to_name(const Pixels&, const std::string& name, std::uint32_t quality, Content,
                           engine::CancellationCheck) {
     Image image;
@@ -42,8 +36,7 @@ Image encode_jpeg_to_name(const Pixels&, const std::string& name, std::uint32_t 
     return image;
 }
 
-constexpr detail::ImageCodec fake_codec = {"test", reads_webp, decode_to_nothing, encode_png_to_name,
-                                           encode_jpeg_to_name};
+constexpr detail::ImageCodec fake_codec = {"test", reads_webp, decode_to_nothing, encode_jpeg_to_name};
 
 const detail::ImageCodec& provide_fake() {
     ++provider_calls;
@@ -71,10 +64,15 @@ private:
     detail::ImageCodecProvider previous_;
 };
 
-/// The bytes of a PNG of 1 x 1 pixels up to the end of its header.
-Image png_header() {
+/// The bytes of a JPEG of 1 x 1 pixels up to the end of its header.
+Image jpeg_header() {
     using namespace std::string_literals;
-    return image_of("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\2\0\0\0\x90\x77\x53\xde"s);
+    return image_of("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\1\1\1\x11\0"s);
+}
+
+/// Encodes with quality 90.
+Image encode(const Pixels& pixels, const std::string& name) {
+    return encode_jpeg(pixels, name, 90, Content::color);
 }
 
 /// The bytes of a lossy WebP of 1 x 1 pixels up to the end of its header.
@@ -94,39 +92,38 @@ TEST_CASE("the image codec provider is called once, when the codec is needed") {
     const WithProvider fake(provide_fake);
     CHECK(provider_calls == 0);
     std::vector<std::thread> threads;
-    for (int i = 0; i < 4; ++i) threads.emplace_back([] { encode_png({}, "a"); });
+    for (int i = 0; i < 4; ++i) threads.emplace_back([] { encode({}, "a"); });
     for (std::thread& thread : threads) thread.join();
-    CHECK(encode_png({}, "a").name == "PNG a");
-    CHECK(encode_jpeg({}, "b", 90, Content::data).name == "JPEG b 90");
-    CHECK(decode(png_header()).width == 3);  // "png"
+    CHECK(encode({}, "a").name == "JPEG a 90");
+    CHECK(decode(jpeg_header()).width == 4);  // "jpeg"
     CHECK(decode_calls == 1);
     CHECK(provider_calls == 1);
 }
 
 TEST_CASE("setting the image codec provider switches the codec") {
     const Pixels pixels{1, 1, {1, 2, 3, 255}, false};
-    const Image before = encode_png(pixels, "a");
+    const Image before = encode(pixels, "a");
     {
         const WithProvider fake(provide_fake);
-        CHECK(encode_png(pixels, "a").name == "PNG a");
+        CHECK(encode(pixels, "a").name == "JPEG a 90");
         CHECK(detail::set_image_codec_provider(detail::oiio_image_codec) == &provide_fake);
-        CHECK(encode_png(pixels, "a").encoded == before.encoded);
+        CHECK(encode(pixels, "a").encoded == before.encoded);
         CHECK(detail::set_image_codec_provider(provide_fake) == &detail::oiio_image_codec);
-        CHECK(encode_png(pixels, "a").name == "PNG a");
+        CHECK(encode(pixels, "a").name == "JPEG a 90");
         CHECK(provider_calls == 2);
     }
-    CHECK(encode_png(pixels, "a").encoded == before.encoded);
+    CHECK(encode(pixels, "a").encoded == before.encoded);
 }
 
 TEST_CASE("an image codec provider that throws is called again") {
     const WithProvider fake(provide_fake);
     provider_fails = true;
-    for (int i = 0; i < 2; ++i) CHECK_THROWS_WITH(encode_png({}, "a"), "no codec");
-    CHECK_THROWS_WITH(decode(png_header()), "no codec");
+    for (int i = 0; i < 2; ++i) CHECK_THROWS_WITH(encode({}, "a"), "no codec");
+    CHECK_THROWS_WITH(decode(jpeg_header()), "no codec");
     CHECK(provider_calls == 3);
     provider_fails = false;
-    CHECK(encode_png({}, "a").name == "PNG a");
-    CHECK(encode_png({}, "a").name == "PNG a");
+    CHECK(encode({}, "a").name == "JPEG a 90");
+    CHECK(encode({}, "a").name == "JPEG a 90");
     CHECK(provider_calls == 4);
 }
 
@@ -150,6 +147,6 @@ TEST_CASE("PNG and JPEG are known to be supported without the image codec, WebP 
 
 TEST_CASE("the header of an image is checked before the image codec is needed") {
     const WithProvider fake(provide_fake);
-    CHECK_THROWS_AS(decode(image_of("\x89PNG\r\n\x1a\n")), InputError);
+    CHECK_THROWS_AS(decode(image_of("\xff\xd8\xff\xe0")), InputError);
     CHECK(provider_calls == 0);
 }

@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// Encoding of PNG files.
+
+#include <string>
+
+#include "faqem/asset.hpp"
+
+namespace faqem::detail {
+
+/// Encodes pixels as a PNG with 8 bits per sample, as grey or RGB, with alpha or without, or as palette indices:
+/// the smallest of those that hold the pixels. Each row has the filter whose result has the least sum of
+/// absolute values (W3C PNG specification, "Filter selection").
+/// \param pixels  of the declared size, at least one. If Pixels::has_alpha is false, alpha is not written
+/// \param name    Image::name of the result
+/// O(pixels)
+Image write_png(const Pixels& pixels, const std::string& name);
+
+}  // namespace faqem::detail
