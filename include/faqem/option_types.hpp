@@ -149,6 +149,7 @@ enum class Normals {
 
 /// Encoding of baked images. Images with alpha are always PNG.
 enum class ImageFormat {
+    automatic,  ///< the smallest that is within BakeOptions::image_quality, possibly with fewer texels
     png,
     jpeg,    ///< with BakeOptions::jpeg_quality
     source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG

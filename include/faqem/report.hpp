@@ -100,6 +100,14 @@ struct BakedPage {
     std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
 };
 
+/// An image of the result.
+struct ResultImage {
+    std::string name;                     ///< may be empty
+    std::string mime_type;                ///< for example image/jpeg; empty if the format is unknown
+    std::uint32_t width = 0, height = 0;  ///< texels; 0 if the header cannot be read
+    std::uint64_t bytes = 0;              ///< encoded
+};
+
 /// Summary of one run. Counts are sums if several meshes were simplified.
 struct Report {
     Preset preset = Preset::balanced;
@@ -125,6 +133,10 @@ struct Report {
     std::optional<MeasuredError> max_error = {};  ///< if Options::max_error is set and the run was completed
     std::vector<BakedPage> pages;                 ///< pages of a new atlas; only of materials with images
     std::vector<std::string> warnings;
+    std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
+    /// Total size of the files of the model before and after, without those of history and correspondence. Set by
+    /// the command; 0: unknown.
+    std::uint64_t bytes_in = 0, bytes_out = 0;
     PhaseSeconds seconds;
 };
 

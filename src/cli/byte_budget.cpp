@@ -17,6 +17,10 @@ constexpr std::uint32_t min_texture_size = 64;
 constexpr std::uint64_t min_faces = 4;
 constexpr int max_runs = 8;
 
+/// BakeOptions::image_quality for a result that does not fit at the wanted quality, before the sides of its
+/// images are halved.
+constexpr double low_quality = 34;
+
 /// Factor on the estimated face target: the number of bytes per face varies slightly between runs.
 constexpr double safety_factor = 0.98;
 
@@ -27,6 +31,8 @@ bool is_image(const fs::path& file) {
 
 std::string encoding_name(const BakeOptions& bake) {
     switch (bake.image_format) {
+        case ImageFormat::automatic:
+            return "within " + std::to_string(static_cast<int>(bake.image_quality)) + " dB";
         case ImageFormat::png:
             return "PNG";
         case ImageFormat::jpeg:
@@ -89,11 +95,11 @@ private:
         }
     }
 
-    // Selects the next smaller image encoding or size. Returns false if there is none.
+    // Selects the next smaller image quality or size. Returns false if there is none.
     bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
-        if (budget_.encoding == ImageEncodingChoice::automatic && bake.image_format != ImageFormat::jpeg) {
-            bake.image_format = ImageFormat::jpeg;
+        if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_quality) {
+            bake.image_quality = low_quality;
             return true;
         }
         if (bake.texture_size <= min_texture_size) return false;

@@ -16,14 +16,10 @@ public:
     using Error::Error;
 };
 
-/// Whether the encoding of baked images may be changed. An encoding specified by the user is kept.
-enum class ImageEncodingChoice { automatic, user_specified };
-
 /// A byte budget for the files of one model.
 struct ByteBudget {
     std::uint64_t bytes = 0;     ///< total size of all files, > 0
     std::filesystem::path file;  ///< name of the output; its extension selects the format
-    ImageEncodingChoice encoding = ImageEncodingChoice::automatic;
 };
 
 /// Size of the files of a model.
@@ -42,8 +38,8 @@ ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 /// Calls simplify() and, while the result exceeds the budget, reduces it in this order:
 /// 1. fewer faces, until the geometry takes at most half of the budget, or what existing images leave of it
 ///    if no image is baked;
-/// 2. smaller baked images: JPEG instead of PNG unless the user specified the encoding, then half the side,
-///    repeatedly, down to 64 texels;
+/// 2. smaller baked images: with ImageFormat::automatic a lower quality, then half the side, repeatedly, down to
+///    64 texels;
 /// 3. fewer faces, if the smallest images leave less than half of the budget.
 /// Returns the first result that fits. If anything was reduced, the report has a warning with the sizes.
 /// Complexity: at most 8 simplifications for each of steps 1 and 3, and 9 bakes in step 2, each with a

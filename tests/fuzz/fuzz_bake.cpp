@@ -97,7 +97,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.bake.mapping = static_cast<Mapping>(kinds / 6 % 3);
     options.bake.normals = static_cast<Normals>(kinds / 18 % 4);
     options.bake.normal_map = static_cast<NormalMap>(more % 3);
-    options.bake.image_format = static_cast<ImageFormat>(more / 3 % 3);
+    options.bake.image_format = static_cast<ImageFormat>(more / 3 % 4);
     options.bake.crease_angle = more / 9 * 8;
     if (makes_atlas(options.bake.kind) && bits & 4) options.bake.correspondence = Recording::on;
     options.bake.texture_size = bits & 8 ? 128 : 64;

@@ -29,7 +29,7 @@ std::string changed_text(const OptionRow& row) {
             if (word != option_text({}, row)) return word;
         }
     }
-    for (const char* text : {"0.5", "7", "128"}) {
+    for (const char* text : {"0.5", "7", "50", "128"}) {
         try {
             Options options;
             set_option(options, row, text, name_spelling);
@@ -104,10 +104,10 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 7) prune = of_diagonal(0.1);
         }));
     }
-    for (std::size_t k = 0; k < 11; ++k) {
+    for (std::size_t k = 0; k < 12; ++k) {
         CHECK(changes_key([k](Options& o) {
-            auto& [kind, size, density, normal_map, mapping, samples, normals, angle, format, quality,
-                   correspondence] = o.bake;
+            auto& [kind, size, density, normal_map, mapping, samples, normals, angle, format, image_quality,
+                   quality, correspondence] = o.bake;
             if (k == 0) kind = Bake::keep;
             if (k == 1) size = 64;
             if (k == 2) density = 1;
@@ -119,6 +119,7 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 8) format = ImageFormat::jpeg;
             if (k == 9) quality = 80;
             if (k == 10) correspondence = Recording::on;
+            if (k == 11) image_quality = 50;
         }));
     }
 }

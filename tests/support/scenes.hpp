@@ -6,7 +6,6 @@
 #include <functional>
 #include <numeric>
 
-#include "asset/image/srgb.hpp"
 #include "faqem/bake.hpp"
 #include "support/hand_history.hpp"
 #include "support/meshes.hpp"
@@ -75,6 +74,13 @@ inline Asset textured_square(const Pixels& pixels) {
     return asset;
 }
 
+/// Options of which the images are the baked texels.
+inline Options lossless() {
+    Options options;
+    options.bake.image_format = ImageFormat::png;
+    return options;
+}
+
 /// The parts of an asset as simplified parts without collapses. Vertices are not welded.
 inline SimplifiedParts unchanged(const Asset& asset) {
     SimplifiedParts simplified;
@@ -136,7 +142,8 @@ inline Pixels base_color_image(const Asset& asset, std::size_t material = 0) {
     if (m.base_color_texture) return decode(asset.images.at(m.base_color_texture.image));
     Rgba texel;
     for (std::size_t k = 0; k < 4; ++k) {
-        const double value = k < 3 ? detail::srgb_from_linear(m.base_color[k]) : m.base_color[k];
+        const double c = m.base_color[k];
+        const double value = k == 3 ? c : c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
         texel[k] = static_cast<std::uint8_t>(std::lround(255 * value));
     }
     return paint(1, 1, [&](std::uint32_t, std::uint32_t) { return texel; });

@@ -22,7 +22,7 @@ FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, st
 
 /// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2,
 /// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.
-std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
+FAQEM_EXPORT std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
 /// Whether decode() supports the media type: PNG and JPEG, for which the image codec is not loaded, and WebP
 /// if the codec can read it.

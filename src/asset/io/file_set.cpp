@@ -72,11 +72,13 @@ void FileSet::add(std::span<const FileContent> files, Overwrite overwrite) {
         throw WriteError(error.path1().string() + ": cannot write: " + error.code().message());
     }
     std::move(pending.begin(), pending.end(), std::back_inserter(files_));
+    for (const FileContent& file : files) bytes_ += file.bytes.size();
 }
 
 void FileSet::commit(void (*completed)() noexcept) {
     replace_files(files_, completed);
     files_.clear();
+    bytes_ = 0;
 }
 
 CollectWrites::CollectWrites(FileSet& set) { collecting_set = &set; }

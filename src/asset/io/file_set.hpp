@@ -59,7 +59,11 @@ public:
     ///                     so, and the next run that writes to the folder restores the files
     void commit(void (*completed)() noexcept = nullptr);
 
+    /// Total size of the files that were added, bytes.
+    std::uint64_t bytes() const { return bytes_; }
+
 private:
+    std::uint64_t bytes_ = 0;
     std::vector<PendingFile> files_;
 };
 

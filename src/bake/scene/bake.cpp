@@ -1,10 +1,12 @@
 #include "faqem/bake.hpp"
 
-#include "asset/scene/messages.hpp"
-
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "asset/image/image.hpp"
+#include "asset/image/image_size.hpp"
+#include "asset/scene/messages.hpp"
 #include "bake/scene/check_asset.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
@@ -93,6 +95,17 @@ void set_file_orders(BakeJob& job) {
     }
 }
 
+void report_images(const Asset& asset, Report& report) {
+    for (const Image& image : asset.images) {
+        const std::optional<ImageSize> size = declared_size(image.encoded);
+        const auto side = [&](std::uint64_t ImageSize::*member) {
+            return size ? static_cast<std::uint32_t>(*size.*member) : 0;
+        };
+        report.images.push_back({image.name, sniff_mime_type(image.encoded), side(&ImageSize::width),
+                                 side(&ImageSize::height), image.encoded.size()});
+    }
+}
+
 // Bakes the parts with their histories. The callers add the histories to the result: one copies them, the
 // other moves them.
 SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
@@ -114,6 +127,7 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
         seconds.map = watch.seconds();
         bake_by_kind(job);
         set_file_orders(job);
+        report_images(job.result.asset, job.result.report);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
         job.result.asset.parts.clear();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bake/texture/push_pull.hpp"
+#include "bake/texture/shown_texels.hpp"
 #include "bake/texture/texel_projector.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
@@ -141,8 +142,10 @@ public:
                             push_pull(image, known, {0, 3}, check_cancelled);
                             if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, check_cancelled);
                         });
-        images_.known = std::move(is_covered_);
+        images_.known = shown_texels(request_.atlas);
         images_.known_layers = std::move(has_layer_samples_);
+        for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
+            images_.known_layers[i] = images_.known_layers[i] && images_.known[i];
         return std::move(images_);
     }
 

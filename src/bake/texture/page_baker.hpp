@@ -34,10 +34,10 @@ struct PageImages {
     std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
     std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
     std::uint64_t texels = 0;                   ///< texels that show a triangle
-    std::vector<std::uint8_t> known;            ///< by texel: nonzero if it shows a triangle
+    std::vector<std::uint8_t> known;  ///< by texel: nonzero if a triangle shows it, see shown_texels()
     /// By texel: nonzero if `layers` are known. Empty without layers.
     std::vector<std::uint8_t> known_layers;
-    std::vector<TexelOrigin> origins;           ///< by texel; empty unless options.bake.correspondence is on
+    std::vector<TexelOrigin> origins;  ///< by texel; empty unless options.bake.correspondence is on
 };
 
 /// Bakes the images of a page.

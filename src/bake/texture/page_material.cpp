@@ -11,11 +11,16 @@
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "bake/texture/constant_image.hpp"
+#include "bake/texture/image_choice.hpp"
 
 namespace faqem::detail {
 namespace {
 
 using TextureMember = TextureRef Material::*;
+
+// By how many dB an image of normals, roughness and the like may be worse than one of colours: differences in
+// them are less visible (docs/appearance.md, "Image formats").
+constexpr double data_allowance = 6;
 
 // Adds the images of one page to the result: add() appends an empty image, write() encodes all in parallel.
 class ImageWriter {
@@ -23,24 +28,31 @@ public:
     ImageWriter(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
 
     /// \param pixels  borrowed until write()
+    /// \param known   by texel: nonzero if it shows a triangle; borrowed until write()
     /// \param from    textures of the source that the image is baked from
-    TextureRef add(const Pixels& pixels, const std::string& suffix, Content content,
-                   const std::vector<TextureRef>& from) {
+    TextureRef add(const Pixels& pixels, std::span<const std::uint8_t> known, const std::string& suffix,
+                   Content content, const std::vector<TextureRef>& from) {
         std::vector<Image>& images = job_.result.asset.images;
         TextureRef ref;
         ref.image = static_cast<Index>(images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
         images.emplace_back();
-        pending_.push_back({pixels, name_ + suffix, content, should_use_jpeg(pixels, from), ref.image});
+        pending_.push_back(
+            {pixels, known, name_ + suffix, content, should_use_jpeg(pixels, from), ref.image});
         return ref;
     }
 
     void write() const {
         const auto encode = [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-            const auto& [pixels, name, content, is_jpeg, image] = pending_[i];
-            job_.result.asset.images[image] =
-                is_jpeg ? encode_jpeg(pixels, name, job_.options.bake.jpeg_quality, content, check_cancelled)
-                        : encode_png(pixels, name, check_cancelled);
+            const auto& [pixels, known, name, content, is_jpeg, image] = pending_[i];
+            const BakeOptions& bake = job_.options.bake;
+            Image& to = job_.result.asset.images[image];
+            if (bake.image_format == ImageFormat::automatic)
+                to = encode_smallest(pixels, known, name, content, limits(content), check_cancelled);
+            else if (is_jpeg)
+                to = encode_jpeg(pixels, name, bake.jpeg_quality, content, check_cancelled);
+            else
+                to = encode_png(pixels, name, check_cancelled);
         };
         parallel_blocks(pending_.size(), 1, job_.workers(), encode);
     }
@@ -48,15 +60,24 @@ public:
 private:
     struct PendingImage {
         const Pixels& pixels;
+        std::span<const std::uint8_t> known;
         std::string name;
         Content content;
         bool is_jpeg;
         Index image;
     };
 
+    // A density that was asked for is kept, as is the resolution that a correspondence has.
+    ImageLimits limits(Content content) const {
+        const BakeOptions& bake = job_.options.bake;
+        const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
+        return {bake.image_quality - (content == Content::data ? data_allowance : 0), may_shrink};
+    }
+
     bool should_use_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {
         if (pixels.has_alpha) return false;
         switch (job_.options.bake.image_format) {
+            case ImageFormat::automatic:
             case ImageFormat::png:
                 return false;
             case ImageFormat::jpeg:
@@ -96,9 +117,9 @@ void add_layers(ImageWriter& writer, const Material& source, std::span<const Ext
         if (is_neutral(layer, images.layers[i], images.known_layers)) continue;
         const Content content =
             layer.encoding() == TexelEncoding::color_and_data_alpha ? Content::color : Content::data;
-        const TextureRef ref =
-            writer.add(images.layers[i], suffix_of(source.extension_textures[layer.textures.front()]),
-                       content, {layer.texture_ref});
+        const TextureRef ref = writer.add(images.layers[i], images.known_layers,
+                                          suffix_of(source.extension_textures[layer.textures.front()]),
+                                          content, {layer.texture_ref});
         for (const Index t : layer.textures) {
             const ExtensionTexture& texture = source.extension_textures[t];
             result.extension_textures.push_back({texture.extension, texture.name, ref});
@@ -151,8 +172,8 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::optional<Vec4f> constant = constant_base_color(images);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
         if (!constant)
-            result.base_color_texture =
-                writer.add(images.base, "_baseColor", Content::color, uses({&Material::base_color_texture}));
+            result.base_color_texture = writer.add(images.base, images.known, "_baseColor", Content::color,
+                                                   uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
         const auto [occlusion, roughness, metallic, alpha] =
@@ -161,9 +182,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
         TextureRef orm;
         if (has_occlusion || is_varying) {
-            orm =
-                writer.add(images.occlusion_roughness_metallic, "_occlusionRoughnessMetallic", Content::data,
-                           uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
+            orm = writer.add(images.occlusion_roughness_metallic, images.known, "_occlusionRoughnessMetallic",
+                             Content::data,
+                             uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
         }
         if (has_occlusion) result.occlusion_texture = orm;
         if (channels.metallic_roughness) {
@@ -176,12 +197,12 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::optional<Vec3f> constant = constant_emission(images);
         result.emissive = constant.value_or(Vec3f{1, 1, 1});
         if (!constant)
-            result.emissive_texture =
-                writer.add(images.emissive, "_emissive", Content::color, uses({&Material::emissive_texture}));
+            result.emissive_texture = writer.add(images.emissive, images.known, "_emissive", Content::color,
+                                                 uses({&Material::emissive_texture}));
     }
     if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
-        result.normal_texture =
-            writer.add(images.normal, "_normal", Content::data, uses({&Material::normal_texture}));
+        result.normal_texture = writer.add(images.normal, images.known, "_normal", Content::data,
+                                           uses({&Material::normal_texture}));
     }
     add_layers(writer, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
                result);

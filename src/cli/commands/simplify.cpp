@@ -20,6 +20,7 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/protected_files.hpp"
+#include "cli/referenced_files.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -87,11 +88,25 @@ void print_counts(std::ostream& out, const Report& report) {
     if (separator == ", ") out << "\n";
 }
 
+/// A size for people: `812 bytes`, `1.2 kB`, `34.5 MB`.
+std::string shown_bytes(std::uint64_t bytes) {
+    if (bytes < 1000) return std::to_string(bytes) + " bytes";
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(1);
+    if (bytes < 999'950)
+        out << static_cast<double>(bytes) / 1e3 << " kB";
+    else
+        out << static_cast<double>(bytes) / 1e6 << " MB";
+    return out.str();
+}
+
 void print_summary(const SimplifyCommandArguments& arguments, const Report& report) {
     std::ostringstream out;
     out << arguments.in << " -> " << arguments.out << "\n"
         << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
         << name(report.stop) << ", preset " << name(report.preset) << "\n";
+    if (report.bytes_out > 0)
+        out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << "\n";
     if (report.max_error) {
         const MeasuredError& error = *report.max_error;
         out << "distance: at least " << error.value << ", at most " << error.bound << " (allowed "
@@ -104,6 +119,13 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     out << std::fixed << std::setprecision(2) << "seconds: load " << s.load << ", simplify " << s.simplify
         << ", map " << s.map << ", bake " << s.bake << ", save " << s.save << ", total " << s.total << "\n";
     std::cout << out.str();
+}
+
+/// Total size of a model and the files that it refers to.
+std::uint64_t input_bytes(const std::filesystem::path& model) {
+    std::vector<std::filesystem::path> files = referenced_files(model, References::readable);
+    files.push_back(model);
+    return total_file_size(files);
 }
 
 Asset load_input(const SimplifyCommandArguments& arguments, PhaseSeconds& seconds) {
@@ -129,6 +151,7 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
     const Stopwatch watch;
     const std::vector<std::string> save_warnings =
         save(simplified.asset, arguments.out, arguments.overwrite());
+    simplified.report.bytes_out = set.bytes();
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
     simplified.report.warnings.insert(simplified.report.warnings.end(), save_warnings.begin(),
@@ -138,9 +161,7 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
 
 std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments) {
     if (arguments.max_bytes == 0) return std::nullopt;
-    return ByteBudget{arguments.max_bytes, arguments.out,
-                      is_given(arguments.options, "image-format") ? ImageEncodingChoice::user_specified
-                                                                  : ImageEncodingChoice::automatic};
+    return ByteBudget{arguments.max_bytes, arguments.out};
 }
 
 int run(const SimplifyCommandArguments& arguments) {
@@ -172,6 +193,7 @@ int run(const SimplifyCommandArguments& arguments) {
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
         simplified = simplify_model(source, arguments.in, options, byte_budget(arguments));
         simplified.report.seconds.load = seconds.load;
+        simplified.report.bytes_in = input_bytes(arguments.in);
         simplified.report.warnings.insert(simplified.report.warnings.begin(), source.warnings.begin(),
                                           source.warnings.end());
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();

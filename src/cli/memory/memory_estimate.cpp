@@ -46,11 +46,10 @@ double simplify_bytes_per_face(const Options& options) {
 }
 
 constexpr double history_bytes_per_face = 250;  // collapse history and the data structures of the baking map
-constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
+constexpr double visibility_bytes_per_face = 450;  // per face of all instances, with --visibility weighted
 constexpr double search_factor = 1.3;  // --max-error: best mesh so far and the distance measurement
 constexpr double bytes_per_corner_value = 12;
-constexpr double image_library_bytes =
-    140e6;  // libraries loaded with the first image that is decoded or encoded (src/image_plugin)
+constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
 constexpr double bake_bytes_per_layer_texel = 9;  // per texel of each texture of material extensions
 

@@ -38,7 +38,7 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
 
 TEST_CASE("a baked square has the colours of the source up to the boundaries of its triangles") {
     const Asset asset = textured_square(ramp(128));
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified);
     CHECK(std::has_single_bit(atlas.width));
     CHECK(worst(asset.parts[0], ramp(128), simplified.asset.parts[0], atlas) < 2.5);
@@ -62,7 +62,7 @@ TEST_CASE("adjacent triangles in the atlas do not bleed into each other") {
     part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     part.triangles = {{0, 1, 2}, {3, 4, 5}};
     part.uvs = {{{0, 0}, {0.4f, 0}, {0, 0.4f}, {1, 1}, {0.6f, 1}, {1, 0.6f}}};
-    Options options;
+    Options options = lossless();
     options.bake.texture_size = GENERATE(64u, 256u);
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(worst(part, split, simplified.asset.parts[0], base_pixels(simplified)) < 0.01);
@@ -74,7 +74,7 @@ TEST_CASE("base colour factor and vertex colours are applied in linear light") {
     }));
     asset.materials[0].base_color = {0.5f, 0.25f, 1, 1};
     asset.parts[0].colors.assign(4, {1, 1, 0.5f, 1});
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified);
     const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
     CHECK(c[0] == Approx(137).margin(1));  // sRGB 188 is 0.503 in linear light, half of which is sRGB 137
@@ -87,7 +87,7 @@ TEST_CASE("all texels of a page are filled") {
     const Asset asset = textured_square(paint(32, 32, [](std::uint32_t x, std::uint32_t) {
         return Rgba{9, static_cast<std::uint8_t>(x < 16 ? 99 : 101), 199, 255};
     }));
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified);
     for (std::size_t t = 0; t < atlas.rgba.size(); t += 4) {
         REQUIRE(atlas.rgba[t] == 9);
@@ -102,7 +102,7 @@ TEST_CASE("textures with repeat wrap mode are unrolled") {
     TextureRef& use = asset.materials[0].base_color_texture;
     use.wrap_u = use.wrap_v = Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {3 * uv[0] - 1, 2 * uv[1]};
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified), painted = ramp(32);
     std::size_t compared = 0;
     for (std::size_t f = 0; f < 2; ++f) {
@@ -134,7 +134,7 @@ TEST_CASE("materials share a page only if their alpha modes are equal") {
     part.uvs[0].insert(part.uvs[0].end(), 3, {0, 0});
     part.triangles.push_back({4, 5, 6});
     part.face_material = {0, 1, 2};
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     REQUIRE(simplified.asset.materials.size() == 2);
     CHECK(simplified.asset.parts[0].face_material == std::vector<Index>{0, 0, 1});
     const Pixels atlas = base_pixels(simplified);
@@ -155,7 +155,7 @@ TEST_CASE("materials with extensions are not merged") {
     asset.materials[1].extensions = {"KHR_materials_clearcoat"};
     asset.materials[1].source = 5;
     asset.parts[0].face_material = {0, 1};
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     REQUIRE(simplified.asset.materials.size() == 2);
     CHECK(simplified.asset.materials[1].source == 5);
     CHECK(simplified.asset.materials[1].extensions == asset.materials[1].extensions);
@@ -168,7 +168,7 @@ TEST_CASE("alpha masks are preserved and transparent texels do not darken their 
     Asset asset = textured_square(leaf);
     asset.materials[0].alpha_mode = AlphaMode::mask;
     asset.materials[0].alpha_cutoff = 0.3f;
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified);
     CHECK(atlas.has_alpha);
     CHECK(simplified.asset.materials[0].alpha_mode == AlphaMode::mask);
@@ -189,7 +189,7 @@ TEST_CASE("the alpha of an opaque material is ignored") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{10, 20, 30, 0};
     }));
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Pixels atlas = base_pixels(simplified);
     for (std::size_t i = 3; i < atlas.rgba.size(); i += 4) REQUIRE(atlas.rgba[i] == 255);
     const auto c = look(simplified.asset.parts[0], atlas, 0, {0.3, 0.3, 0.4});
@@ -213,7 +213,7 @@ TEST_CASE("metallic, roughness, occlusion and emissive textures are baked with t
     m.emissive = {1, 0.5f, 0};
     m.emissive_texture.image = add_texture(asset, left({255, 188, 255, 255}));
     m.normal_texture.image = add_texture(asset, left({128, 128, 255, 255}));
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     const Material& out = simplified.asset.materials[0];
     REQUIRE(out.metallic_roughness_texture);
     CHECK(out.metallic_roughness_texture.image == out.occlusion_texture.image);
@@ -242,7 +242,7 @@ TEST_CASE("parts share a page and images do not depend on the number of threads"
     for (Vec3& p : asset.parts[1].positions) p[2] = 5;
     std::vector<std::uint8_t> first;
     for (std::uint32_t threads : {1u, 2u, 5u}) {
-        Options options;
+        Options options = lossless();
         options.threads = threads;
         const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
         REQUIRE(simplified.asset.images.size() == 1);
@@ -256,7 +256,7 @@ TEST_CASE("parts share a page and images do not depend on the number of threads"
 
 TEST_CASE("pages are not larger than texture_size") {
     const Asset asset = textured_square(ramp(256));
-    Options options;
+    Options options = lossless();
     options.bake.texture_size = 64;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_pixels(simplified);
@@ -271,7 +271,7 @@ TEST_CASE("minified textures are averaged") {
         return Rgba{c, c, c, 255};
     });
     const Asset asset = textured_square(noise);
-    Options options;
+    Options options = lossless();
     options.bake.texture_size = 64;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_pixels(simplified);
@@ -286,7 +286,7 @@ TEST_CASE("with more charts or triangles than texels vertex colours are baked wi
     Part& part = asset.parts[0];
     for (int i = 0; i < 70 * 70; ++i) part.triangles.push_back(part.triangles[i % 2]);
     part.face_material.assign(part.triangles.size(), 0);
-    Options options;
+    Options options = lossless();
     options.bake.texture_size = 64;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(simplified.asset.images.empty());
@@ -308,7 +308,7 @@ TEST_CASE("only parts that lost faces, or that have no order of their own, may b
                    square()};
     asset.materials.resize(1);
     asset.parts[2].file_order = FileOrder::for_gpu;
-    Options options;
+    Options options = lossless();
     options.bake.kind = GENERATE(Bake::automatic, Bake::vertex, Bake::keep, Bake::none);
     options.history = GENERATE(Recording::on, Recording::off);
     options.target = faces(40);
@@ -328,7 +328,7 @@ TEST_CASE("only parts that lost faces, or that have no order of their own, may b
 
 TEST_CASE("the progress callback can cancel bake") {
     const Asset asset = textured_square(ramp(64));
-    Options options;
+    Options options = lossless();
     int calls = 0;
     options.progress = [&](Phase phase, double fraction) {
         CHECK(fraction >= 0);
@@ -358,7 +358,7 @@ TEST_CASE("an asset without faces is accepted") {
     asset.parts[1].source = 3;
     for (Bake kind :
          {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
-        Options options;
+        Options options = lossless();
         options.bake.kind = kind;
         const SimplifiedAsset simplified = simplify(asset, options);
         REQUIRE(simplified.asset.parts.size() == 2);

@@ -27,7 +27,7 @@ Asset roof() {
 
 Part normals_of(Normals kind, double angle) {
     const Asset asset = roof();
-    Options options;
+    Options options = lossless();
     options.bake.kind = Bake::none;
     options.bake.normals = kind;
     options.bake.crease_angle = angle;
@@ -35,7 +35,7 @@ Part normals_of(Normals kind, double angle) {
 }
 
 Options encoded_as(ImageFormat format) {
-    Options options;
+    Options options = lossless();
     options.bake.image_format = format;
     return options;
 }
@@ -69,14 +69,14 @@ TEST_CASE("normals can be omitted without baking and then no vertex is split") {
     const Part part = normals_of(Normals::none, 40);
     CHECK(part.normals.empty());
     CHECK(part.positions.size() == 6);
-    Options options;
+    Options options = lossless();
     options.bake.normals = Normals::none;
     CHECK_THROWS_AS(bake(roof(), unchanged(roof()), options), OptionError);
 }
 
 TEST_CASE("baked images are PNG or JPEG or have the format of the source") {
     Asset asset = textured_square(ramp(64));
-    CHECK(base_image(bake(asset, unchanged(asset), {})).mime_type == "image/png");
+    CHECK(base_image(bake(asset, unchanged(asset), lossless())).mime_type == "image/png");
     const SimplifiedAsset jpeg = bake(asset, unchanged(asset), encoded_as(ImageFormat::jpeg));
     CHECK(base_image(jpeg).mime_type == "image/jpeg");
     const auto c = look(jpeg.asset.parts[0], decode(base_image(jpeg)), 0, {0.3, 0.3, 0.4});
@@ -109,7 +109,7 @@ TEST_CASE("a lower JPEG quality gives smaller images") {
 TEST_CASE("texel_density is relative to the texel density of the source") {
     const Asset asset = textured_square(ramp(128));
     for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
-        Options options;
+        Options options = lossless();
         options.bake.texel_density = factor;
         const BakedPage page = bake(asset, unchanged(asset), options).report.pages[0];
         CHECK(page.density > 0.9 * factor);
@@ -123,7 +123,7 @@ TEST_CASE("a page much coarser than the source causes a warning unless texel_den
     asset.materials[0].base_color_texture.wrap_u = asset.materials[0].base_color_texture.wrap_v =
         Wrap::repeat;
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {10 * uv[0], 10 * uv[1]};
-    Options options;
+    Options options = lossless();
     options.bake.texture_size = 128;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     REQUIRE(simplified.report.warnings.size() == 1);
@@ -139,7 +139,7 @@ TEST_CASE("a page much coarser than the source causes a warning unless texel_den
 TEST_CASE("without texel_density only small pages are finer than the source") {
     const auto density = [](std::uint32_t side, std::optional<double> requested) {
         const Asset asset = textured_square(ramp(side));
-        Options options;
+        Options options = lossless();
         options.bake.texel_density = requested;
         return bake(asset, unchanged(asset), options).report.pages[0].density;
     };
@@ -149,7 +149,7 @@ TEST_CASE("without texel_density only small pages are finer than the source") {
 
 TEST_CASE("the report gives fill, texel density and sample counts of a page") {
     const Asset asset = textured_square(ramp(128));
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), {});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless());
     REQUIRE(simplified.report.pages.size() == 1);
     const BakedPage& page = simplified.report.pages[0];
     CHECK(page.material == "paint");
@@ -170,7 +170,7 @@ TEST_CASE("the report gives fill, texel density and sample counts of a page") {
 
 TEST_CASE("the correspondence gives the source point of every texel") {
     const Asset asset = textured_square(ramp(64));
-    Options options;
+    Options options = lossless();
     options.bake.correspondence = Recording::on;
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     REQUIRE(simplified.correspondence.size() == 1);
@@ -196,7 +196,7 @@ TEST_CASE("the correspondence gives the source point of every texel") {
     std::uint32_t width = 0;
     std::memcpy(&width, &bytes[16], 4);
     CHECK(width == page.width);
-    CHECK(bake(asset, unchanged(asset), {}).correspondence.empty());
+    CHECK(bake(asset, unchanged(asset), lossless()).correspondence.empty());
     options.bake.kind = Bake::vertex;
     CHECK_THROWS_AS(bake(asset, unchanged(asset), options), OptionError);
 }

@@ -10,7 +10,7 @@ using namespace faqem::test;
 namespace {
 
 Options with(NormalMap choice, double share = 1) {
-    Options options;
+    Options options = lossless();
     options.target = ratio(share);
     options.bake.normal_map = choice;
     options.bake.texture_size = 512;

@@ -24,7 +24,7 @@ Asset painted_ball() {
 }
 
 Options of_kind(Bake kind, std::uint32_t size) {
-    Options options;
+    Options options = lossless();
     options.bake.kind = kind;
     options.bake.texture_size = size;
     return options;

@@ -42,7 +42,7 @@ Asset square_with(std::vector<ExtensionTexture> textures, const Pixels& pixels) 
 }
 
 Options options_for(Bake kind = Bake::atlas) {
-    Options options;
+    Options options = lossless();
     options.bake.kind = kind;
     options.bake.texture_size = 256;
     return options;

@@ -91,6 +91,7 @@ TEST_CASE("the estimated peak memory is between one and three times the measured
         const auto report = nlohmann::json::parse(read(folder / "r.json"));
         const auto peak = report["peak_rss_bytes"].get<std::uint64_t>();
         const Outcome refused = simplify(" --max-memory " + std::to_string(peak));
+        CAPTURE(peak, refused.err);
         CHECK(refused.code == exit_no_memory);
         CHECK_THAT(refused.err, ContainsSubstring("faqem: in.glb: may need "));
         CHECK(simplify(" --max-memory " + std::to_string(3 * peak)).code == 0);

@@ -59,11 +59,18 @@ inline constexpr OptionRow appearance_rows[] = {
          .help = "Angle between normals above which smooth normals split a vertex"}),
     option_row<&Options::bake, &BakeOptions::image_format>(
         {.name = "image-format",
-         .choices = "png|jpeg|source",
-         .help = "Format of baked images: png, jpeg or jpeg:QUALITY (1 to 100, default 90), source (that of "
-                 "the images they are baked from)",
+         .choices = "auto|png|jpeg|source",
+         .help = "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
+                 "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from)",
          .suffix_choice = "jpeg",
          .suffix_option = "jpeg-quality",
+         .entry_points = in_all}),
+    option_row<&Options::bake, &BakeOptions::image_quality>(
+        {.name = "image-quality",
+         .range = {.min = 20, .max = 80},
+         .unit = "dB",
+         .value_name = "DB",
+         .help = "Least PSNR of baked colours with --image-format auto; of normals and other data 6 dB less",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",

@@ -83,6 +83,16 @@ FAQEM_INLINE std::string to_json(const Report& report) {
               {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
              {"uncertain_texels", page.uncertain_texels}});
     }
+    json["images"] = nlohmann::ordered_json::array();
+    for (const ResultImage& image : report.images) {
+        json["images"].push_back({{"name", image.name},
+                                  {"mime_type", image.mime_type},
+                                  {"width", image.width},
+                                  {"height", image.height},
+                                  {"bytes", image.bytes}});
+    }
+    json["bytes_in"] = report.bytes_in;
+    json["bytes_out"] = report.bytes_out;
     json["warnings"] = report.warnings;
     const PhaseSeconds& s = report.seconds;
     json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},

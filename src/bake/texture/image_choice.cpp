@@ -1,0 +1,183 @@
+#include "bake/texture/image_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace faqem::detail {
+namespace {
+
+// JPEG qualities that are tried. Below the first, blocks are visible on smooth surfaces at any PSNR; above the
+// last, PNG is about as small.
+constexpr std::array<std::uint32_t, 9> jpeg_qualities = {50, 60, 68, 75, 80, 85, 90, 93, 95};
+
+// A smaller side would not have a texel for every chart of a simple model.
+constexpr std::uint32_t min_side = 8;
+
+// With fewer texels, a result may have this many times the bytes: texels take memory wherever it is shown.
+constexpr double bytes_for_fewer_texels = 1.1;
+
+// Side of the blocks of ImageLoss, texels.
+constexpr std::uint32_t block_side = 8;
+
+// By how many dB a block may be worse than the whole image.
+constexpr double local_allowance = 10;
+
+// Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
+// second.
+struct Interpolation {
+    std::uint32_t first, second;
+    float weight;
+};
+
+// Squared difference between a texel and the interpolation of four, as a sum over the channels.
+float squared_difference(const std::uint8_t* texel, std::size_t channels,
+                         const std::array<const std::uint8_t*, 4>& corners, float s, float t) {
+    const float alpha = channels == 4 ? static_cast<float>(texel[3]) / 255 : 1;
+    float sum = 0;
+    for (std::size_t k = 0; k < channels; ++k) {
+        const float top = static_cast<float>(corners[0][k]) * (1 - s) + static_cast<float>(corners[1][k]) * s;
+        const float bottom =
+            static_cast<float>(corners[2][k]) * (1 - s) + static_cast<float>(corners[3][k]) * s;
+        const float difference = top * (1 - t) + bottom * t - static_cast<float>(texel[k]);
+        sum += difference * difference * (k < 3 ? alpha : 1);
+    }
+    return sum;
+}
+
+double psnr_of(double mean_square) {
+    return mean_square > 0 ? 10 * std::log10(255.0 * 255 / mean_square)
+                           : std::numeric_limits<double>::infinity();
+}
+
+std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t shown_size) {
+    std::vector<Interpolation> result;
+    const double scale = static_cast<double>(shown_size) / size;
+    for (std::uint32_t i = 0; i < size; ++i) {
+        const double at = std::clamp((i + 0.5) * scale - 0.5, 0.0, shown_size - 1.0);
+        const auto first = static_cast<std::uint32_t>(at);
+        result.push_back({first, std::min(first + 1, shown_size - 1), static_cast<float>(at - first)});
+    }
+    return result;
+}
+
+// The JPEG of least sufficient quality; nothing if none is sufficient.
+std::optional<Image> smallest_jpeg(const Pixels& original, const Pixels& pixels,
+                                   std::span<const std::uint8_t> known, const std::string& name,
+                                   Content content, double quality, CancellationCheck check_cancelled) {
+    std::optional<Image> best;
+    std::size_t begin = 0, end = jpeg_qualities.size();
+    while (begin < end) {
+        check_cancelled.now();
+        const std::size_t middle = begin + (end - begin) / 2;
+        Image image = encode_jpeg(pixels, name, jpeg_qualities[middle], content);
+        if (is_within(image_loss(original, decode(image), known), quality)) {
+            best = std::move(image);
+            end = middle;
+        } else {
+            begin = middle + 1;
+        }
+    }
+    return best;
+}
+
+// The smaller of the encodings of `pixels`, which may have fewer texels than `original`.
+Image smallest_at(const Pixels& original, const Pixels& pixels, std::span<const std::uint8_t> known,
+                  const std::string& name, Content content, const ImageLimits& limits, bool tries_png,
+                  CancellationCheck check_cancelled) {
+    std::optional<Image> best;
+    if (limits.may_be_jpeg && !pixels.has_alpha)
+        best = smallest_jpeg(original, pixels, known, name, content, limits.quality, check_cancelled);
+    if (tries_png || !best) {
+        Image png = encode_png(pixels, name);
+        if (!best || png.encoded.size() < best->encoded.size()) best = std::move(png);
+    }
+    return *std::move(best);
+}
+
+}  // namespace
+
+ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
+    const std::vector<Interpolation> columns = interpolations(original.width, shown.width);
+    const std::vector<Interpolation> rows = interpolations(original.height, shown.height);
+    const std::size_t channels = original.has_alpha ? 4 : 3;
+    std::vector<double> blocks((original.width + block_side - 1) / block_side);  // of a row of blocks
+    double sum = 0, worst = 0;
+    std::uint64_t count = 0;
+    for (std::uint32_t y = 0; y < original.height; ++y) {
+        if (y % block_side == 0) std::fill(blocks.begin(), blocks.end(), 0.0);
+        const std::uint8_t* const upper = &shown.rgba[4 * (std::size_t{rows[y].first} * shown.width)];
+        const std::uint8_t* const lower = &shown.rgba[4 * (std::size_t{rows[y].second} * shown.width)];
+        for (std::uint32_t x = 0; x < original.width; ++x) {
+            const std::size_t at = std::size_t{y} * original.width + x;
+            if (!known[at]) continue;
+            const auto& [first, second, s] = columns[x];
+            const float difference =
+                squared_difference(&original.rgba[4 * at], channels,
+                                   {upper + 4 * std::size_t{first}, upper + 4 * std::size_t{second},
+                                    lower + 4 * std::size_t{first}, lower + 4 * std::size_t{second}},
+                                   s, rows[y].weight);
+            blocks[x / block_side] += difference;
+            ++count;
+        }
+        if (y % block_side + 1 < block_side && y + 1 < original.height) continue;
+        for (const double block : blocks) {
+            sum += block;
+            worst = std::max(worst, block);
+        }
+    }
+    const auto n = static_cast<double>(channels);
+    return {psnr_of(sum / (n * static_cast<double>(std::max<std::uint64_t>(count, 1)))),
+            psnr_of(worst / (n * block_side * block_side))};
+}
+
+bool is_within(const ImageLoss& loss, double quality) {
+    return loss.psnr >= quality && loss.worst_psnr >= quality - local_allowance;
+}
+
+Pixels halved(const Pixels& pixels) {
+    Pixels result{pixels.width / 2, pixels.height / 2, {}, pixels.has_alpha};
+    result.rgba.resize(std::size_t{4} * result.width * result.height);
+    const std::size_t row = std::size_t{4} * pixels.width;
+    for (std::uint32_t y = 0; y < result.height; ++y) {
+        for (std::uint32_t x = 0; x < result.width; ++x) {
+            const std::uint8_t* const from = &pixels.rgba[2 * y * row + std::size_t{8} * x];
+            for (std::size_t k = 0; k < 4; ++k) {
+                const unsigned total = from[k] + from[4 + k] + from[row + k] + from[row + 4 + k];
+                result.rgba[4 * (std::size_t{y} * result.width + x) + k] =
+                    static_cast<std::uint8_t>((total + 2) / 4);
+            }
+        }
+    }
+    return result;
+}
+
+Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known, const std::string& name,
+                      Content content, const ImageLimits& limits, CancellationCheck check_cancelled) {
+    std::vector<Pixels> smaller;  // by number of halvings, without `pixels` itself
+    while (limits.may_shrink) {
+        const Pixels& last = smaller.empty() ? pixels : smaller.back();
+        if (last.width % 2 || last.height % 2 || std::min(last.width, last.height) / 2 < min_side) break;
+        check_cancelled.now();
+        Pixels next = halved(last);
+        if (!is_within(image_loss(pixels, next, known), limits.quality)) break;
+        smaller.push_back(std::move(next));
+    }
+    const Pixels& least = smaller.empty() ? pixels : smaller.back();
+    Image best = smallest_at(pixels, least, known, name, content, limits, true, check_cancelled);
+    if (smaller.empty()) return best;
+    // PNG is tried there too if it was the smaller one: images with few colours stay so at any resolution.
+    const bool was_png = best.mime_type == "image/png";
+    const Pixels& larger = smaller.size() == 1 ? pixels : smaller[smaller.size() - 2];
+    Image other = smallest_at(pixels, larger, known, name, content, limits, was_png, check_cancelled);
+    if (bytes_for_fewer_texels * static_cast<double>(other.encoded.size()) <
+        static_cast<double>(best.encoded.size()))
+        best = std::move(other);
+    return best;
+}
+
+}  // namespace faqem::detail

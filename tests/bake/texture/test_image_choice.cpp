@@ -1,0 +1,145 @@
+#include "bake/texture/image_choice.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+using namespace faqem::test;
+
+namespace {
+
+std::vector<std::uint8_t> all_known(const Pixels& pixels) {
+    return std::vector<std::uint8_t>(std::size_t{pixels.width} * pixels.height, 1);
+}
+
+// Waves with some noise, as in photographs.
+Pixels waves(std::uint32_t size) {
+    std::uint32_t state = 1;
+    return paint(size, size, [&](std::uint32_t x, std::uint32_t y) {
+        state = state * 1664525u + 1013904223u;
+        const double wave = 128 + 60 * std::sin(x / 5.0) * std::cos(y / 7.0);
+        const auto c = static_cast<std::uint8_t>(wave + static_cast<double>(state >> 29));
+        return Rgba{c, c, c, 255};
+    });
+}
+
+// Values without correlation between texels.
+Pixels noise(std::uint32_t size) {
+    std::uint32_t state = 1;
+    return paint(size, size, [&](std::uint32_t, std::uint32_t) {
+        Rgba texel = {0, 0, 0, 255};
+        for (std::size_t k = 0; k < 3; ++k) {
+            state = state * 1664525u + 1013904223u;
+            texel[k] = static_cast<std::uint8_t>(state >> 24);
+        }
+        return texel;
+    });
+}
+
+Image smallest(const Pixels& pixels, double quality, bool may_shrink = true, bool may_be_jpeg = true) {
+    return encode_smallest(pixels, all_known(pixels), "page", Content::color,
+                           {quality, may_shrink, may_be_jpeg});
+}
+
+}  // namespace
+
+TEST_CASE("the shown PSNR is that of the differences at known texels") {
+    const Pixels gray = paint(4, 4, [](std::uint32_t, std::uint32_t) { return Rgba{100, 100, 100, 255}; });
+    Pixels other = gray;
+    CHECK(image_loss(gray, other, all_known(gray)).psnr == std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < other.rgba.size(); ++i) other.rgba[i] = static_cast<std::uint8_t>(110);
+    CHECK(image_loss(gray, other, all_known(gray)).psnr == Approx(20 * std::log10(255.0 / 10)));
+    std::vector<std::uint8_t> first_only(16, 0);
+    first_only[0] = 1;
+    other = gray;
+    other.rgba[4] = 0;  // the second texel
+    CHECK(std::isinf(image_loss(gray, other, first_only).psnr));
+}
+
+TEST_CASE("an error in one block is not within a limit that the whole image meets") {
+    const Pixels gray = paint(128, 128, [](std::uint32_t, std::uint32_t) {
+        return Rgba{100, 100, 100, 255};
+    });
+    Pixels other = gray;
+    for (std::size_t x = 0; x < 8; ++x) other.rgba[4 * x] = 200;
+    const ImageLoss loss = image_loss(gray, other, all_known(gray));
+    CHECK(loss.psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 128 * 128 / (8 * 100 * 100))));
+    CHECK(loss.worst_psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 64 / (8 * 100 * 100))));
+    CHECK_FALSE(is_within(loss, 40));
+    CHECK(is_within(loss, loss.worst_psnr + 9));
+}
+
+TEST_CASE("an image with fewer texels is interpolated bilinearly") {
+    // A linear ramp is reproduced by its halved image, except at the two borders.
+    const Pixels ramp_x = paint(64, 64, [](std::uint32_t x, std::uint32_t) {
+        const auto c = static_cast<std::uint8_t>(4 * x);
+        return Rgba{c, c, c, 255};
+    });
+    const Pixels half = halved(ramp_x);
+    CHECK(half.width == 32);
+    CHECK(half.rgba[0] == 2);  // between 0 and 4
+    std::vector<std::uint8_t> inner = all_known(ramp_x);
+    for (std::size_t y = 0; y < 64; ++y) inner[64 * y] = inner[64 * y + 63] = 0;
+    CHECK(std::isinf(image_loss(ramp_x, half, inner).psnr));
+}
+
+TEST_CASE("colours of transparent texels do not count") {
+    const Pixels clear = paint(4, 4, [](std::uint32_t, std::uint32_t) { return Rgba{100, 100, 100, 0}; });
+    Pixels other = clear;
+    other.rgba[0] = 255;
+    CHECK(std::isinf(image_loss(clear, other, all_known(clear)).psnr));
+    other.rgba[3] = 255;
+    CHECK(image_loss(clear, other, all_known(clear)).psnr < 40);
+}
+
+TEST_CASE("chosen images are within the limit at any quality and content") {
+    const double quality = GENERATE(25.0, 34.0, 40.0, 48.0, 80.0);
+    for (const Pixels& pixels : {ramp(128), noise(64), waves(64)}) {
+        const Image image = smallest(pixels, quality);
+        CHECK(is_within(image_loss(pixels, decode(image), all_known(pixels)), quality));
+        CHECK(image.encoded.size() <= encode_png(pixels, "page").encoded.size());
+        CHECK(image.name == "page");
+    }
+}
+
+TEST_CASE("smooth images get fewer texels, and detail keeps them") {
+    const Pixels smooth = decode(smallest(ramp(256), 40));
+    CHECK(smooth.width <= 64);
+    CHECK(smooth.height == smooth.width);
+    CHECK(decode(smallest(noise(64), 40)).width == 64);
+    CHECK(decode(smallest(ramp(256), 40, false)).width == 256);
+}
+
+TEST_CASE("images with alpha, and images with few colours, stay PNG") {
+    Pixels glass = ramp(64);
+    for (std::size_t i = 3; i < glass.rgba.size(); i += 8) glass.rgba[i] = 128;
+    glass.has_alpha = true;
+    CHECK(smallest(glass, 40).mime_type == "image/png");
+    const Pixels stripes = paint(64, 64, [](std::uint32_t x, std::uint32_t) {
+        const std::uint8_t c = x % 2 ? 255 : 0;
+        return Rgba{c, 0, 0, 255};
+    });
+    CHECK(smallest(stripes, 40).mime_type == "image/png");
+    CHECK(smallest(waves(64), 36, false).mime_type == "image/jpeg");
+    CHECK(smallest(waves(64), 36, false, false).mime_type == "image/png");
+}
+
+TEST_CASE("baked images are chosen by loss unless a format, a density or a correspondence is requested") {
+    const Asset asset = textured_square(ramp(256));
+    const auto width = [&](const BakeOptions& bake) {
+        Options options;
+        options.target = ratio(1);
+        options.bake = bake;
+        options.bake.kind = Bake::atlas;
+        return base_color_image(faqem::bake(asset, unchanged(asset), options).asset).width;
+    };
+    const std::uint32_t full = width({.image_format = ImageFormat::png});
+    CHECK(width({}) < full);
+    CHECK(width({.image_quality = 80}) == full);
+    CHECK(width({.texel_density = 1}) >= full / 2);
+    CHECK(width({.correspondence = Recording::on}) == full);
+}
