@@ -14,7 +14,7 @@ set(faqem_libraries_faqem Threads)
 set(faqem_libraries_header_only Threads)
 set(faqem_libraries_openmesh OpenMesh)
 set(faqem_libraries_openmesh_header_only OpenMesh)
-set(faqem_libraries_asset Threads OpenImageIO PNG libdeflate tinygltf)  # and faqem_decoders, those it was built with
+set(faqem_libraries_asset Threads OpenImageIO PNG JPEG libdeflate tinygltf)  # and faqem_decoders, those it was built with
 set(faqem_libraries_bake "")
 
 # For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and
@@ -45,6 +45,9 @@ set(faqem_debian_CLI11 libcli11-dev)
 set(faqem_find_PNG PNG)
 set(faqem_target_PNG PNG::PNG)
 set(faqem_debian_PNG libpng-dev)
+set(faqem_find_JPEG JPEG)
+set(faqem_target_JPEG JPEG::JPEG)
+set(faqem_debian_JPEG libjpeg62-turbo-dev)
 set(faqem_target_libdeflate faqem::libdeflate)
 set(faqem_debian_libdeflate libdeflate-dev)
 set(faqem_target_OpenImageIO faqem::openimageio)

@@ -175,7 +175,8 @@ FAQEM_EXPORT Pixels decode(const Image& image);
 /// \throws WriteError  encoding failed
 FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name);
 
-/// Content of an image. The chroma of `data` (normals, roughness ...) is not subsampled by encode_jpeg().
+/// Content of an image. encode_jpeg() subsamples the chroma of `color` below quality 90, never that of `data`
+/// (normals, roughness ...).
 enum class Content { color, data };
 
 /// Encodes pixels as JPEG, without alpha.

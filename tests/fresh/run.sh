@@ -181,7 +181,7 @@ step "arrays in C, component c" consumer c "$runtime"
 step "templates, component core" consumer templates libeigen3-dev
 step "halfedges, component openmesh" consumer halfedges libopenmesh-dev
 step "textured, component bake" consumer textured \
-    "libpng-dev libdeflate-dev libopenimageio-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev"
+    "libpng-dev libjpeg62-turbo-dev libdeflate-dev libopenimageio-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev"
 step "arrays, component header_only" consumer arrays_header_only libeigen3-dev
 step "halfedges, component openmesh_header_only" consumer halfedges_header_only "libopenmesh-dev libeigen3-dev"
 step "faqem::faqem by add_subdirectory" subproject

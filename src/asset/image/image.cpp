@@ -6,6 +6,7 @@
 
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_codec.hpp"
+#include "asset/image/jpeg.hpp"
 #include "asset/image/png_reader.hpp"
 #include "asset/image/png_writer.hpp"
 #include "faqem/asset.hpp"
@@ -85,11 +86,10 @@ Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancel
             (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
                 decodable_format_names() + " are supported");
     check_header(image);
-    if (type == "image/png") {
-        check_cancelled.now();
-        return read_png(image);
-    }
-    return image_codec().decode(image, type.substr(6), check_cancelled);
+    check_cancelled.now();
+    if (type == "image/png") return read_png(image);
+    if (type == "image/jpeg") return read_jpeg(image);
+    return image_codec().decode(image, type.substr(6));
 }
 
 Image detail::encode_png(const Pixels& pixels, const std::string& name,
@@ -101,7 +101,9 @@ Image detail::encode_png(const Pixels& pixels, const std::string& name,
 
 Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
                           Content content, engine::CancellationCheck check_cancelled) {
-    return image_codec().encode_jpeg(pixels, name, quality, content, check_cancelled);
+    check_pixel_count(pixels, name);
+    check_cancelled.now();
+    return write_jpeg(pixels, name, quality, content);
 }
 
 }  // namespace faqem

@@ -1,17 +1,15 @@
 #pragma once
 /// \file
-/// Interface of the image codec for formats other than PNG, and the choice of the codec that a program uses.
+/// Interface of the image codec for formats other than PNG and JPEG, and the choice of the codec that a program uses.
 ///
 /// There are two codecs: oiio_image_codec() links to OpenImageIO, and plugin_image_codec() loads a plugin
 /// that links to it. A program links to the library of one of them, which contains image_codec() and makes the
 /// codec the default: faqem_asset_codec_oiio, or faqem_asset_codec_plugin if the CMake target property
 /// FAQEM_IMAGE_PLUGIN is on (src/asset/CMakeLists.txt). set_image_codec_provider() sets another codec.
 
-#include <cstdint>
 #include <string>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -20,19 +18,13 @@ namespace faqem::detail {
 struct ImageCodec {
     /// Version of faqem that the codec was built with.
     const char* version;
-    /// Whether WebP can be decoded. JPEG always can.
+    /// Whether WebP can be decoded.
     bool (*reads_webp)();
     /// Decodes an image.
-    /// \param image            its header has been checked
-    /// \param format           jpeg or webp
-    /// \param check_cancelled  called between bands of rows
+    /// \param image   its header has been checked
+    /// \param format  webp
     /// \throws InputError  if the image is damaged
-    /// \throws Cancelled   if `check_cancelled` requests it; its other exceptions are passed on
-    Pixels (*decode)(const Image& image, const std::string& format,
-                     engine::CancellationCheck check_cancelled);
-    /// Same as the function of this name in image.hpp.
-    Image (*encode_jpeg)(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                         Content content, engine::CancellationCheck check_cancelled);
+    Pixels (*decode)(const Image& image, const std::string& format);
 };
 
 /// A function that returns the image codec, valid until the process ends. It is called when the codec is

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_codec.hpp"
@@ -25,22 +26,6 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
                      {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
 }
 
-/// Calls work(begin, end) for bands of rows and checks for cancellation before each band. A band takes a few
-/// milliseconds. OpenImageIO has its own progress callback, but calls it only once per 64 MB of pixels.
-/// \param work  returns false on failure, which ends the loop
-/// \return whether all calls succeeded
-template <class Work>
-bool for_each_row_band(const Pixels& pixels, engine::CancellationCheck check_cancelled, Work&& work) {
-    constexpr std::uint32_t pixels_per_band = 16384;
-    const std::uint32_t rows = std::max(1u, pixels_per_band / pixels.width);
-    for (std::uint32_t y = 0, end; y < pixels.height; y = end) {
-        end = y + std::min(rows, pixels.height - y);
-        check_cancelled.now();
-        if (!work(y, end)) return false;
-    }
-    return true;
-}
-
 /// Expands 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
 void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
     const bool grey = channels < 3;
@@ -55,45 +40,6 @@ void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t ch
     }
 }
 
-OIIO::ImageSpec spec_of(const Pixels& pixels, const std::string& name, int channels) {
-    check_pixel_count(pixels, name);
-    return OIIO::ImageSpec(static_cast<int>(pixels.width), static_cast<int>(pixels.height), channels,
-                           OIIO::TypeDesc::UINT8);
-}
-
-Image encode(const Pixels& pixels, const std::string& name, const OIIO::ImageSpec& spec,
-             const std::string& format, engine::CancellationCheck check_cancelled) {
-    Image image;
-    image.name = name;
-    image.mime_type = "image/" + format;
-    OIIO::Filesystem::IOVecOutput bytes(image.encoded);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output) throw Error("OpenImageIO has no writer for " + format + ": " + OIIO::geterror());
-    output->set_ioproxy(&bytes);
-    const bool opened = output->open("memory." + format, spec);
-    const auto channels = static_cast<OIIO::stride_t>(spec.nchannels);
-    std::vector<std::uint8_t> rgb;
-    const bool written =
-        opened && for_each_row_band(pixels, check_cancelled, [&](std::uint32_t begin, std::uint32_t end) {
-            const std::size_t first = std::size_t{begin} * pixels.width;
-            const std::size_t count = std::size_t{end - begin} * pixels.width;
-            const std::uint8_t* rows = &pixels.rgba[4 * first];
-            if (channels == 3) {
-                rgb.resize(3 * count);
-                for (std::size_t i = 0; i < count; ++i) std::memcpy(&rgb[3 * i], rows + 4 * i, 3);
-                rows = rgb.data();
-            }
-            return output->write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
-                                           OIIO::TypeDesc::UINT8, rows);
-        });
-    const bool closed = opened && output->close();
-    // OpenImageIO 2.4 reports some failures only through geterror().
-    const std::string error = output->geterror();
-    if (!written || !closed || !error.empty())
-        throw WriteError("image '" + name + "': cannot encode: " + error);
-    return image;
-}
-
 bool reads_webp() {
     static const bool has_reader = [] {
         const auto input = OIIO::ImageInput::create("webp");
@@ -103,7 +49,7 @@ bool reads_webp() {
     return has_reader;
 }
 
-Pixels decode_as(const Image& image, const std::string& format, engine::CancellationCheck check_cancelled) {
+Pixels decode_as(const Image& image, const std::string& format) {
     OIIO::Filesystem::IOMemReader bytes(image.encoded.data(), image.encoded.size());
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     if (!input) throw Error("OpenImageIO has no reader for " + format + ": " + OIIO::geterror());
@@ -116,40 +62,25 @@ Pixels decode_as(const Image& image, const std::string& format, engine::Cancella
     Pixels pixels;
     pixels.width = static_cast<std::uint32_t>(spec.width);
     pixels.height = static_cast<std::uint32_t>(spec.height);
+    const std::size_t count = std::size_t{pixels.width} * pixels.height;
     const int channels = std::min(spec.nchannels, 4);
-    pixels.rgba.resize(std::size_t{pixels.width} * pixels.height * 4);
-    std::vector<std::uint8_t> band;
-    const bool read = for_each_row_band(pixels, check_cancelled, [&](std::uint32_t begin, std::uint32_t end) {
-        const std::size_t count = std::size_t{end - begin} * pixels.width;
-        band.resize(count * static_cast<std::size_t>(channels));
-        if (!input->read_scanlines(0, 0, static_cast<int>(begin), static_cast<int>(end), 0, 0, channels,
-                                   OIIO::TypeDesc::UINT8, band.data()))
-            return false;
-        std::uint8_t* rgba = &pixels.rgba[std::size_t{begin} * pixels.width * 4];
-        expand_to_rgba(band.data(), count, static_cast<std::size_t>(channels), rgba);
-        for (std::size_t i = 0; i < count && !pixels.has_alpha; ++i)
-            pixels.has_alpha = rgba[4 * i + 3] != 255;
-        return true;
-    });
+    std::vector<std::uint8_t> stored(count * static_cast<std::size_t>(channels));
+    const bool read =
+        input->read_scanlines(0, 0, 0, spec.height, 0, 0, channels, OIIO::TypeDesc::UINT8, stored.data());
     const bool closed = input->close();
     const std::string error = input->geterror();
     if (!read || !closed || !error.empty())
         fail_image(image, error.empty() ? "is damaged" : "is damaged: " + first_line(error));
+    pixels.rgba.resize(count * 4);
+    expand_to_rgba(stored.data(), count, static_cast<std::size_t>(channels), pixels.rgba.data());
+    pixels.has_alpha = has_transparent_pixel(pixels);
     return pixels;
-}
-
-Image encode_as_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content,
-                     engine::CancellationCheck check_cancelled) {
-    OIIO::ImageSpec spec = spec_of(pixels, name, 3);
-    spec.attribute("CompressionQuality", static_cast<int>(quality));
-    if (content == Content::data) spec.attribute("jpeg:subsampling", "4:4:4");
-    return encode(pixels, name, spec, "jpeg", check_cancelled);
 }
 
 }  // namespace
 
 const ImageCodec& oiio_image_codec() {
-    static constexpr ImageCodec codec = {FAQEM_VERSION, reads_webp, decode_as, encode_as_jpeg};
+    static constexpr ImageCodec codec = {FAQEM_VERSION, reads_webp, decode_as};
     return codec;
 }
 

@@ -1,0 +1,204 @@
+// Decoding and encoding of JPEG files with libjpeg-turbo.
+//
+// libjpeg calls error_exit() for an error, which must not return: fail_jpeg() jumps over the frames of its
+// callers. Functions that call setjmp() therefore have no object with a destructor, and none is created between
+// them and libjpeg.
+
+#include "asset/image/jpeg.hpp"
+
+#include <array>
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>  // jpeglib.h needs it
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include "asset/image/image_checks.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+/// From this quality on, the chroma of colours has the full resolution: then more bytes for chroma reduce the
+/// error more than a higher quality with half the resolution (docs/libraries.md).
+constexpr std::uint32_t full_chroma_quality = 90;
+
+/// How libjpeg reports errors; `base` is first, so that a pointer to it is one to this structure.
+struct JpegErrors {
+    jpeg_error_mgr base;
+    std::jmp_buf jump;
+    std::array<char, JMSG_LENGTH_MAX> message;
+};
+
+[[noreturn]] void fail_jpeg(j_common_ptr state) {
+    auto* const errors = reinterpret_cast<JpegErrors*>(state->err);
+    state->err->format_message(state, errors->message.data());
+    std::longjmp(errors->jump, 1);
+}
+
+/// A message at a negative level is a warning of damage, after which libjpeg would invent pixels.
+void check_jpeg_message(j_common_ptr state, int level) {
+    if (level < 0) fail_jpeg(state);
+}
+
+/// The message of an error.
+/// \throws std::bad_alloc  if memory is exhausted
+std::string jpeg_error(const JpegErrors& errors) {
+    if (errors.base.msg_code == JERR_OUT_OF_MEMORY) throw std::bad_alloc();
+    return errors.message.data();
+}
+
+void set_jpeg_errors(JpegErrors& errors) {
+    jpeg_std_error(&errors.base);
+    errors.base.error_exit = fail_jpeg;
+    errors.base.emit_message = check_jpeg_message;
+}
+
+struct JpegDecoder {
+    JpegDecoder() {
+        set_jpeg_errors(errors);
+        state.err = &errors.base;
+    }
+    ~JpegDecoder() { jpeg_destroy_decompress(&state); }
+    JpegDecoder(const JpegDecoder&) = delete;
+    JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+    jpeg_decompress_struct state = {};
+    JpegErrors errors = {};
+};
+
+/// Reads the segments before the pixels. Returns false on errors.
+bool read_jpeg_header(jpeg_decompress_struct& state, JpegErrors& errors, const std::uint8_t* bytes,
+                      std::size_t size) {
+    if (setjmp(errors.jump)) return false;
+    jpeg_create_decompress(&state);
+    jpeg_mem_src(&state, bytes, static_cast<unsigned long>(size));
+    jpeg_read_header(&state, TRUE);
+    state.out_color_space = state.num_components == 4 ? JCS_CMYK : JCS_EXT_RGBA;
+    return true;
+}
+
+/// Reads all rows, with four bytes per pixel. Returns false on errors.
+bool read_jpeg_rows(jpeg_decompress_struct& state, JpegErrors& errors, std::uint8_t* pixels) {
+    if (setjmp(errors.jump)) return false;
+    jpeg_start_decompress(&state);
+    while (state.output_scanline < state.output_height) {
+        JSAMPROW row = pixels + std::size_t{4} * state.output_width * state.output_scanline;
+        jpeg_read_scanlines(&state, &row, 1);
+    }
+    return true;  // what follows the pixels is not read
+}
+
+/// Converts inverted CMYK to RGBA in place, without a colour profile.
+void cmyk_to_rgba(Pixels& pixels) {
+    for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
+        std::uint8_t* const p = &pixels.rgba[i];
+        const int black = p[3];
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>((p[c] * black + 127) / 255);
+        p[3] = 255;
+    }
+}
+
+struct JpegEncoder {
+    JpegEncoder() {
+        set_jpeg_errors(errors);
+        state.err = &errors.base;
+    }
+    ~JpegEncoder() {
+        jpeg_destroy_compress(&state);
+        std::free(output.bytes);
+    }
+    JpegEncoder(const JpegEncoder&) = delete;
+    JpegEncoder& operator=(const JpegEncoder&) = delete;
+
+    /// The bytes written so far, from malloc(); `base` is first, as above. libjpeg's own output to memory loses
+    /// its buffer if it fails.
+    struct Output {
+        jpeg_destination_mgr base;
+        std::uint8_t* bytes;
+        std::size_t capacity;
+    };
+
+    jpeg_compress_struct state = {};
+    JpegErrors errors = {};
+    Output output = {};
+};
+
+/// Doubles the buffer, all of which has been written.
+boolean grow_jpeg_output(j_compress_ptr state) {
+    auto* const output = reinterpret_cast<JpegEncoder::Output*>(state->dest);
+    const std::size_t used = output->capacity, larger = used ? 2 * used : std::size_t{1} << 16;
+    void* const bytes = std::realloc(output->bytes, larger);
+    if (!bytes) ERREXIT1(state, JERR_OUT_OF_MEMORY, 0);
+    output->bytes = static_cast<std::uint8_t*>(bytes);
+    output->capacity = larger;
+    output->base.next_output_byte = output->bytes + used;
+    output->base.free_in_buffer = larger - used;
+    return TRUE;
+}
+
+void begin_jpeg_output(j_compress_ptr state) { grow_jpeg_output(state); }
+void end_jpeg_output(j_compress_ptr) {}
+
+/// Writes the whole file. Returns false on errors.
+bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, int quality, int chroma_step) {
+    jpeg_compress_struct& state = encoder.state;
+    if (setjmp(encoder.errors.jump)) return false;
+    jpeg_create_compress(&state);
+    encoder.output.base.init_destination = begin_jpeg_output;
+    encoder.output.base.empty_output_buffer = grow_jpeg_output;
+    encoder.output.base.term_destination = end_jpeg_output;
+    state.dest = &encoder.output.base;
+    state.image_width = pixels.width;
+    state.image_height = pixels.height;
+    state.input_components = 4;
+    state.in_color_space = JCS_EXT_RGBX;
+    jpeg_set_defaults(&state);
+    jpeg_set_quality(&state, quality, TRUE);
+    state.optimize_coding = TRUE;
+    state.comp_info[0].h_samp_factor = state.comp_info[0].v_samp_factor = chroma_step;
+    jpeg_start_compress(&state, TRUE);
+    while (state.next_scanline < state.image_height) {
+        const std::uint8_t* const row = &pixels.rgba[std::size_t{4} * pixels.width * state.next_scanline];
+        JSAMPROW rows = const_cast<JSAMPROW>(row);  // libjpeg does not write to it
+        jpeg_write_scanlines(&state, &rows, 1);
+    }
+    jpeg_finish_compress(&state);
+    return true;
+}
+
+}  // namespace
+
+Pixels read_jpeg(const Image& image) {
+    JpegDecoder decoder;
+    const auto fail = [&] { fail_image(image, "is damaged: " + jpeg_error(decoder.errors)); };
+    if (!read_jpeg_header(decoder.state, decoder.errors, image.encoded.data(), image.encoded.size())) fail();
+    check_image_size(image, {decoder.state.image_width, decoder.state.image_height});
+    Pixels pixels;
+    pixels.width = decoder.state.image_width;
+    pixels.height = decoder.state.image_height;
+    pixels.rgba.resize(std::size_t{4} * pixels.width * pixels.height);
+    if (!read_jpeg_rows(decoder.state, decoder.errors, pixels.rgba.data())) fail();
+    if (decoder.state.out_color_space == JCS_CMYK) cmyk_to_rgba(pixels);
+    return pixels;
+}
+
+Image write_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
+    JpegEncoder encoder;
+    const int chroma_step = content == Content::color && quality < full_chroma_quality ? 2 : 1;
+    if (!write_jpeg_file(encoder, pixels, static_cast<int>(quality), chroma_step))
+        throw WriteError("image '" + name + "': cannot encode: " + jpeg_error(encoder.errors));
+    Image image;
+    image.name = name;
+    image.mime_type = "image/jpeg";
+    const std::size_t size = encoder.output.capacity - encoder.output.base.free_in_buffer;
+    image.encoded.assign(encoder.output.bytes, encoder.output.bytes + size);
+    return image;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// Decoding and encoding of JPEG files.
+
+#include <cstdint>
+#include <string>
+
+#include "faqem/asset.hpp"
+
+namespace faqem::detail {
+
+/// Decodes a JPEG to RGBA: grey, YCbCr, RGB, CMYK or YCCK, baseline or progressive. CMYK is taken as inverted, as
+/// Adobe's programs write it.
+/// \param image  its declared size has been checked
+/// \throws InputError  the image is damaged. Whatever libjpeg warns of is damage, for example bytes that are
+///                     missing at the end
+/// O(pixels + bytes)
+Pixels read_jpeg(const Image& image);
+
+/// Encodes pixels as a baseline JPEG with the best Huffman codes, without alpha.
+/// \param pixels   of the declared size, at least one
+/// \param name     Image::name of the result
+/// \param quality  in [1, 100]
+/// \param content  below quality 90 the chroma of Content::color has half the resolution in both directions
+/// \throws WriteError  a side is longer than 65500 pixels
+/// O(pixels)
+Image write_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content);
+
+}  // namespace faqem::detail
