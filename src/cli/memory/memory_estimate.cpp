@@ -45,8 +45,8 @@ double simplify_bytes_per_face(const Options& options) {
     return 700;
 }
 
-constexpr double history_bytes_per_face = 250;  // collapse history and the data structures of the baking map
-constexpr double visibility_bytes_per_face = 450;  // per face of all instances, with --visibility weighted
+constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
+constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
 constexpr double search_factor = 1.3;  // --max-error: best mesh so far and the distance measurement
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers
