@@ -12,9 +12,14 @@
 
 namespace faqem::test {
 
-/// Limit of the number of basic blocks between two checks: a few milliseconds, or a few thousand
-/// evaluations of a pair with a few hundred basic blocks each, if little is inlined.
-inline constexpr std::uint64_t most_steps = 2'000'000;
+/// Limit of the number of basic blocks between two checks on a mesh of a million faces: about 0.3 seconds.
+inline constexpr std::uint64_t most_steps = 300'000'000;
+
+/// An estimate of the number of basic blocks between two checks on a mesh of a million faces, from the number on
+/// a mesh with fewer faces. Steps without checks take linear time.
+inline std::uint64_t for_a_million_faces(std::uint64_t steps, std::size_t faces) {
+    return steps * 1'000'000 / faces;
+}
 
 /// Measures the largest number of basic blocks between two cancellation checks.
 class Watch {
@@ -23,12 +28,14 @@ public:
     std::function<Continue(double)> progress() {
         return [this](double) { return note(), Continue::yes; };
     }
+    /// Leaves out what was done since construction. The measured work begins now.
+    void start() { last_ = test::steps(); }
     void note() {
         longest_ = std::max(longest_, test::steps() - last_);
         last_ = test::steps();
         ++calls_;
     }
-    /// The maximum since construction, including the time before the first check and after the last one.
+    /// The maximum since construction or start(), including the time before the first check and after the last one.
     /// Requires at least two checks.
     std::uint64_t longest() {
         note();

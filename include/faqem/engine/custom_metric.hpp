@@ -44,10 +44,7 @@ public:
     /// \param adjust  the adjustment; moved into this object
     CustomMetric(Inner inner, Adjust adjust) : inner_(std::move(inner)), adjust_(std::move(adjust)) {}
 
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
-                    CancellationCheck check_cancelled = {}) {
-        inner_.initialise(mesh, pairs, check_cancelled);
-    }
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {

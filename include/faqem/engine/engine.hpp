@@ -34,6 +34,7 @@
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/recorder.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
@@ -81,16 +82,15 @@ public:
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
         distance_weight_ = options.distance_weight;
-        initial_face_count_ = mesh_.face_count();
         set_progress(options);
         if (options.progress) check_cancelled_ = CancellationCheck(monitor_);
         return run_cancellable([&] {
-            degenerate_ = DegenerateFaces(mesh_, check_cancelled_);
-            if (distance_weight_ > 0)
-                boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex, check_cancelled_);
+            degenerate_ = DegenerateFaces(mesh_);
+            if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex);
+            check_cancelled_.now();
             queue_.reserve(pairs_.size());
-            queue_.set_target(expected_pair_count(options.target_faces), check_cancelled_);
-            metric_.initialise(mesh_, pairs_, check_cancelled_);
+            queue_.set_target(expected_pair_count(options.target_faces));
+            metric_.initialise(mesh_, pairs_);
             evaluate_all_pairs();
             face_count_at_last_pass_ = mesh_.face_count();
             collapse_to_target(options);
@@ -107,7 +107,6 @@ public:
     LoopResult continue_to(const LoopOptions& options) {
         distance_weight_ = options.distance_weight;
         metric_.set_target(options.target_faces, options.distance_weight);
-        initial_face_count_ = mesh_.face_count();
         rung_ = 0;
         set_progress(options);
         result_.stop = StopReason::reached_target;
@@ -117,6 +116,7 @@ public:
 private:
     void set_progress(const LoopOptions& options) {
         progress_ = options.progress;
+        initial_face_count_ = mesh_.face_count();
         target_face_count_ = options.target_faces;
     }
 
@@ -163,7 +163,9 @@ private:
     void evaluate_all_pairs() {
         std::fill(has_rejected_.begin(), has_rejected_.end(), std::uint8_t{0});
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
-            if (pairs_.is_alive(pair)) evaluate(pair);
+            if (!pairs_.is_alive(pair)) continue;
+            check_cancelled_(operations(pair));
+            evaluate(pair);
         }
     }
 
@@ -172,8 +174,8 @@ private:
     bool process_queue(const LoopOptions& options) {
         while (mesh_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
-            check_cancelled_(evaluations_per_collapse);
             const Index pair = queue_.pop();
+            check_cancelled_(8 * operations(pair));  // with its tests, and evaluations around it
             if (!try_collapse(pair)) mark_rejected(pair);
         }
         return true;
@@ -211,7 +213,6 @@ private:
     }
 
     void evaluate(Index pair) {
-        check_cancelled_();
         exceptions_.clear(pair);
         if (const auto found = is_deferred(pair) ? std::nullopt : candidate(pair)) {
             queue_.set(pair, found->cost);
@@ -252,8 +253,7 @@ private:
         if (!found) return false;
         found->cost += boundary_cost(pair);
         if (requeue_if_costlier(pair, found->cost)) return true;
-        if (degenerate_.are_last_faces(mesh_, pairs_, pair, check_cancelled_))
-            return count_refusal(Refusal::last_faces), false;
+        if (degenerate_.are_last_faces(mesh_, pairs_, pair)) return count_refusal(Refusal::last_faces), false;
         if (const auto refusal = legality_.check(mesh_, pairs_, u, v, pair, found->point,
                                                  exceptions_.rules_for(pair, rules_))) {
             count_refusal(*refusal);
@@ -380,7 +380,7 @@ private:
     bool delete_duplicate_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
         bool any = false;
-        for (const Index f : duplicate_faces(mesh_, check_cancelled_)) {
+        for (const Index f : duplicate_faces(mesh_)) {
             if (mesh_.face_count() <= options.target_faces) break;
             const Triangle corners = mesh_.triangle(f);
             recorder_.before_deletion(f);
@@ -388,8 +388,7 @@ private:
             pairs_.after_face_removal(mesh_, corners);
             any = true;
         }
-        if (any && boundary_loops_)
-            boundary_loops_.emplace(mesh_, pairs_, no_index, check_cancelled_);  // new boundary edges
+        if (any && boundary_loops_) boundary_loops_.emplace(mesh_, pairs_, no_index);  // new boundary edges
         return any;
     }
 
@@ -399,7 +398,7 @@ private:
     // never deleted.
     bool delete_components(const LoopOptions& options, const ComponentSize& largest) {
         bool any = false;
-        for (const Component& component : removable_components(mesh_, locked_, largest, check_cancelled_)) {
+        for (const Component& component : removable_components(mesh_, locked_, largest)) {
             if (mesh_.face_count() <= options.target_faces) break;
             for (const Index f : component.faces) recorder_.before_deletion(f);
             killed_.clear();
@@ -411,9 +410,10 @@ private:
         return any;
     }
 
-    // Cost of one collapse with its tests in units of pair evaluations, without the re-evaluation of
-    // adjacent pairs. An estimate for the cancellation check.
-    static constexpr std::uint64_t evaluations_per_collapse = 8;
+    // An estimate for the cancellation check: evaluating a pair visits all faces at both vertices.
+    std::uint64_t operations(Index pair) const {
+        return 1 + (mesh_.degree(pairs_.first(pair)) + mesh_.degree(pairs_.second(pair))) / 16;
+    }
 
     // Components with a larger share of the area are not tiny.
     static constexpr double visible_area_share = 0.02;

@@ -28,7 +28,7 @@ std::vector<Point2> convex_hull(const Chart& chart, engine::CancellationCheck ch
     std::vector<Point2> points;
     for (const Triangle2& t : chart.points) points.insert(points.end(), t.begin(), t.end());
     const auto less = [](const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
-    std::sort(points.begin(), points.end(), engine::cancellable_less(check_cancelled, less));
+    std::sort(points.begin(), points.end(), less);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::vector<Point2> hull;
     for (int side = 0; side < 2; ++side) {

@@ -200,7 +200,7 @@ public:
             for (end = begin; end < units_.size() && units_[end].shape.size() == units_[begin].shape.size();)
                 ++end;
             std::sort(curve_points.begin() + std::ptrdiff_t(begin),
-                      curve_points.begin() + std::ptrdiff_t(end), engine::cancellable_less(check_cancelled_));
+                      curve_points.begin() + std::ptrdiff_t(end));
         }
         for (std::size_t i = 0; i < units_.size(); ++i) {
             check_cancelled_();

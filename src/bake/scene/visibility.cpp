@@ -137,7 +137,7 @@ public:
     VisibilitySampler(const Surface& surface, const Occluders& occluders, const Workers& workers)
         : surface_(surface),
           occluders_(occluders),
-          around_(make_vertex_faces(surface.positions.size(), surface.triangles, workers.check_cancelled)),
+          around_(make_vertex_faces(surface.positions.size(), surface.triangles)),
           diagonal_(surface.diagonal()) {
         sample_patches(workers);
     }
@@ -254,7 +254,7 @@ VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers) {
     for (std::size_t p = 0; p < seen.size(); ++p) seen[p].resize(scene.parts[p].positions.size());
     for (const Instance& instance : all) {
         const InstanceMesh own = instance_mesh(scene, instance, workers.check_cancelled);
-        const Surface surface = extract_surface({own.positions, own.triangles}, workers.check_cancelled);
+        const Surface surface = extract_surface({own.positions, own.triangles});
         const std::vector<float> at = VisibilitySampler(surface, occluders, workers).by_position(workers);
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {

@@ -163,16 +163,3 @@ TEST_CASE("sweep queue: a pair that is stale for more than 255 rounds is popped 
     }
     CHECK(queue.pop() == 1);
 }
-
-TEST_CASE("sweep queue: cancellation is checked during a long round without a pop") {
-    int checks = 0;
-    ProgressMonitor monitor([&] { return ++checks, Continue::yes; });
-    SweepQueue queue;
-    queue.reserve(1'000'000);
-    queue.set_target(0, CancellationCheck(monitor));
-    queue.set(0, 1);
-    queue.set(999'999, 1);
-    CHECK(queue.pop() == 0);
-    CHECK(queue.pop() == 999'999);
-    CHECK(checks >= 3);
-}

@@ -58,12 +58,11 @@ public:
         for (std::size_t b; (b = next_.fetch_add(1)) < blocks_;) {
             try {
                 const std::size_t begin = b * block_, end = std::min(size_, begin + block_);
-                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, CancellationCheck>) {
+                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, CancellationCheck>)
                     work(begin, end, check_cancelled);
-                } else {
+                else
                     work(begin, end);
-                    check_cancelled(end - begin);
-                }
+                check_cancelled.now();
             } catch (...) {
                 fail();
             }
@@ -140,8 +139,8 @@ private:
 /// \param size     number of elements; 0 is allowed
 /// \param block    elements per block, at least 1; the last block may be shorter
 /// \param workers  number of threads and cancellation check; the check is only used on the calling thread
-/// \param work     called concurrently. If it accepts a CancellationCheck as third argument, it must call it
-///                 itself; use this if a block takes long. Otherwise each element counts as one operation.
+/// \param work     called concurrently. Cancellation is checked after each block; a block that takes longer than
+///                 some milliseconds accepts a CancellationCheck as third argument and calls it.
 /// \throws the exception of the calling thread or of its cancellation check, or else the first exception of a
 ///         helper; all threads have ended by then
 template <class Work>

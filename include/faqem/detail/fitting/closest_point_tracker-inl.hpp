@@ -78,12 +78,10 @@ void search_above_share(std::span<const double> squared, double share, Workers w
     while (true) {
         double longest = 0;
         for (const double length : squared) longest = std::max(longest, length);
-        workers.check_cancelled(squared.size() / 16);
         std::vector<std::size_t> far;
         for (std::size_t i = 0; i < squared.size(); ++i) {
             if (squared[i] > share * share * longest && !is_exact(i)) far.push_back(i);
         }
-        workers.check_cancelled(squared.size() / 16);
         if (far.empty()) return;
         parallel_blocks(far.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) search(far[i]);
@@ -93,11 +91,9 @@ void search_above_share(std::span<const double> squared, double share, Workers w
 
 /// For each triangle, whether one of its corners has moved; all of them if `from` is empty.
 inline std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> triangles,
-                                                 std::span<const Vector3> from, std::span<const Vector3> to,
-                                                 CancellationCheck check_cancelled) {
+                                                 std::span<const Vector3> from, std::span<const Vector3> to) {
     std::vector<std::uint8_t> moved(triangles.size(), 0);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         if (triangles[f][0] == no_index) continue;
         for (const Index v : triangles[f]) moved[f] |= from.empty() || from[v] != to[v];
     }
@@ -105,8 +101,7 @@ inline std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> trian
 }
 
 FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positions, Workers workers) {
-    const std::vector<std::uint8_t> moved =
-        moved_triangles(triangles_, positions_, positions, workers.check_cancelled);
+    const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     positions_.assign(positions.begin(), positions.end());
     parallel_blocks(samples_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -189,16 +184,13 @@ FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double toler
 FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positions, Workers workers,
                                                  std::span<const std::uint8_t> flipped) {
     if (positions_.empty()) return initialize(positions, workers);
-    std::vector<std::uint8_t> moved =
-        moved_triangles(triangles_, positions_, positions, workers.check_cancelled);
+    std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     for (std::size_t f = 0; f < flipped.size(); ++f) moved[f] |= flipped[f];
-    if (!flipped.empty())
-        vertex_faces_ = make_vertex_faces(positions.size(), triangles_, workers.check_cancelled);
+    if (!flipped.empty()) vertex_faces_ = make_vertex_faces(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
     is_tree_outdated_ = true;
     std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
-        workers.check_cancelled();
         if (!moved[f]) continue;
         for (const Index v : triangles_[f]) {
             for (const Index neighbour : vertex_faces_[v]) to_measure[neighbour] = 1;
@@ -216,7 +208,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
 }
 
 FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> positions, Workers workers) {
-    vertex_faces_ = make_vertex_faces(positions.size(), triangles_, workers.check_cancelled);
+    vertex_faces_ = make_vertex_faces(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
     tree_.emplace(positions_, triangles_, workers.check_cancelled);
     parallel_blocks(points_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
@@ -226,8 +218,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> po
 }
 
 FAQEM_INLINE void ReferenceToMeshTracker::search_farthest(double share, Workers workers) {
-    if (std::exchange(is_tree_outdated_, false))
-        tree_->refit(positions_, triangles_, workers.check_cancelled);
+    if (std::exchange(is_tree_outdated_, false)) tree_->refit(positions_, triangles_);
     search_above_share(
         squared_distances_, share, workers, [&](std::size_t i) { return residuals_[i].is_exact; },
         [&](std::size_t i) { search(i, residuals_[i].sample.face); });

@@ -24,16 +24,14 @@ namespace detail {
 /// A surface that does not move, with its search tree, normals and adjacency.
 struct ReferenceSurface {
     /// \param surface  not copied; its arrays must outlive this object
-    /// \throws whatever `workers.check_cancelled` throws
     /// O(n log n)
     explicit ReferenceSurface(const MeshRef& surface, Workers workers = {}) : mesh(surface) {
         parallel_blocks(2, 1, workers, [&](std::size_t part, std::size_t, CancellationCheck check_cancelled) {
             if (part == 0) {
                 tree = Bvh(surface.positions, surface.triangles, check_cancelled);
             } else {
-                normals = unit_normals(surface, check_cancelled);
-                vertex_faces =
-                    make_vertex_faces(surface.positions.size(), surface.triangles, check_cancelled);
+                normals = unit_normals(surface);
+                vertex_faces = make_vertex_faces(surface.positions.size(), surface.triangles);
             }
         });
     }
@@ -62,7 +60,6 @@ public:
     /// globally, later ones track.
     /// \param positions  current vertex positions of the moving mesh
     /// \param workers    the result does not depend on the number of threads
-    /// \throws whatever `workers.check_cancelled` throws
     /// First call: O(samples log faces) typically. Later: O(1) for each sample whose face has moved, if its
     /// closest point has moved by a few faces only.
     void update(std::span<const engine::Vector3> positions, Workers workers);

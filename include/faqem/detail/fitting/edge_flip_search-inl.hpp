@@ -78,7 +78,7 @@ public:
           original_vertices_(original_vertices),
           weight_(area / static_cast<double>(std::max<std::size_t>(even_samples.size(), 1))),
           workers_(workers),
-          halfedges_(sorted_halfedges(simplified.triangles, workers.check_cancelled)) {
+          halfedges_(sorted_halfedges(simplified.triangles)) {
         group_points_by_face();
     }
 
@@ -121,12 +121,10 @@ private:
         };
         points_of_face_ = Buckets<std::size_t>(simplified_.triangles.size(), [&](auto&& put) {
             for (std::size_t i = 0; i < points; ++i) {
-                workers_.check_cancelled();
                 put(face(i), i);
             }
         });
         for (std::size_t i = 0; i < points; ++i) {
-            workers_.check_cancelled();
             const Vector3& residual = i < even_samples_.size()
                                           ? even_samples_.residual(i)
                                           : original_vertices_.residual(i - even_samples_.size());
@@ -239,7 +237,7 @@ private:
     void measure_faces(std::span<const Candidate> candidates) {
         std::vector<Index> wanted;
         for (const Candidate& c : candidates) wanted.insert(wanted.end(), c.faces.begin(), c.faces.end());
-        std::sort(wanted.begin(), wanted.end(), engine::cancellable_less(workers_.check_cancelled));
+        std::sort(wanted.begin(), wanted.end());
         wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
         face_deviation_.resize(simplified_.triangles.size());
         parallel_blocks(wanted.size(), 64, workers_, [&](std::size_t begin, std::size_t end) {
@@ -271,10 +269,7 @@ private:
     std::vector<EdgeFlip> select_independent(std::vector<Candidate>& candidates) const {
         std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
         std::stable_sort(candidates.begin(), candidates.end(),
-                         [this](const Candidate& a, const Candidate& b) {
-                             workers_.check_cancelled();
-                             return a.gain > b.gain;
-                         });
+                         [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
         std::vector<EdgeFlip> chosen;
         std::vector<std::uint8_t> flipped(simplified_.triangles.size(), 0);
         std::set<std::pair<Index, Index>> made;

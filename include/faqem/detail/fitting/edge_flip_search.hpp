@@ -38,7 +38,6 @@ using EdgeFlip = std::array<Index, 2>;
 /// \param area               surface area of the original
 /// \param workers            the result does not depend on the number of threads
 /// \return the flips, in order of decreasing gain
-/// \throws whatever `workers.check_cancelled` throws
 /// O(n log n). Source of the operation: Hoppe et al. 1993, Mesh Optimization
 std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simplified, const ReferenceSurface& original,
                                       const ReferenceToMeshTracker& even_samples,

@@ -8,12 +8,10 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine,
-                                  engine::CancellationCheck check_cancelled)
+FAQEM_INLINE FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine)
     : triangles_(mesh.triangles), min_fold_cosine_(min_fold_cosine) {
-    const std::vector<engine::Vector3> normals = unit_normals(mesh, check_cancelled);
-    for_each_edge(sorted_halfedges(triangles_, check_cancelled), [&](std::span<const Halfedge> on) {
-        check_cancelled();
+    const std::vector<engine::Vector3> normals = unit_normals(mesh);
+    for_each_edge(sorted_halfedges(triangles_), [&](std::span<const Halfedge> on) {
         if (on.size() != 2) return;
         const Edge edge{{on[0].face, on[1].face}, on[0].is_ascending == on[1].is_ascending};
         if (!is_fold(edge, normals)) edges_.push_back(edge);

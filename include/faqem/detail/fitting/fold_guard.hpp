@@ -18,20 +18,17 @@ class FoldGuard {
 public:
     /// \param mesh             the mesh in its initial state; its triangles must outlive this object
     /// \param min_fold_cosine  cosine between the normals below which an edge is folded, in [-1, 1]
-    /// \throws whatever `check_cancelled` throws
     /// O(faces log faces)
-    FoldGuard(const MeshRef& mesh, double min_fold_cosine, engine::CancellationCheck check_cancelled = {});
+    FoldGuard(const MeshRef& mesh, double min_fold_cosine);
 
     /// Calls visit(const Triangle&, const Triangle&) with the two faces of each edge that is folded.
     /// \param positions  current vertex positions
-    /// \throws whatever `visit` or `check_cancelled` throws
+    /// \throws whatever `visit` throws
     /// O(faces)
     template <class Visit>
-    void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit,
-                       engine::CancellationCheck check_cancelled = {}) const {
-        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_}, check_cancelled);
+    void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit) const {
+        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_});
         for (const Edge& edge : edges_) {
-            check_cancelled();
             if (is_fold(edge, normals)) visit(triangles_[edge.faces[0]], triangles_[edge.faces[1]]);
         }
     }

@@ -85,13 +85,11 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
                                             Workers workers) {
     double mean = 0;
     for (const Correspondence& correspondence : correspondences) {
-        workers.check_cancelled();
         mean += correspondence.residual.norm();
     }
     mean /= static_cast<double>(std::max<std::size_t>(correspondences.size(), 1));
     const Buckets<std::size_t> by_face(faces, [&](auto&& put) {
         for (std::size_t i = 0; i < correspondences.size(); ++i) {
-            workers.check_cancelled();
             put(correspondences[i].sample.face, i);
         }
     });
@@ -118,11 +116,9 @@ public:
           free_(fixed.size()),
           diagonal_(fixed.size()),
           inverse_(fixed.size(), Matrix3::Zero()),
-          rhs_(fixed.size(), Vector3::Zero()),
-          check_cancelled_(workers.check_cancelled) {
+          rhs_(fixed.size(), Vector3::Zero()) {
         for (std::size_t v = 0; v < free_.size(); ++v) free_[v] = !fixed[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            check_cancelled_();
             if (triangles_[f][0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 diagonal_[triangles_[f][k]].add(1, faces_[f].diagonal[k]);
@@ -137,7 +133,6 @@ public:
     void multiply(std::span<const Vector3> x, std::vector<Vector3>& result) const {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            check_cancelled_();
             const Triangle& t = triangles_[f];
             if (t[0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -164,7 +159,6 @@ private:
         }
         const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(free_.size(), 1));
         for (std::size_t v = 0; v < free_.size(); ++v) {
-            check_cancelled_();
             if (!free_[v]) {
                 rhs_[v].setZero();
                 continue;
@@ -181,7 +175,6 @@ private:
     std::vector<Symmetric3> diagonal_;
     std::vector<Matrix3> inverse_;
     std::vector<Vector3> rhs_;
-    CancellationCheck check_cancelled_;
 };
 
 inline double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
@@ -203,6 +196,7 @@ FAQEM_INLINE std::vector<Vector3> gauss_newton_step(std::span<const Triangle> tr
     double residual_product = dot(residual, preconditioned);
     const double enough = residual_tolerance * residual_tolerance * dot(residual, residual);
     for (int i = 0; i < max_iterations && dot(residual, residual) > enough; ++i) {
+        workers.check_cancelled.now();
         system.multiply(direction, matrix_direction);
         const double length = residual_product / dot(direction, matrix_direction);
         for (std::size_t v = 0; v < size; ++v) {

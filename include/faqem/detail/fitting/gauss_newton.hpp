@@ -33,7 +33,6 @@ struct Correspondence {
 /// \param power            p >= 0: the step decreases the sum of d^(2 + p)
 /// \param workers          the result does not depend on the number of threads
 /// \return one step per vertex, in the units of the residuals; not finite if the system cannot be solved
-/// \throws whatever `workers.check_cancelled` throws
 /// O(correspondences + faces) per iteration, at most 60 iterations
 std::vector<engine::Vector3> gauss_newton_step(std::span<const Triangle> triangles,
                                                std::span<const Correspondence> correspondences,

@@ -64,25 +64,23 @@ FAQEM_INLINE TwoSidedError::TwoSidedError(const ReferenceSurface& original,
       faces_(face_count(triangles)),
       is_coarse_(point_count() == min_samples &&
                  coarse_face_ratio * faces_ <= face_count(original.mesh.triangles)),
-      from_mesh_(original, triangles,
-                 area_uniform_samples({positions, triangles}, point_count(), workers.check_cancelled)),
-      from_mesh_corners_(std::in_place, original, triangles,
-                         vertex_and_midpoint_samples(triangles, workers.check_cancelled)),
+      from_mesh_(original, triangles, area_uniform_samples({positions, triangles}, point_count())),
+      from_mesh_corners_(std::in_place, original, triangles, vertex_and_midpoint_samples(triangles)),
       from_reference_(even_points(), triangles),
-      from_reference_vertices_(oriented_vertices(original.mesh, workers.check_cancelled), triangles) {}
+      from_reference_vertices_(oriented_vertices(original.mesh), triangles) {}
 
 FAQEM_INLINE std::size_t TwoSidedError::point_count() const {
     return std::clamp(samples_per_face * faces_, min_samples, max_samples);
 }
 
 FAQEM_INLINE std::vector<OrientedPoint> TwoSidedError::even_points() const {
+    workers_.check_cancelled.now();
     const MeshRef& mesh = original_.mesh;
     std::vector<OrientedPoint> points;
-    for (const SurfaceSample& sample :
-         area_uniform_samples(mesh, reference_sample_factor * point_count(), workers_.check_cancelled)) {
-        workers_.check_cancelled();
+    for (const SurfaceSample& sample : area_uniform_samples(mesh, reference_sample_factor * point_count())) {
         points.push_back({sample.position(mesh.positions, mesh.triangles), original_.normals[sample.face]});
     }
+    workers_.check_cancelled.now();
     return points;
 }
 
@@ -128,11 +126,9 @@ FAQEM_INLINE std::vector<FaceDeviation> TwoSidedError::deviations() {
     for (MeshToReferenceTracker* there : {&from_mesh_, &*from_mesh_corners_})
         there->measure_normal_deviations(tie_tolerance, workers_);
     std::array<std::vector<FaceDeviation>, 4> by_tracker;
-    for_each_tracker_in_parallel([&](const auto& tracker, std::size_t kind,
-                                     CancellationCheck check_cancelled) {
+    for_each_tracker_in_parallel([&](const auto& tracker, std::size_t kind, CancellationCheck) {
         by_tracker[kind].resize(triangles_.size());
         for (std::size_t i = 0; i < tracker.size(); ++i) {
-            check_cancelled();
             FaceDeviation deviation{tracker.squared_distance(i),
                                     kind == reference_vertex_tracker ? 0 : tracker.squared_distance(i), 0};
             if constexpr (std::is_same_v<std::remove_cvref_t<decltype(tracker)>, MeshToReferenceTracker>)
@@ -169,7 +165,6 @@ FAQEM_INLINE std::vector<Correspondence> TwoSidedError::correspondences_at(
     std::vector<Correspondence> all;
     const auto add = [&](const auto& tracker) {
         for (std::size_t i = 0; i < tracker.size(); ++i) {
-            workers_.check_cancelled();
             if (faces[tracker.sample(i).face]) all.push_back(tracker.correspondence(i));
         }
     };
@@ -186,10 +181,8 @@ FAQEM_INLINE void TwoSidedError::resample_flipped(std::span<const Vector3> posit
     const MeshRef part{positions, those};
     const double share = area(part) / area({positions, triangles_});
     const auto count = std::llround(share * static_cast<double>(point_count()));
-    from_mesh_.replace_samples(
-        flipped, area_uniform_samples(part, static_cast<std::size_t>(count), workers_.check_cancelled));
-    from_mesh_corners_.emplace(original_, triangles_,
-                               vertex_and_midpoint_samples(triangles_, workers_.check_cancelled));
+    from_mesh_.replace_samples(flipped, area_uniform_samples(part, static_cast<std::size_t>(count)));
+    from_mesh_corners_.emplace(original_, triangles_, vertex_and_midpoint_samples(triangles_));
     from_reference_.update(positions, workers_, flipped);
     from_reference_vertices_.update(positions, workers_, flipped);
 }

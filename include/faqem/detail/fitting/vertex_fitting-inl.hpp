@@ -49,10 +49,10 @@ inline constexpr double max_distance_ratio = 0.998;
 inline constexpr double tradeoff_exponent = 0.15;
 
 /// For each vertex, whether it is on an edge with exactly one face.
-inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> triangles, std::size_t vertices,
-                                                   CancellationCheck check_cancelled) {
+inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> triangles,
+                                                   std::size_t vertices) {
     std::vector<std::uint8_t> is_boundary(vertices, 0);
-    for_each_edge(sorted_halfedges(triangles, check_cancelled), [&](std::span<const Halfedge> on) {
+    for_each_edge(sorted_halfedges(triangles), [&](std::span<const Halfedge> on) {
         if (on.size() == 1) is_boundary[on[0].low] = is_boundary[on[0].high] = 1;
     });
     return is_boundary;
@@ -68,7 +68,7 @@ public:
           original_(original, workers),
           triangles_(simplified.triangles.begin(), simplified.triangles.end()),
           positions_(simplified.positions.begin(), simplified.positions.end()),
-          fixed_(boundary_vertices(simplified.triangles, positions_.size(), workers.check_cancelled)),
+          fixed_(boundary_vertices(simplified.triangles, positions_.size())),
           error_(original_, triangles_, positions_, workers) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
@@ -76,8 +76,9 @@ public:
     /// Takes Gauss-Newton steps on all vertices, and reverts those that do not improve the fit.
     void fit_all_vertices(int steps) {
         start_ = positions_;
-        guard_.emplace(MeshRef{start_, triangles_}, min_fitted_fold, workers_.check_cancelled);
+        guard_.emplace(MeshRef{start_, triangles_}, min_fitted_fold);
         if (error_.empty()) return;
+        workers_.check_cancelled.now();
         deviations_ = error_.measure(positions_);
         const std::vector<FaceDeviation> first = deviations_;
         const double before = max_squared_distance(first);
@@ -167,7 +168,6 @@ private:
     std::vector<FaceDeviation> around_vertices(std::span<const FaceDeviation> deviations) const {
         std::vector<FaceDeviation> sums(start_.size());
         for (std::size_t f = 0; f < deviations.size(); ++f) {
-            workers_.check_cancelled();
             if (triangles_[f][0] == no_index) continue;
             for (const Index v : triangles_[f]) sums[v].add(deviations[f]);
         }
@@ -178,7 +178,6 @@ private:
     std::vector<std::uint8_t> movable_faces(std::span<const std::uint8_t> fixed) const {
         std::vector<std::uint8_t> any(triangles_.size(), 0);
         for (std::size_t f = 0; f < any.size(); ++f) {
-            workers_.check_cancelled();
             if (triangles_[f][0] == no_index) continue;
             for (const Index v : triangles_[f]) any[f] |= !fixed[v];
         }
@@ -193,6 +192,7 @@ private:
         std::vector<Vector3> to(positions_.size());
         bool all_good = false;
         for (int round = 0; !all_good; ++round) {
+            workers_.check_cancelled.now();
             for (std::size_t v = 0; v < step.size(); ++v) to[v] = positions_[v] + step[v];
             all_good = true;
             for_each_invalid_face(to, [&](const Triangle& t) {
@@ -211,12 +211,9 @@ private:
     template <class Visit>
     void for_each_invalid_face(std::span<const Vector3> positions, Visit&& visit) const {
         for (const Triangle& t : triangles_) {
-            workers_.check_cancelled();
             if (t[0] != no_index && !keeps_orientation(t, positions)) visit(t);
         }
-        guard_->for_each_fold(
-            positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); },
-            workers_.check_cancelled);
+        guard_->for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
     }
 
     bool keeps_orientation(const Triangle& t, std::span<const Vector3> positions) const {
@@ -250,7 +247,6 @@ private:
         const double limit = revert_share * revert_share * before;
         bool any = false;
         for (std::size_t f = 0; f < deviations_.size(); ++f) {
-            workers_.check_cancelled();
             const FaceDeviation& deviation = deviations_[f];
             if (deviation.max_squared_distance > limit &&
                 deviation.max_squared_distance > first[f].max_squared_distance)

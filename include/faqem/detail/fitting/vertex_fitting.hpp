@@ -29,7 +29,6 @@ namespace detail {
 /// \param min_normal_cosine  minimum cosine between the initial and the new normal of a face, in [-1, 1]
 /// \param workers            the result does not depend on the number of threads
 /// \return the positions of all vertices of `simplified`
-/// \throws whatever `workers.check_cancelled` throws
 /// O(points log faces) per step, with ten points per face of `simplified` (at least 5000, at most 2,000,000)
 /// and twice as many on the original
 std::vector<engine::Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,

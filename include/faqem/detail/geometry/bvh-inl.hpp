@@ -62,7 +62,6 @@ struct Bvh::Build {
     };
 
     std::vector<Item> items;
-    CancellationCheck check_cancelled;
 
     /// Partitions the range by the surface area heuristic, evaluated at equidistant planes along one axis.
     /// \param centres  bounding box of the centres of the items
@@ -78,7 +77,6 @@ struct Bvh::Build {
         std::array<BuildBox, bins> boxes;
         std::array<std::uint32_t, bins> counts = {};
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            check_cancelled();
             const auto bin = static_cast<std::size_t>(bin_of(items[i]));
             boxes[bin].add(items[i].box);
             ++counts[bin];
@@ -107,11 +105,8 @@ struct Bvh::Build {
             }
         }
         if (best < 0) return range.begin;
-        const auto middle =
-            std::partition(items.begin() + range.begin, items.begin() + range.end, [&](const Item& item) {
-                check_cancelled();
-                return bin_of(item) <= best;
-            });
+        const auto middle = std::partition(items.begin() + range.begin, items.begin() + range.end,
+                                           [&](const Item& item) { return bin_of(item) <= best; });
         return static_cast<std::uint32_t>(middle - items.begin());
     }
 
@@ -121,7 +116,6 @@ struct Bvh::Build {
     std::uint32_t halve(const Range& range, int axis) {
         const std::uint32_t half = range.size() / 2, fours = (half + width - 1) / width * width;
         const std::uint32_t middle = range.begin + (fours < range.size() ? fours : half);
-        check_cancelled(range.size());
         std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                          [axis](const Item& a, const Item& b) {
                              return std::pair(a.centre[axis], a.triangle) <
@@ -135,7 +129,6 @@ struct Bvh::Build {
     std::uint32_t split(const Range& range) {
         BuildBox centres;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            check_cancelled();
             centres.add(items[i].centre);
         }
         int axis = 0;
@@ -165,13 +158,11 @@ struct Bvh::Build {
 };
 
 template <class Positions>
-std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles,
-                                       CancellationCheck check_cancelled) {
+std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<const Triangle> triangles) {
     std::vector<Corners> all;
     all.reserve(triangles.size());
     const auto position = [&](Index v) { return Vector3(positions[v][0], positions[v][1], positions[v][2]); };
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         const auto [a, b, c] = triangles[f];
         if (a == no_index || b == no_index || c == no_index) continue;
         all.push_back({position(a), position(b), position(c), static_cast<Index>(f)});
@@ -181,11 +172,11 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
 
 FAQEM_INLINE Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                       CancellationCheck check_cancelled)
-    : Bvh(corners(positions, triangles, check_cancelled), check_cancelled) {}
+    : Bvh(corners(positions, triangles), check_cancelled) {}
 
 FAQEM_INLINE Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles,
                       CancellationCheck check_cancelled)
-    : Bvh(corners(positions, triangles, check_cancelled), check_cancelled) {}
+    : Bvh(corners(positions, triangles), check_cancelled) {}
 
 inline float round_down(double x) {
     const auto rounded = static_cast<float>(x);
@@ -221,11 +212,10 @@ FAQEM_INLINE float Bvh::limit_in_frame(double distance_squared) const {
 FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_cancelled) {
     if (triangles.empty()) return;
     assert(triangles.size() < leaf_bit);
-    Build build{{}, check_cancelled};
+    Build build;
     build.items.reserve(triangles.size());
     BuildBox whole;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        check_cancelled();
         Build::Item item;
         for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
         item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
@@ -243,6 +233,7 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_ca
     while (!todo.empty()) {
         const auto [range, at] = todo.back();
         todo.pop_back();
+        check_cancelled(range.size());
         for (const Build::Range& part : build.split_into_children(range)) {
             const std::uint32_t k = nodes_[at].count++;
             if (part.size() == 1) {
@@ -255,23 +246,20 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_ca
             }
         }
     }
-    fit_boxes(check_cancelled);
+    fit_boxes();
 }
 
-FAQEM_INLINE void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles,
-                             CancellationCheck check_cancelled) {
+FAQEM_INLINE void Bvh::refit(std::span<const Vector3> positions, std::span<const Triangle> triangles) {
     for (Corners& t : triangles_) {
-        check_cancelled();
         const auto [a, b, c] = triangles[t.face];
         t.a = positions[a], t.b = positions[b], t.c = positions[c];
     }
-    fit_boxes(check_cancelled);
+    fit_boxes();
 }
 
-FAQEM_INLINE void Bvh::fit_boxes(CancellationCheck check_cancelled) {
+FAQEM_INLINE void Bvh::fit_boxes() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
-        check_cancelled();
         Node& node = nodes_[n];
         for (std::size_t i = 0; i < 3; ++i) node.low[i].fill(infinity), node.high[i].fill(-infinity);
         for (std::uint32_t k = 0; k < node.count; ++k) {

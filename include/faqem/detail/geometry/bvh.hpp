@@ -33,8 +33,7 @@ public:
     /// \param triangles        vertex indices < positions.size(), fewer than 2^31 triangles. Triangles with a
     ///                         corner no_index are left out. Triangles of zero area count as the segment or
     ///                         point that they degenerate to.
-    /// \param check_cancelled  called during construction
-    /// \throws whatever `check_cancelled` throws
+    /// \param check_cancelled  called during construction; exceptions pass through
     /// O(n log n) time, about 140 bytes per face
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
         engine::CancellationCheck check_cancelled = {});
@@ -45,10 +44,8 @@ public:
     /// correct, but become slower if the vertices have moved far.
     /// \param positions  finite, as many as were passed to the constructor
     /// \param triangles  the triangles that were passed to the constructor
-    /// \throws whatever `check_cancelled` throws; the tree must not be used afterwards
     /// O(n)
-    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
-               engine::CancellationCheck check_cancelled = {});
+    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
 
     /// Result of a closest-point query.
     struct Hit {
@@ -191,13 +188,12 @@ private:
     static constexpr std::size_t sah_levels = 48, max_depth = sah_levels + 32;
 
     template <class Positions>
-    static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles,
-                                        engine::CancellationCheck check_cancelled);
+    static std::vector<Corners> corners(const Positions& positions, std::span<const Triangle> triangles);
 
     struct Build;
 
     Bvh(std::vector<Corners> triangles, engine::CancellationCheck check_cancelled);
-    void fit_boxes(engine::CancellationCheck check_cancelled);
+    void fit_boxes();
 
     /// Converts a squared distance to the frame, rounded up.
     float limit_in_frame(double distance_squared) const;

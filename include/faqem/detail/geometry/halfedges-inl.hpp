@@ -8,12 +8,10 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles,
-                                                    engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles) {
     std::vector<Halfedge> halfedges;
     halfedges.reserve(3 * triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         const Triangle& t = triangles[f];
         if (t[0] == no_index) continue;
         for (std::uint8_t k = 0; k < 3; ++k) {
@@ -22,8 +20,7 @@ FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> tr
                 halfedges.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), k, a < b});
         }
     }
-    std::sort(halfedges.begin(), halfedges.end(), [check_cancelled](const Halfedge& a, const Halfedge& b) {
-        check_cancelled();
+    std::sort(halfedges.begin(), halfedges.end(), [](const Halfedge& a, const Halfedge& b) {
         if (a.edge() != b.edge()) return a.edge() < b.edge();
         return a.face != b.face ? a.face < b.face : a.corner < b.corner;
     });

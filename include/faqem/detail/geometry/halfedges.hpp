@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -30,10 +29,8 @@ struct Halfedge {
 /// Lists the half-edges of all triangles, sorted by low vertex, high vertex, face and corner.
 /// \param triangles  triangles with no_index as first corner are skipped, and so are half-edges with two
 ///                   equal vertices
-/// \throws whatever `check_cancelled` throws
 /// O(n log n)
-std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles,
-                                       engine::CancellationCheck check_cancelled = {});
+std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles);
 
 /// Calls visit(std::span<const Halfedge>) once for each edge, with all half-edges on it.
 /// \param halfedges  as returned by sorted_halfedges()

@@ -28,10 +28,9 @@ inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices
 }
 
 /// Merges equal positions, removes unreferenced ones, and updates the indices of the triangles.
-inline void weld(Surface& s, engine::CancellationCheck check_cancelled) {
+inline void weld(Surface& s) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;
     for (const Triangle& t : s.triangles) {
-        check_cancelled();
         for (const Index v : t) {
             if (new_index[v] != no_index) continue;
             new_index[v] = 0;
@@ -39,30 +38,26 @@ inline void weld(Surface& s, engine::CancellationCheck check_cancelled) {
         }
     }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        check_cancelled();
         if (s.positions[a] != s.positions[b]) return s.positions[a] < s.positions[b];
         return a < b;
     });
     std::vector<Vec3> kept;
     for (const Index v : order) {
-        check_cancelled();
         if (kept.empty() || kept.back() != s.positions[v]) kept.push_back(s.positions[v]);
         new_index[v] = static_cast<Index>(kept.size() - 1);
     }
     for (Triangle& t : s.triangles) {
-        check_cancelled();
         for (Index& v : t) v = new_index[v];
     }
     s.positions = std::move(kept);
 }
 
-FAQEM_INLINE Surface extract_surface(const MeshView& mesh, engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
     Surface s;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
     double area = 0;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        check_cancelled();
         const Triangle t = mesh.triangles[f];
         check_indices(t, f, s.positions.size());
         const Vector3 a = engine::to_eigen(s.positions[t[0]]), b = engine::to_eigen(s.positions[t[1]]),
@@ -78,7 +73,7 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh, engine::CancellationC
         s.normals.push_back(n / twice_area);
         s.cumulative_area.push_back(area);
     }
-    weld(s, check_cancelled);
+    weld(s);
     if (s.positions.empty()) return s;
     s.low = s.high = engine::to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {

@@ -40,9 +40,8 @@ struct Surface {
 /// Copies the faces of a mesh into a Surface. Leaves out faces whose height is below 1e-12 of their longest
 /// edge, and faces with positions that are not finite. The result may be empty.
 /// \throws InputError  if a vertex index is out of range
-/// \throws whatever `check_cancelled` throws
 /// O(n log n)
-FAQEM_EXPORT Surface extract_surface(const MeshView& mesh, engine::CancellationCheck check_cancelled = {});
+FAQEM_EXPORT Surface extract_surface(const MeshView& mesh);
 
 /// Same as extract_surface(), but the result must not be empty.
 /// \param name  name of the mesh in error messages

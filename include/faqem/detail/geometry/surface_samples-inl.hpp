@@ -25,24 +25,20 @@ inline Vec3 even_barycentric(std::size_t k) {
     return {1 - v - w, v, w};
 }
 
-FAQEM_INLINE std::vector<Vector3> unit_normals(const MeshRef& mesh,
-                                               engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<Vector3> unit_normals(const MeshRef& mesh) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-        check_cancelled();
         normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
                                            : area_vector(mesh.positions, t).normalized());
     }
     return normals;
 }
 
-FAQEM_INLINE std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count,
-                                                             engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count) {
     std::vector<double> cumulative_area;
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
-        check_cancelled();
         if (t[0] != no_index) area += area_vector(mesh.positions, t).norm();
         cumulative_area.push_back(area);
     }
@@ -50,7 +46,6 @@ FAQEM_INLINE std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh
     if (!(area > 0)) return samples;
     Index face = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        check_cancelled();
         const double area_position = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * area;
         while (face + 1 < cumulative_area.size() && !(cumulative_area[face] > area_position)) ++face;
         samples.push_back({face, even_barycentric(k)});
@@ -58,12 +53,10 @@ FAQEM_INLINE std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh
     return samples;
 }
 
-FAQEM_INLINE std::vector<SurfaceSample> vertex_and_midpoint_samples(
-    std::span<const Triangle> triangles, engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<SurfaceSample> vertex_and_midpoint_samples(std::span<const Triangle> triangles) {
     std::vector<SurfaceSample> samples;
     std::vector<std::uint8_t> seen;
     for (Index f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         const Triangle& t = triangles[f];
         if (t[0] == no_index) continue;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -78,19 +71,16 @@ FAQEM_INLINE std::vector<SurfaceSample> vertex_and_midpoint_samples(
     return samples;
 }
 
-FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh,
-                                                          engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh) {
     std::vector<Vector3> normal(mesh.positions.size(), Vector3::Zero());
     std::vector<std::uint8_t> used(mesh.positions.size(), 0);
     for (const Triangle& t : mesh.triangles) {
         if (t[0] == no_index) continue;
-        check_cancelled();
         const Vector3 n = area_vector(mesh.positions, t);
         for (const Index v : t) normal[v] += n, used[v] = 1;
     }
     std::vector<OrientedPoint> points;
     for (std::size_t v = 0; v < used.size(); ++v) {
-        check_cancelled();
         if (used[v]) points.push_back({mesh.positions[v], normal[v].normalized()});
     }
     return points;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "faqem/engine/mesh/vector.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -27,10 +26,8 @@ inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, c
 }
 
 /// Unit normal of each triangle; zero if it has no area or no_index corners.
-/// \throws whatever `check_cancelled` throws
 /// O(faces)
-std::vector<engine::Vector3> unit_normals(const MeshRef& mesh,
-                                          engine::CancellationCheck check_cancelled = {});
+std::vector<engine::Vector3> unit_normals(const MeshRef& mesh);
 
 /// A point of a face, in barycentric coordinates.
 struct SurfaceSample {
@@ -54,25 +51,19 @@ struct OrientedPoint {
 /// Distributes points uniformly by area, using a low-discrepancy sequence.
 /// \param count  number of points
 /// \return `count` points, sorted by face; none if the mesh has no area
-/// \throws whatever `check_cancelled` throws
 /// O(faces + count). Source: Roberts 2018, R2 sequence (based on the plastic number)
-std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count,
-                                                engine::CancellationCheck check_cancelled = {});
+std::vector<SurfaceSample> area_uniform_samples(const MeshRef& mesh, std::size_t count);
 
 /// The referenced vertices, each once, and the midpoints of the edges, once per face. A simplified mesh
 /// typically deviates most from the original at these points.
 /// \param triangles  triangles with no_index corners are ignored
-/// \throws whatever `check_cancelled` throws
 /// O(faces)
-std::vector<SurfaceSample> vertex_and_midpoint_samples(std::span<const Triangle> triangles,
-                                                       engine::CancellationCheck check_cancelled = {});
+std::vector<SurfaceSample> vertex_and_midpoint_samples(std::span<const Triangle> triangles);
 
 /// The referenced vertices, each with the area-weighted mean of the normals of its faces, normalized; zero if
 /// the mean is zero.
-/// \throws whatever `check_cancelled` throws
 /// O(vertices + faces)
-std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh,
-                                             engine::CancellationCheck check_cancelled = {});
+std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

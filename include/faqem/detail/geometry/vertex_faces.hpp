@@ -6,7 +6,6 @@
 #include <span>
 
 #include "faqem/detail/base/buckets.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -19,13 +18,10 @@ using VertexFaces = Buckets<Index>;
 /// Lists the faces of each vertex.
 /// \param vertices   number of vertices
 /// \param triangles  vertex indices < vertices; triangles with no_index as first corner are skipped
-/// \throws whatever `check_cancelled` throws
 /// O(vertices + faces)
-inline VertexFaces make_vertex_faces(std::size_t vertices, std::span<const Triangle> triangles,
-                                     engine::CancellationCheck check_cancelled = {}) {
+inline VertexFaces make_vertex_faces(std::size_t vertices, std::span<const Triangle> triangles) {
     return VertexFaces(vertices, [&](auto&& put) {
         for (Index f = 0; f < triangles.size(); ++f) {
-            check_cancelled();
             if (triangles[f][0] == no_index) continue;
             for (const Index v : triangles[f]) put(v, f);
         }

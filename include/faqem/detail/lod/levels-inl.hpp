@@ -80,8 +80,7 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
     const detail::DistanceReference original(mesh, options, monitor.cancellation_check());
     const std::uint64_t faces = mesh.triangles.size();
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
-        levels, options, static_cast<double>(faces),
-        detail::unpruned_diagonal(mesh, options, original, monitor.cancellation_check()));
+        levels, options, static_cast<double>(faces), detail::unpruned_diagonal(mesh, options, original));
     if (level_targets.empty()) return {};
     std::vector<SimplifiedLevel> chain = detail::run_lod_chain<SimplifiedLevel>(
         level_targets, options, faces,

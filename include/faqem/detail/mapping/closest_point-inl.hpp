@@ -13,7 +13,7 @@ using engine::to_eigen;
 FAQEM_INLINE ClosestPointMap::ClosestPointMap(const CollapseHistory& history,
                                               engine::CancellationCheck check_cancelled)
     : history_(history),
-      replay_(replay_vertices(history, check_cancelled)),
+      replay_(replay_vertices(history)),
       tree_(history.positions, history.triangles, check_cancelled) {}
 
 FAQEM_INLINE SurfacePoint ClosestPointMap::to_surface_point(const Bvh::Hit& hit, Index face,

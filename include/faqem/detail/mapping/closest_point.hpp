@@ -4,6 +4,7 @@
 
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/mapping/replay.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"

@@ -11,12 +11,9 @@ namespace detail {
 using engine::to_eigen;
 using engine::Vector3;
 
-FAQEM_INLINE LineageMap::LineageMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled)
-    : history_(history),
-      replay_(replay_vertices(history, check_cancelled)),
-      first_face_(history.positions.size() + 1, 0) {
+FAQEM_INLINE LineageMap::LineageMap(const CollapseHistory& history)
+    : history_(history), replay_(replay_vertices(history)), first_face_(history.positions.size() + 1, 0) {
     for (const Triangle& t : history.triangles) {
-        check_cancelled();
         if (t[0] == no_index) continue;
         for (Index v : t) ++first_face_[v + std::size_t{1}];
     }
@@ -24,7 +21,6 @@ FAQEM_INLINE LineageMap::LineageMap(const CollapseHistory& history, engine::Canc
     faces_.resize(first_face_.back());
     std::vector<std::uint64_t> next(first_face_.begin(), first_face_.end() - 1);
     for (std::size_t f = 0; f < history.triangles.size(); ++f) {
-        check_cancelled();
         if (history.triangles[f][0] == no_index) continue;
         for (Index v : history.triangles[f]) faces_[next[v]++] = static_cast<Index>(f);
     }

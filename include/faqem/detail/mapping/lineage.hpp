@@ -19,9 +19,8 @@ namespace detail {
 class LineageMap {
 public:
     /// \param history  valid; must outlive this object
-    /// \throws whatever `check_cancelled` throws
     /// O(size of the history)
-    explicit LineageMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
+    explicit LineageMap(const CollapseHistory& history);
 
     /// Maps one point. The result is at a vertex, in one of its faces: preferably a face of the same group as
     /// the simplified face, and of these the one with the smallest index.

@@ -104,14 +104,12 @@ inline BoundingSphere bounding_sphere(const std::vector<Vec3>& positions, const 
 // Replays the collapses and edge flips. Calls before(patch, entry, corners) for each entry before it is
 // changed. Returns the final corner versions of all input faces.
 template <class Before>
-std::vector<Triangle> replay_forward(const CollapseHistory& history,
-                                     engine::CancellationCheck check_cancelled, Before&& before) {
+std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& before) {
     std::vector<Triangle> now = history.triangles;
     for (std::size_t k = 0; k < history.collapses.size(); ++k) {
         const Collapse& c = history.collapses[k];
         const Index made = static_cast<Index>(history.positions.size() + k);
         for (std::uint64_t e = history.patch_begin[k]; e < history.patch_begin[k + 1]; ++e) {
-            check_cancelled();
             Triangle& t = now[history.patch_faces[e]];
             before(k, e, t);
             for (Index& v : t) {
@@ -130,13 +128,12 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history,
 
 // Fills kept_corners and kept_positions. last: final corner versions of all input faces
 inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
-                            engine::CancellationCheck check_cancelled, ReplayTables& result) {
+                            ReplayTables& result) {
     std::vector<Vec3> final_positions = result.positions;
     for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
         final_positions[history.kept_versions[i]] = history.kept_position(i);
     }
     for (const Index f : history.kept_faces) {
-        check_cancelled();
         const Triangle& t = last[f];
         result.kept_corners.push_back(t);
         result.kept_positions.push_back(
@@ -144,12 +141,11 @@ inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Tr
     }
 }
 
-FAQEM_INLINE ReplayTables replay_vertices(const CollapseHistory& history,
-                                          engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE ReplayTables replay_vertices(const CollapseHistory& history) {
     ReplayTables result;
     result.positions = version_positions(history);
     const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
-    fill_kept_faces(history, replay_forward(history, check_cancelled, nothing), check_cancelled, result);
+    fill_kept_faces(history, replay_forward(history, nothing), result);
     return result;
 }
 
@@ -168,8 +164,7 @@ inline std::vector<std::uint64_t> entries_of_patches(const CollapseHistory& hist
     return begin;
 }
 
-FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history,
-                                         engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history) {
     ReplayTables result;
     result.positions = version_positions(history);
     result.entry_begin = entries_of_patches(history);
@@ -179,7 +174,7 @@ FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history,
 
     std::vector<Index> touched(history.triangles.size(), no_index);
     const std::vector<Triangle> last =
-        replay_forward(history, check_cancelled, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
+        replay_forward(history, [&](std::size_t k, std::uint64_t e, const Triangle& t) {
             Index& latest = touched[history.patch_faces[e]];
             if (result.has_entries(history, k)) {
                 const std::uint64_t entry = result.first_entry(history, k) + e - history.patch_begin[k];
@@ -188,7 +183,7 @@ FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history,
             }
             latest = static_cast<Index>(k);
         });
-    fill_kept_faces(history, last, check_cancelled, result);
+    fill_kept_faces(history, last, result);
     for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
     return result;
 }
@@ -198,25 +193,20 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
     replay.bounds.resize(replay.corners.size());
     replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
-    parallel_blocks(history.patch_count(), 1024, workers,
-                    [&](std::size_t first, std::size_t last, CancellationCheck check_cancelled) {
-                        ComponentLabeller component_labeller;
-                        for (std::size_t k = first; k < last; ++k) {
-                            const std::uint64_t begin = replay.first_entry(history, k),
-                                                size = replay.first_entry(history, k + 1) - begin;
-                            check_cancelled(size);
-                            const std::span<const Triangle> corners =
-                                std::span(replay.corners).subspan(begin, size);
-                            for (std::size_t e = 0; e < size; ++e)
-                                replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
-                            const auto surface_patch = [&](std::size_t e) {
-                                return surface_patches[history.patch(k)[e]];
-                            };
-                            component_labeller.label(corners, surface_patch,
-                                                     std::span(replay.patch_component).subspan(begin, size));
-                            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
-                        }
-                    });
+    parallel_blocks(history.patch_count(), 1024, workers, [&](std::size_t first, std::size_t last) {
+        ComponentLabeller component_labeller;
+        for (std::size_t k = first; k < last; ++k) {
+            const std::uint64_t begin = replay.first_entry(history, k),
+                                size = replay.first_entry(history, k + 1) - begin;
+            const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
+            for (std::size_t e = 0; e < size; ++e)
+                replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
+            const auto surface_patch = [&](std::size_t e) { return surface_patches[history.patch(k)[e]]; };
+            component_labeller.label(corners, surface_patch,
+                                     std::span(replay.patch_component).subspan(begin, size));
+            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
+        }
+    });
 }
 
 }  // namespace detail

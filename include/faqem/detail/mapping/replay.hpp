@@ -70,21 +70,18 @@ struct ReplayTables {
 /// Computes positions, kept_corners and kept_positions only, which are sufficient for LineageMap and
 /// ClosestPointMap.
 /// \param history  valid
-/// \throws whatever `check_cancelled` throws
 /// O(size of the history)
-ReplayTables replay_vertices(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
+ReplayTables replay_vertices(const CollapseHistory& history);
 
 /// Computes all tables except those that describe_patches() adds.
 /// \param history  valid
-/// \throws whatever `check_cancelled` throws
 /// O(size of the history) time. Memory: 37 bytes per entry, including describe_patches(); if a patch has no
 /// entries, also 8 bytes per patch
-ReplayTables replay_patches(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
+ReplayTables replay_patches(const CollapseHistory& history);
 
 /// Computes bounds, patch_component and mean_edge.
 /// \param surface_patches  per face of the original: number of its surface patch
 /// \param replay           result of replay_patches(history), to which the tables are added
-/// \throws whatever `workers.check_cancelled` throws
 /// O(n log n) in the entries
 void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches, Workers workers,
                       ReplayTables& replay);

@@ -79,9 +79,8 @@ FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& h
                                                         std::span<const Triangle> unwelded, Workers workers)
     : history_(history),
       tree_(history.positions, history.triangles, workers.check_cancelled),
-      surface_patches_(
-          find_surface_patches(history.positions, history.triangles, unwelded, workers.check_cancelled)),
-      replay_(replay_patches(history, workers.check_cancelled)),
+      surface_patches_(find_surface_patches(history.positions, history.triangles, unwelded)),
+      replay_(replay_patches(history)),
       last_(final_versions(history)) {
     describe_patches(history, surface_patches_.surface_patch, workers, replay_);
 }

@@ -31,7 +31,7 @@ FAQEM_INLINE SurfaceMap detail::make_surface_map(const CollapseHistory& history,
             impl->map = std::make_unique<const detail::SuccessiveProjection>(history, unwelded, workers);
             break;
         case Mapping::lineage:
-            impl->map = std::make_unique<const detail::LineageMap>(history, workers.check_cancelled);
+            impl->map = std::make_unique<const detail::LineageMap>(history);
             break;
         case Mapping::closest:
             impl->map = std::make_unique<const detail::ClosestPointMap>(history, workers.check_cancelled);

@@ -60,11 +60,9 @@ void for_each_continuation(std::span<const Vec3> positions, std::span<const Tria
 // For each face, the faces connected to it across its three edges.
 inline std::vector<AdjacentFace> adjacent_faces(std::span<const Vec3> positions,
                                                 std::span<const Triangle> triangles,
-                                                std::span<const Triangle> unwelded,
-                                                engine::CancellationCheck check_cancelled) {
+                                                std::span<const Triangle> unwelded) {
     std::vector<AdjacentFace> result(3 * triangles.size());
-    for_each_edge(sorted_halfedges(triangles, check_cancelled), [&](std::span<const Halfedge> on) {
-        check_cancelled();
+    for_each_edge(sorted_halfedges(triangles), [&](std::span<const Halfedge> on) {
         const auto unwelded_edge = [&](std::size_t i) -> std::uint64_t {
             if (unwelded.empty()) return 0;
             const Triangle& t = unwelded[on[i].face];
@@ -95,9 +93,8 @@ inline double area(std::span<const Vec3> positions, const Triangle& t) {
 
 FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions,
                                                  std::span<const Triangle> triangles,
-                                                 std::span<const Triangle> unwelded,
-                                                 engine::CancellationCheck check_cancelled) {
-    const std::vector<AdjacentFace> next = adjacent_faces(positions, triangles, unwelded, check_cancelled);
+                                                 std::span<const Triangle> unwelded) {
+    const std::vector<AdjacentFace> next = adjacent_faces(positions, triangles, unwelded);
     SurfacePatches result;
     result.surface_patch.assign(triangles.size(), no_index);
     result.sign.assign(triangles.size(), 1);
@@ -109,7 +106,6 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
         result.surface_patch[root] = surface_patches;
         double signed_area = 0;
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            check_cancelled();
             const Index f = faces[i];
             signed_area += result.sign[f] * area(positions, triangles[f]);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -130,7 +126,6 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
     result.faces.resize(result.begin.back());
     std::vector<Index> next_place(result.begin.begin(), result.begin.end() - 1);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         if (result.surface_patch[f] != no_index)
             result.faces[next_place[result.surface_patch[f]]++] = static_cast<Index>(f);
     }

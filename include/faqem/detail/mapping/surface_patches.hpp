@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -39,11 +38,9 @@ struct SurfacePatches {
 /// \param positions  one per vertex
 /// \param triangles  faces with no_index as first corner belong to no patch
 /// \param unwelded   empty, or the same faces with their vertex indices before welding
-/// \throws whatever `check_cancelled` throws
 /// O(n log n) time, 48 bytes per face of temporary memory
 SurfacePatches find_surface_patches(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                    std::span<const Triangle> unwelded = {},
-                                    engine::CancellationCheck check_cancelled = {});
+                                    std::span<const Triangle> unwelded = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -136,10 +136,9 @@ struct Found {
 /// \param begin,end    range of faces
 inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
                         const std::vector<NearestFace>& at_vertices, double enough, bool refine,
-                        std::size_t begin, std::size_t end, CancellationCheck check_cancelled, Found& found) {
+                        std::size_t begin, std::size_t end, Found& found) {
     CoherentQuery query(to, tree);
     for (std::size_t f = begin; f < end; ++f) {
-        check_cancelled();
         Piece piece;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from.triangles[f][k];
@@ -278,7 +277,6 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
             value_squared = std::max(value_squared, found.value_squared);
             closed_squared = std::max(closed_squared, found.closed_squared);
             for (const Piece& piece : found.open) {
-                limits.workers.check_cancelled();
                 open.push(piece);
             }
             found = {};
@@ -290,9 +288,9 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
     std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
     const double enough_at_first = refine ? enough() : 0;
     parallel_blocks(from.triangles.size(), face_block, limits.workers,
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                    [&](std::size_t begin, std::size_t end) {
                         bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
-                                    check_cancelled, blocks[begin / face_block]);
+                                    blocks[begin / face_block]);
                     });
     join(blocks);
 

@@ -24,7 +24,6 @@ struct NearestFace {
 /// \param workers     number of threads and cancellation check
 /// \param stop_above  the search ends early, with fewer entries, soon after a distance above this is found;
 ///                    the number of entries does not depend on the number of threads. In model units.
-/// \throws whatever `workers.check_cancelled` throws
 /// O(positions log faces) typically
 std::vector<NearestFace> nearest_faces_of_vertices(
     const Surface& from, const Surface& to, const Bvh& tree, Workers workers,

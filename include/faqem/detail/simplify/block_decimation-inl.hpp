@@ -33,10 +33,9 @@ inline constexpr double local_share = 0.8;
 inline constexpr double max_kept_share = 0.75;
 
 /// The faces by block. A face belongs to every block that contains one of its corners.
-inline Buckets<Index> faces_by_block(const BlockInput& input, CancellationCheck check_cancelled) {
+inline Buckets<Index> faces_by_block(const BlockInput& input) {
     return Buckets<Index>(input.block_count(), [&](auto&& put) {
         for (Index f = 0; f < input.triangles.size(); ++f) {
-            check_cancelled();
             const Triangle& t = input.triangles[f];
             const std::size_t a = input.block_of(t[0]), b = input.block_of(t[1]), c = input.block_of(t[2]);
             put(a, f);
@@ -252,9 +251,9 @@ template <class Metric>
 BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
                            Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
     BlockResult result;
-    CollapseMesh mesh(block.positions, block.triangles, check_cancelled);
+    CollapseMesh mesh(block.positions, block.triangles);
     block.forget_surface();
-    engine::PairTable pairs(mesh, {}, check_cancelled);
+    engine::PairTable pairs(mesh, {});
     engine::Wedges wedges;
     engine::LoopOptions options = block_options(loop, mesh.face_count(), block.between, share);
     options.first_context_vertex = block.own();
@@ -367,7 +366,7 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     const double kept_share = fixed_share + (1 - fixed_share) * share;
     if (!(kept_share < max_kept_share)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
-    const Buckets<Index> block_faces = faces_by_block(input, workers.check_cancelled);
+    const Buckets<Index> block_faces = faces_by_block(input);
     SharedProgress progress(loop, removable);
     const Buckets<Index> watched = tracking ? watched_by_block(input, *tracking) : Buckets<Index>();
     std::vector<BlockResult> results(input.block_count());
@@ -405,26 +404,23 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     return result;
 }
 
-FAQEM_INLINE CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps,
-                                       CancellationCheck check_cancelled) {
+FAQEM_INLINE CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps) {
     SlotTrace trace(input.positions.size());
     std::vector<Vector3> positions(input.positions.begin(), input.positions.end());
     for (const auto& [survivor, gone, to] : steps) {
-        check_cancelled();
         trace.before_collapse(survivor, gone, positions[survivor], positions[gone], to);
         positions[survivor] = to;
     }
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < input.triangles.size(); ++f) {
-        check_cancelled();
         const Triangle& t = input.triangles[f];
         const Triangle now = {trace.root(t[0]), trace.root(t[1]), trace.root(t[2])};
         if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
         faces.push_back(f);
         triangles.push_back(now);
     }
-    return compacted(std::move(faces), std::move(triangles), positions, trace, check_cancelled);
+    return compacted(std::move(faces), std::move(triangles), positions, trace);
 }
 
 }  // namespace detail

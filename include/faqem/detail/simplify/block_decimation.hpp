@@ -11,7 +11,6 @@
 #include "faqem/detail/simplify/compaction.hpp"
 #include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
 
@@ -109,10 +108,8 @@ BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions
                               const BlockTracking* tracking, Recording patches, Workers workers);
 
 /// Applies the steps and compacts the result.
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n)
-CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps,
-                          engine::CancellationCheck check_cancelled = {});
+CompactedMesh apply_steps(const BlockInput& input, std::span<const BlockStep> steps);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

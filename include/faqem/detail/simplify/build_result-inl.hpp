@@ -15,20 +15,16 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
                                              const ReorderedMesh& reordered,
                                              const engine::CollapseMesh& collapse_mesh,
                                              const engine::Wedges& wedges,
-                                             std::span<const Index> source_vertices,
-                                             engine::CancellationCheck check_cancelled,
-                                             SimplifyResult& result) {
+                                             std::span<const Index> source_vertices, SimplifyResult& result) {
     std::vector<Index> slots;
     std::vector<Vec3> position(collapse_mesh.vertex_slots());
     for (Index v = 0; v < position.size(); ++v) {
-        check_cancelled();
         const Index at = source_vertices[v];
         position[v] = at != no_index ? prepared.positions[at] : prepared.to_model(collapse_mesh.position(v));
     }
     std::vector<Index> slot_of_face(mesh.triangles.size(), no_index);
     std::vector<Index> slot_of_vertex(prepared.positions.size(), no_index);
     for (Index f = 0; f < collapse_mesh.face_slots(); ++f) {
-        check_cancelled();
         if (!collapse_mesh.is_alive(f)) continue;
         const Triangle& t = collapse_mesh.triangle(f);
         if (has_no_area(position[t[0]], position[t[1]], position[t[2]])) {
@@ -41,7 +37,6 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
     TriangleMesh& out = result.mesh;
     std::vector<Index> vertex(collapse_mesh.vertex_slots(), no_index);
     for (Index v = 0; v < slot_of_vertex.size(); ++v) {
-        check_cancelled();
         const Index slot = slot_of_vertex[v];
         if (slot == no_index) continue;
         vertex[slot] = static_cast<Index>(out.positions.size());
@@ -50,7 +45,6 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
         slots.push_back(slot);
     }
     for (Index f = 0; f < slot_of_face.size(); ++f) {
-        check_cancelled();
         const Index slot = slot_of_face[f];
         if (slot == no_index) continue;
         const Triangle& t = collapse_mesh.triangle(slot);
@@ -68,15 +62,13 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
 
 // A vertex that has exactly the position of an original vertex gets that position in model units, without
 // rounding. This is consistent with build_result() for every level of a chain.
-FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled,
-                                 std::vector<Collapse>& collapses) {
-    std::vector<engine::Vector3> at = prepared.engine_positions(check_cancelled);
+FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, std::vector<Collapse>& collapses) {
+    std::vector<engine::Vector3> at = prepared.engine_positions();
     std::vector<Index> place(at.size());
     std::iota(place.begin(), place.end(), Index{0});
     at.reserve(at.size() + collapses.size());
     place.reserve(at.capacity());
     for (Collapse& collapse : collapses) {
-        check_cancelled();
         const engine::Vector3 to = engine::to_eigen(collapse.position);
         Index original = no_index;
         if (to == at[collapse.first])

@@ -11,7 +11,6 @@
 #include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
@@ -27,24 +26,19 @@ namespace detail {
 /// \param wedges           corner attributes of `collapse_mesh`, or empty
 /// \param source_vertices  one per vertex slot: the vertex of `prepared` that has exactly the same position,
 ///                         or no_index
-/// \param check_cancelled  called once per element
 /// \param result           filled; its report is updated
 /// \return for each vertex of the result its slot in `collapse_mesh`
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n)
 std::vector<Index> build_result(const MeshView& mesh, const PreprocessedMesh& prepared,
                                 const ReorderedMesh& reordered, const engine::CollapseMesh& collapse_mesh,
                                 const engine::Wedges& wedges, std::span<const Index> source_vertices,
-                                engine::CancellationCheck check_cancelled, SimplifyResult& result);
+                                SimplifyResult& result);
 
 /// Converts the positions of recorded collapses from engine units to model units.
 /// \param prepared         defines the scale and the vertices that the collapses start from
-/// \param check_cancelled  called once per collapse
 /// \param collapses        all collapses of the run in order; changed in place
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n)
-void to_model_units(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled,
-                    std::vector<Collapse>& collapses);
+void to_model_units(const PreprocessedMesh& prepared, std::vector<Collapse>& collapses);
 
 /// Completes the history of the result: original mesh, pruned faces, face groups and kept faces.
 /// \param mesh       input of simplify()

@@ -24,18 +24,15 @@ FAQEM_INLINE Index SlotTrace::root(Index slot) {
 }
 
 FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangles,
-                                     std::span<const Vector3> positions, SlotTrace& trace,
-                                     engine::CancellationCheck check_cancelled) {
+                                     std::span<const Vector3> positions, SlotTrace& trace) {
     CompactedMesh out;
     out.faces = std::move(faces);
     out.triangles = std::move(triangles);
     std::vector<Index> number(positions.size(), no_index);
     for (const Triangle& t : out.triangles) {
-        check_cancelled();
         for (const Index v : t) number[v] = 0;
     }
     for (Index v = 0; v < number.size(); ++v) {
-        check_cancelled();
         if (number[v] == no_index) continue;
         number[v] = static_cast<Index>(out.vertices.size());
         out.vertices.push_back(v);
@@ -47,7 +44,6 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
     }
     out.vertex_map.reserve(number.size());
     for (Index v = 0; v < number.size(); ++v) {
-        check_cancelled();
         const Index root = trace.root(v);
         out.vertex_map.push_back(number[root]);
         out.isolated_slots += root == v && number[v] == no_index;
@@ -55,12 +51,10 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
     return out;
 }
 
-FAQEM_INLINE CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace,
-                                     engine::CancellationCheck check_cancelled) {
+FAQEM_INLINE CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace) {
     std::vector<Index> faces;
     std::vector<Triangle> triangles;
     for (Index f = 0; f < mesh.face_slots(); ++f) {
-        check_cancelled();
         if (!mesh.is_alive(f)) continue;
         faces.push_back(f);
         triangles.push_back(mesh.triangle(f));
@@ -68,7 +62,7 @@ FAQEM_INLINE CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace
     std::vector<Vector3> positions;
     positions.reserve(mesh.vertex_slots());
     for (Index v = 0; v < mesh.vertex_slots(); ++v) positions.push_back(mesh.position(v));
-    return compacted(std::move(faces), std::move(triangles), positions, trace, check_cancelled);
+    return compacted(std::move(faces), std::move(triangles), positions, trace);
 }
 
 }  // namespace detail

@@ -53,18 +53,14 @@ private:
 /// \param triangles  one per remaining face, of vertex slots that were not removed
 /// \param positions  one per vertex slot, engine units
 /// \param trace      of the collapses
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n)
 CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangles,
-                        std::span<const engine::Vector3> positions, SlotTrace& trace,
-                        engine::CancellationCheck check_cancelled = {});
+                        std::span<const engine::Vector3> positions, SlotTrace& trace);
 
 /// Compacts the mesh of an engine.
 /// \param trace  of the collapses of the engine
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n)
-CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace,
-                        engine::CancellationCheck check_cancelled = {});
+CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

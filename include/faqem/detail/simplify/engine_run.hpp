@@ -21,6 +21,7 @@
 #include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -34,8 +35,8 @@ using engine::CollapseMesh;
 
 // The data that one engine works on, indexed by slots.
 struct EngineInput {
-    EngineInput(const ReorderedMesh& reordered, CancellationCheck check_cancelled)
-        : collapse_mesh(reordered.positions, reordered.triangles, check_cancelled) {}
+    explicit EngineInput(const ReorderedMesh& reordered)
+        : collapse_mesh(reordered.positions, reordered.triangles) {}
     EngineInput(const EngineInput&) = delete;
 
     CollapseMesh collapse_mesh;
@@ -63,7 +64,7 @@ inline std::vector<double> vertex_importance(const MeshView& mesh, const Preproc
 // hold a lower target, continues to that target.
 inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
                                      RunRecorder& recorder, const engine::LoopOptions& loop,
-                                     const RunState& state,
+                                     const RunState& state, CancellationCheck check_cancelled,
                                      const std::function<bool(const engine::LoopResult&)>& should_continue) {
     engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
@@ -89,7 +90,7 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
             break;
     }
     return weighted(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
-                                          loop.target_faces, loop.distance_weight, curves),
+                                          loop.target_faces, loop.distance_weight, curves, check_cancelled),
                     engine::SweepQueue(max_exact_pairs));
 }
 

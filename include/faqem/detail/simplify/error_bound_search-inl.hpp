@@ -16,15 +16,14 @@ namespace detail {
 
 FAQEM_INLINE DistanceReference::DistanceReference(const MeshView& mesh, const Options& options,
                                                   CancellationCheck check_cancelled)
-    : surface_(extract_surface({mesh.positions, unpruned_triangles(mesh, options, check_cancelled)},
-                               check_cancelled)),
+    : surface_(extract_surface({mesh.positions, unpruned_triangles(mesh, options, check_cancelled)})),
       tree_(surface_.positions, surface_.triangles, check_cancelled) {}
 
 FAQEM_INLINE MeasuredDistance DistanceReference::distance(const MeshView& result, double allowed,
                                                           MeasureMode mode, Workers workers) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (surface_.triangles.empty()) return {};
-    const Surface simplified = extract_surface(result, workers.check_cancelled);
+    const Surface simplified = extract_surface(result);
     if (simplified.triangles.empty()) return {infinity, infinity};
     const Bvh tree(simplified.positions, simplified.triangles, workers.check_cancelled);
     SearchLimits limits{.absolute_tolerance = min_relative_gap * surface_.diagonal(),
@@ -61,9 +60,8 @@ FAQEM_INLINE MeasuredDistance distance(const DistanceReference& original, const 
 }
 
 FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& options,
-                                      const DistanceReference& original, CancellationCheck check_cancelled) {
-    return options.topology.prune ? extract_surface(mesh, check_cancelled).diagonal()
-                                  : original.surface().diagonal();
+                                      const DistanceReference& original) {
+    return options.topology.prune ? extract_surface(mesh).diagonal() : original.surface().diagonal();
 }
 
 FAQEM_INLINE SimplifyResult
@@ -72,9 +70,7 @@ simplify_within_error(const MeshView& mesh, const Options& options,
     const MeasurementMonitor monitor(options, 0);
     const DistanceReference original(mesh, options, monitor.cancellation_check());
     const MaxError& error = *options.max_error;
-    const double unit = error.unit == MaxError::Unit::model
-                            ? 1
-                            : unpruned_diagonal(mesh, options, original, monitor.cancellation_check());
+    const double unit = error.unit == MaxError::Unit::model ? 1 : unpruned_diagonal(mesh, options, original);
     const double allowed = error.value * unit;
     return search_within_error<SimplifyResult>(
         options, mesh.triangles.size(), allowed, run,

@@ -42,9 +42,8 @@ class FAQEM_EXPORT DistanceReference {
 public:
     /// \param mesh             the original; read only during the call
     /// \param options          of the runs: faces removed by Topology::prune are left out
-    /// \param check_cancelled  called once per element
+    /// \param check_cancelled  called between the steps; exceptions pass through
     /// \throws InputError  as simplify()
-    /// \throws whatever `check_cancelled` throws
     /// Complexity: O(n log n)
     explicit DistanceReference(const MeshView& mesh, const Options& options = {},
                                CancellationCheck check_cancelled = {});
@@ -74,8 +73,7 @@ private:
 /// \param allowed          the distance to decide about, model units
 /// \param mode             accuracy
 /// \param options          of the run; weld, prune and threads are used
-/// \param check_cancelled  called once per few operations
-/// \throws whatever `check_cancelled` throws
+/// \param check_cancelled  called between the steps; exceptions pass through
 FAQEM_EXPORT MeasuredDistance distance(const DistanceReference& original, const SimplifyResult& result,
                                        double allowed, MeasureMode mode, const Options& options,
                                        CancellationCheck check_cancelled = {});
@@ -83,9 +81,7 @@ FAQEM_EXPORT MeasuredDistance distance(const DistanceReference& original, const 
 /// Bounding-box diagonal of the whole mesh including the faces that are pruned, model units. Lengths in
 /// Length::Unit::diagonal refer to it.
 /// \param original  made from `mesh` and `options`
-/// \throws whatever `check_cancelled` throws
-double unpruned_diagonal(const MeshView& mesh, const Options& options, const DistanceReference& original,
-                         CancellationCheck check_cancelled = {});
+double unpruned_diagonal(const MeshView& mesh, const Options& options, const DistanceReference& original);
 
 /// Calls the progress callback of the options during a measurement; does nothing if there is no callback.
 class MeasurementMonitor {

@@ -17,9 +17,9 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::CancellationCheck;
 using engine::Vector3;
 
+using engine::CancellationCheck;
 inline constexpr Triangle dropped_face = {no_index, no_index, no_index};
 
 inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
@@ -28,7 +28,7 @@ inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
     throw InputError("", element, what);
 }
 
-inline void check_sizes(const MeshView& mesh, CancellationCheck check_cancelled) {
+inline void check_sizes(const MeshView& mesh) {
     if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
     if (mesh.triangles.size() > engine::max_faces) {
         fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
@@ -43,7 +43,6 @@ inline void check_sizes(const MeshView& mesh, CancellationCheck check_cancelled)
         fail("vertex_weights", "needs one entry per vertex or none");
     }
     for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
-        check_cancelled();
         const float weight = mesh.vertex_weights[v];
         if (!(weight >= 1e-6f && weight <= 1e6f)) {
             fail("vertex " + std::to_string(v), "weight is not in [1e-6, 1e6]");
@@ -55,17 +54,15 @@ inline void check_sizes(const MeshView& mesh, CancellationCheck check_cancelled)
             fail("attributes", "needs width >= 1 and 3 * faces * width values");
         }
         for (std::size_t i = 0; i < a.values.size(); ++i) {
-            check_cancelled();
             if (!std::isfinite(a.values[i]))
                 fail("attributes, corner " + std::to_string(i / a.width), "value is not finite");
         }
     }
 }
 
-inline std::vector<Vec3> checked_positions(const PositionView& view, CancellationCheck check_cancelled) {
+inline std::vector<Vec3> checked_positions(const PositionView& view) {
     std::vector<Vec3> positions(view.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        check_cancelled();
         positions[v] = view[v];
         for (const double x : positions[v]) {
             if (!std::isfinite(x)) fail("vertex " + std::to_string(v), "position is not finite");
@@ -77,23 +74,20 @@ inline std::vector<Vec3> checked_positions(const PositionView& view, Cancellatio
 // For each vertex the vertex that it is welded to. Unreferenced vertices are not welded: they must not affect
 // the positions of others.
 inline std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
-                                          const Settings& settings, CancellationCheck check_cancelled) {
+                                          const Settings& settings) {
     std::vector<Index> result(positions.size());
     std::iota(result.begin(), result.end(), Index{0});
     if (settings.weld == Weld::none) return result;
     std::vector<std::uint8_t> is_used(positions.size(), 0);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        check_cancelled();
         for (const Index v : mesh.triangles[f]) is_used[v] = 1;
     }
     std::vector<Index> used;
     std::vector<Vec3> used_positions;
     for (Index v = 0; v < positions.size(); ++v) {
-        check_cancelled();
         if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
     }
-    const std::vector<Index> welded =
-        engine::weld_within(used_positions, settings.weld_distance, check_cancelled);
+    const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance);
     for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
     return result;
 }
@@ -106,9 +100,8 @@ inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec
     }
 }
 
-inline void check_triangles(const MeshView& mesh, CancellationCheck check_cancelled) {
+inline void check_triangles(const MeshView& mesh) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        check_cancelled();
         for (const Index v : mesh.triangles[f]) {
             if (!(v < mesh.positions.size())) {
                 fail("face " + std::to_string(f), "vertex index out of range");
@@ -119,12 +112,10 @@ inline void check_triangles(const MeshView& mesh, CancellationCheck check_cancel
 
 // Numbers the representatives in input order and maps the triangles to them.
 inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
-                       const std::vector<Index>& representative, CancellationCheck check_cancelled,
-                       PreprocessedMesh& out) {
+                       const std::vector<Index>& representative, PreprocessedMesh& out) {
     std::vector<Index>& welded = out.welded;
     welded.assign(positions.size(), no_index);
     for (Index v = 0; v < positions.size(); ++v) {
-        check_cancelled();
         if (representative[v] != v) continue;
         welded[v] = static_cast<Index>(out.positions.size());
         out.positions.push_back(positions[v]);
@@ -133,7 +124,6 @@ inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
     for (Index v = 0; v < positions.size(); ++v) welded[v] = welded[representative[v]];
     out.triangles.resize(mesh.triangles.size());
     for (std::size_t f = 0; f < out.triangles.size(); ++f) {
-        check_cancelled();
         const Triangle t = mesh.triangles[f];
         out.triangles[f] = {welded[t[0]], welded[t[1]], welded[t[2]]};
     }
@@ -147,8 +137,7 @@ inline void drop_degenerate_faces(PreprocessedMesh& out) {
 
 // Removes faces that have the corners, winding and group of an earlier face, since they are invisible. Faces
 // with the same corners and opposite winding are kept.
-inline void drop_duplicate_faces(std::span<const Index> groups, CancellationCheck check_cancelled,
-                                 PreprocessedMesh& out) {
+inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh& out) {
     struct FaceKey {
         Index second, third, group, face;                  // corners that follow the smallest one
         auto operator<=>(const FaceKey&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -161,7 +150,6 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
     std::partial_sum(offset.begin(), offset.end(), offset.begin());
     std::vector<FaceKey> faces(offset.back());
     for (Index f = 0; f < out.triangles.size(); ++f) {
-        check_cancelled();
         Triangle t = out.triangles[f];
         if (is_dropped(t)) continue;
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -170,9 +158,7 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
     std::size_t begin = 0;
     for (const std::size_t end : offset) {  // each entry has advanced to the beginning of the next vertex
         std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
-                  faces.begin() + static_cast<std::ptrdiff_t>(end),
-                  engine::cancellable_less(check_cancelled));
-        check_cancelled();
+                  faces.begin() + static_cast<std::ptrdiff_t>(end));
         for (std::size_t i = begin + 1; i < end; ++i) {
             const FaceKey &a = faces[i - 1], &b = faces[i];
             if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
@@ -185,12 +171,11 @@ inline void drop_duplicate_faces(std::span<const Index> groups, CancellationChec
 
 // Computes centre and scale from the bounding box of the referenced vertices. Extents are divided by 4 first,
 // so that the diagonal does not overflow even for the largest coordinates.
-inline void find_scale(double wanted_diagonal, CancellationCheck check_cancelled, PreprocessedMesh& out) {
+inline void find_scale(double wanted_diagonal, PreprocessedMesh& out) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for (const Triangle& t : out.triangles) {
-        check_cancelled();
         if (is_dropped(t)) continue;
         for (const Index v : t) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -210,13 +195,11 @@ inline void find_scale(double wanted_diagonal, CancellationCheck check_cancelled
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
 
-FAQEM_INLINE std::vector<Vector3> PreprocessedMesh::engine_positions(
-    CancellationCheck check_cancelled) const {
+FAQEM_INLINE std::vector<Vector3> PreprocessedMesh::engine_positions() const {
     std::vector<Vector3> result;
     result.reserve(positions.size());
     const Vector3 c = engine::to_eigen(centre);
     for (const Vec3& p : positions) {
-        check_cancelled();
         result.push_back((engine::to_eigen(p) - c) * scale);
     }
     return result;
@@ -228,19 +211,21 @@ FAQEM_INLINE Vec3 PreprocessedMesh::to_model(const Vector3& p) const {
 
 FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
                                          CancellationCheck check_cancelled) {
-    check_sizes(mesh, check_cancelled);
-    check_triangles(mesh, check_cancelled);
-    const std::vector<Vec3> positions = checked_positions(mesh.positions, check_cancelled);
+    check_sizes(mesh);
+    check_triangles(mesh);
+    const std::vector<Vec3> positions = checked_positions(mesh.positions);
     PreprocessedMesh out;
-    apply_weld(mesh, positions, representatives(mesh, positions, settings, check_cancelled), check_cancelled,
-               out);
+    check_cancelled.now();
+    apply_weld(mesh, positions, representatives(mesh, positions, settings), out);
+    check_cancelled.now();
     restore_locked_positions(mesh, positions, out);
     drop_degenerate_faces(out);
-    drop_duplicate_faces(mesh.face_groups, check_cancelled, out);
-    find_scale(settings.diagonal, check_cancelled, out);
+    drop_duplicate_faces(mesh.face_groups, out);
+    check_cancelled.now();
+    find_scale(settings.diagonal, out);
     if (settings.prune) {
         out.pruned = prune(out.positions, welded_locks(mesh, out.welded, out.positions.size()),
-                           *settings.prune, out.triangles, check_cancelled);
+                           *settings.prune, out.triangles);
     }
     return out;
 }

@@ -8,6 +8,7 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -26,8 +27,7 @@ struct PreprocessedMesh {
     double scale = 1;                  ///< factor from model units to engine units
 
     /// Positions in engine units: (p - centre) * scale. O(n)
-    /// \throws whatever `check_cancelled` throws
-    std::vector<engine::Vector3> engine_positions(engine::CancellationCheck check_cancelled = {}) const;
+    std::vector<engine::Vector3> engine_positions() const;
     /// Converts a position from engine units to model units.
     Vec3 to_model(const engine::Vector3& p) const;
 
@@ -40,8 +40,8 @@ struct PreprocessedMesh {
 /// small components. Locked vertices keep their positions: vertices welded to them move there.
 /// \param mesh      see simplify(); read only during the call
 /// \param settings  weld, weld_distance, diagonal and prune are used
+/// \param check_cancelled  called between the steps; exceptions pass through
 /// \throws InputError  as simplify()
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n log n)
 PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
                             engine::CancellationCheck check_cancelled = {});

@@ -20,12 +20,10 @@ inline double half_diagonal(const AlignedBox& box) {
 }
 
 FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked,
-                               const Length& size, std::vector<Triangle>& triangles,
-                               engine::CancellationCheck check_cancelled) {
+                               const Length& size, std::vector<Triangle>& triangles) {
     engine::UnionFind joined(positions.size());
     AlignedBox all;
     for (const Triangle& t : triangles) {
-        check_cancelled();
         if (t == no_face) continue;
         joined.unite(t[0], t[1]);
         joined.unite(t[0], t[2]);
@@ -35,7 +33,6 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     std::vector<AlignedBox> box(positions.size());
     std::vector<std::uint8_t> is_kept(positions.size(), 0);
     for (const Triangle& t : triangles) {
-        check_cancelled();
         if (t == no_face) continue;
         const Index root = joined.find(t[0]);
         for (const Index v : t) {
@@ -47,7 +44,6 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     const double least = size.value * unit;
     Index largest = no_index;
     for (const Triangle& t : triangles) {
-        check_cancelled();
         if (t == no_face) continue;
         const Index root = joined.find(t[0]);
         if (largest == no_index || half_diagonal(box[root]) > half_diagonal(box[largest])) largest = root;
@@ -55,7 +51,6 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     PruneResult pruned;
     std::vector<std::uint8_t> counted(positions.size(), 0);
     for (Index f = 0; f < triangles.size(); ++f) {
-        check_cancelled();
         if (triangles[f] == no_face) continue;
         const Index root = joined.find(triangles[f][0]);
         if (root == largest || is_kept[root] || !(half_diagonal(box[root]) < least)) continue;

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/option_types.hpp"
@@ -35,10 +34,9 @@ struct PruneResult {
 ///                   corners are ignored.
 /// \param size       finite and > 0; Length::Unit::diagonal refers to the bounding box of all faces
 /// \return the removed faces
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(faces + vertices)
 PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
-                  std::vector<Triangle>& triangles, engine::CancellationCheck check_cancelled = {});
+                  std::vector<Triangle>& triangles);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

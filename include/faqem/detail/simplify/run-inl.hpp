@@ -52,7 +52,7 @@ public:
         try {
             prepare();
             set_target();
-            EngineInput work(state_.mesh(), check_cancelled_);
+            EngineInput work(state_.mesh());
             std::vector<CostCurve::Step> steps;
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), nullptr, &steps);
             const engine::LoopResult loop_result =
@@ -78,12 +78,12 @@ private:
         totals_.faces_dropped = prepared_.dropped_faces;
         totals_.seconds.weld = stopwatch_.seconds();
         state_ = RunState(prepared_, welded_locks(mesh_, prepared_.welded, prepared_.positions.size()),
-                          options_.topology.boundary, check_cancelled_);
+                          options_.topology.boundary);
         if (options_.history == Recording::off) prepared_.release_triangles();
         if (mesh_.vertex_weights.empty()) prepared_.release_welded();
         if (settings_.fit_vertices) state_.keep_initial_surface();
-        if (settings_.quadric_policy == Settings::QuadricPolicy::tracked)
-            state_.track_original(check_cancelled_);
+        if (settings_.quadric_policy == Settings::QuadricPolicy::tracked) state_.track_original();
+        check_cancelled_.now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
                        settings_.min_fold_cosine};
@@ -165,7 +165,7 @@ private:
         totals_.collapses += blocks.steps.size();
         for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += blocks.refusals[i];
         for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += blocks.rungs[i];
-        CompactedMesh compacted = apply_steps(input, blocks.steps, check_cancelled_);
+        CompactedMesh compacted = apply_steps(input, blocks.steps);
         totals_.components_collapsed += compacted.isolated_slots;  // blocks do not delete components
         if (history_) record_blocks(blocks, compacted);
         state_.advance_to(std::move(compacted));
@@ -198,23 +198,22 @@ private:
         if (options_.topology.virtual_edges == VirtualEdges::on) {
             extra = virtual_edges(collapse_mesh, state_.mesh().per_face(mesh_.face_groups),
                                   options_.topology.virtual_edge_distance * settings_.diagonal,
-                                  min_pair_length(), check_cancelled_);
+                                  min_pair_length());
         }
         totals_.virtual_edges = extra.size();
-        engine::PairTable pairs(collapse_mesh, extra, check_cancelled_);
+        engine::PairTable pairs(collapse_mesh, extra);
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
             work.wedges = engine::Wedges(
-                collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width},
-                check_cancelled_);
+                collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
         }
         work.locked = state_.locked();
         if (options_.topology.group_boundaries == GroupBoundaries::kept) {
             work.groups = state_.mesh().per_face(mesh_.face_groups);
-            work.curves = engine::FeatureCurves(collapse_mesh, work.groups, check_cancelled_);
+            work.curves = engine::FeatureCurves(collapse_mesh, work.groups);
         }
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
-        return run_engine(work, pairs, settings_, recorder, loop_, state_, should_continue);
+        return run_engine(work, pairs, settings_, recorder, loop_, state_, check_cancelled_, should_continue);
     }
 
     // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
@@ -224,7 +223,7 @@ private:
         while (results_.size() < targets_.size()) {
             set_target();
             const bool is_cancelled = !simplify_in_blocks_first();
-            EngineInput work(state_.mesh(), check_cancelled_);
+            EngineInput work(state_.mesh());
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
             engine::LoopResult loop_result;
             if (is_cancelled) {
@@ -240,7 +239,7 @@ private:
             }
             if (is_done()) return;
             add_counts(loop_result, totals_);
-            CompactedMesh left = compacted(work.collapse_mesh, recorder.trace(), check_cancelled_);
+            CompactedMesh left = compacted(work.collapse_mesh, recorder.trace());
             if (history_) history_->renumber(left.vertices, left.faces);
             state_.advance_to(std::move(left));
         }
@@ -257,16 +256,14 @@ private:
         add_counts(loop_result, result.report);
         result.report.stop = loop_result.stop;
         const bool is_cancelled = loop_result.stop == StopReason::cancelled;
-        const CancellationCheck check_cancelled =
-            is_cancelled ? CancellationCheck() : check_cancelled_;  // no callbacks after a cancellation
         const std::vector<Index> slots =
             build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
-                         state_.source_vertices_of(trace.source_slots()), check_cancelled, result);
+                         state_.source_vertices_of(trace.source_slots()), result);
         if (history_) {
             const bool is_last = results_.size() + 1 == targets_.size();
             result.history = is_last ? history_->take() : history_->history();
             for (const Index slot : slots) result.history.kept_versions.push_back(history_->version(slot));
-            to_model_units(prepared_, check_cancelled, result.history.collapses);
+            to_model_units(prepared_, result.history.collapses);
             // The arrays are moved into the last result.
             finish_history(mesh_, prepared_.pruned,
                            is_last ? std::move(prepared_.positions) : prepared_.positions,

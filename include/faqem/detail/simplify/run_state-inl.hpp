@@ -19,13 +19,10 @@ std::vector<T> gather(const std::vector<T>& of, const std::vector<Index>& slots)
 }
 
 FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked,
-                                Boundary boundary, engine::CancellationCheck check_cancelled)
-    : mesh_(reorder(prepared, check_cancelled)),
-      source_vertices_(mesh_.vertex),
-      locked_(gather(locked, mesh_.vertex)) {
+                                Boundary boundary)
+    : mesh_(reorder(prepared)), source_vertices_(mesh_.vertex), locked_(gather(locked, mesh_.vertex)) {
     if (boundary != Boundary::locked) return;
-    for (const auto& [a, b] :
-         engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size(), check_cancelled))
+    for (const auto& [a, b] : engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()))
         locked_[a] = locked_[b] = 1;
 }
 

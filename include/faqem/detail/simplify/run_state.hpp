@@ -25,21 +25,18 @@ public:
     /// \param prepared  read only during the call
     /// \param locked    one per vertex of `prepared`; nonzero: must not move
     /// \param boundary  locked: the vertices of boundary edges are locked, too
-    /// \throws whatever `check_cancelled` throws
     /// Complexity: O(n log n)
-    RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked, Boundary boundary,
-             engine::CancellationCheck check_cancelled = {});
+    RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked, Boundary boundary);
 
     /// Retains the current surface for initial_surface(). \pre advance_to() has not been called. O(1)
     void keep_initial_surface() { keeps_initial_surface_ = true; }
     /// Makes original() and vertex_map() available, so that engines can track the distance to the current
     /// surface. Includes keep_initial_surface().
     /// \pre advance_to() has not been called
-    /// \throws whatever `check_cancelled` throws
     /// Complexity: O(faces)
-    void track_original(engine::CancellationCheck check_cancelled = {}) {
+    void track_original() {
         keep_initial_surface();
-        original_.emplace(mesh_.positions, mesh_.triangles, check_cancelled);
+        original_.emplace(mesh_.positions, mesh_.triangles);
         vertex_map_.resize(mesh_.positions.size());
         std::iota(vertex_map_.begin(), vertex_map_.end(), Index{0});
     }

@@ -41,9 +41,8 @@ struct ReorderedMesh {
 /// Sorts vertices by the Morton code of their position (ties by index), and faces by their first vertex in
 /// this order.
 /// \param prepared  read only during the call
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n log n)
-ReorderedMesh reorder(const PreprocessedMesh& prepared, engine::CancellationCheck check_cancelled = {});
+ReorderedMesh reorder(const PreprocessedMesh& prepared);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -83,13 +83,11 @@ struct VerticesByComponent {
 };
 
 inline VerticesByComponent vertices_by_component(const CollapseMesh& mesh,
-                                                 std::span<const engine::Component> components,
-                                                 engine::CancellationCheck check_cancelled) {
+                                                 std::span<const engine::Component> components) {
     VerticesByComponent result;
     std::vector<std::uint8_t> seen(mesh.vertex_slots(), 0);
     for (Index component = 0; component < components.size(); ++component) {
         for (const Index f : components[component].faces) {
-            check_cancelled();
             for (const Index v : mesh.triangle(f)) {
                 if (std::exchange(seen[v], std::uint8_t{1})) continue;
                 result.vertices.push_back(v);
@@ -114,16 +112,14 @@ struct CandidateEdge {
 /// found from both ends occurs twice.
 inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, const VerticesByComponent& all,
                                                   std::span<const Index> face_groups, double distance,
-                                                  double min_length,
-                                                  engine::CancellationCheck check_cancelled) {
-    const engine::PairTable surface(mesh, {}, check_cancelled);
+                                                  double min_length) {
+    const engine::PairTable surface(mesh, {});
     std::vector<Triangle> points;  // degenerate triangles: the tree is one of triangles
     points.reserve(all.vertices.size());
     for (Index point = 0; point < all.vertices.size(); ++point) points.push_back({point, point, point});
-    const Bvh tree(all.positions, points, check_cancelled);
+    const Bvh tree(all.positions, points);
     std::vector<CandidateEdge> edges;
     for (std::size_t i = 0; i < all.vertices.size(); ++i) {
-        check_cancelled();
         const Index v = all.vertices[i];
         if (surface.boundary_degree(v) == 0) continue;
         NearestInOtherComponents nearest(all.component_of, all.component_of[i], distance * distance);
@@ -146,14 +142,12 @@ inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, cons
 
 FAQEM_INLINE std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& mesh,
                                                                 std::span<const Index> face_groups,
-                                                                double distance, double min_length,
-                                                                engine::CancellationCheck check_cancelled) {
-    const std::vector<engine::Component> components = engine::components(mesh, check_cancelled);
+                                                                double distance, double min_length) {
+    const std::vector<engine::Component> components = engine::components(mesh);
     if (components.size() < 2) return {};
-    const VerticesByComponent all = vertices_by_component(mesh, components, check_cancelled);
-    std::vector<CandidateEdge> edges =
-        candidate_edges(mesh, all, face_groups, distance, min_length, check_cancelled);
-    std::sort(edges.begin(), edges.end(), engine::cancellable_less(check_cancelled));
+    const VerticesByComponent all = vertices_by_component(mesh, components);
+    std::vector<CandidateEdge> edges = candidate_edges(mesh, all, face_groups, distance, min_length);
+    std::sort(edges.begin(), edges.end());
     edges.erase(
         std::unique(edges.begin(), edges.end(),
                     [](const CandidateEdge& x, const CandidateEdge& y) { return x.a == y.a && x.b == y.b; }),

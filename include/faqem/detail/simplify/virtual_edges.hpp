@@ -28,13 +28,11 @@ namespace detail {
 /// \param min_length   minimum length, engine units: shorter pairs would be degenerate (paper: 1e-8 of the
 ///                     diagonal)
 /// \return distinct pairs of vertex slots, each with the smaller one first, sorted
-/// \throws whatever `check_cancelled` throws
 /// Complexity: O(n log n) expected
 /// Source: FA-QEM, supplementary
 std::vector<std::pair<Index, Index>> virtual_edges(const engine::CollapseMesh& mesh,
                                                    std::span<const Index> face_groups, double distance,
-                                                   double min_length,
-                                                   engine::CancellationCheck check_cancelled = {});
+                                                   double min_length);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

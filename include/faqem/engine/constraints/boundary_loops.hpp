@@ -28,18 +28,14 @@ public:
     /// Finds the boundary loops. O(vertices + n log n) for n boundary vertices
     /// \param first_context_vertex  vertices from this index on, and edges between them, are ignored;
     ///     no_index: none
-    /// \param check_cancelled       called for each vertex and pair
-    /// \throws whatever `check_cancelled` throws
-    BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs, Index first_context_vertex = no_index,
-                  CancellationCheck check_cancelled = {}) {
+    BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs, Index first_context_vertex = no_index) {
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             if (mesh.degree(v) > 0) box_.extend(mesh.position(v));
             if (pairs.boundary_degree(v) > 0 && v < first_context_vertex)
                 points_.push_back({mesh.position(v), v});
         }
-        find_boundaries(mesh.vertex_slots(), pairs, first_context_vertex, check_cancelled);
-        build_kd_tree(0, points_.size(), 0, check_cancelled);
+        find_boundaries(mesh.vertex_slots(), pairs, first_context_vertex);
+        build_kd_tree(0, points_.size(), 0);
     }
 
     /// Error of the collapse of (u, v) at the boundary loops, as a squared distance:
@@ -116,8 +112,7 @@ private:
         double reach = 0;             ///< largest distance to this loop from loops that have vanished
     };
 
-    void find_boundaries(std::size_t vertices, const PairTable& pairs, Index first_context_vertex,
-                         CancellationCheck check_cancelled) {
+    void find_boundaries(std::size_t vertices, const PairTable& pairs, Index first_context_vertex) {
         boundary_of_vertex_.assign(vertices, no_index);
         if (points_.empty()) return;
         const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
@@ -126,7 +121,6 @@ private:
         };
         UnionFind joined(vertices);
         for (Index pair = 0; pair < pairs.size(); ++pair) {
-            check_cancelled();
             if (is_open(pair)) joined.unite(pairs.first(pair), pairs.second(pair));
         }
         for (const auto& [position, v] : points_) {  // the smallest vertex of each set comes first
@@ -188,16 +182,15 @@ private:
     }
 
     // Builds a k-d tree: the middle element of a range is the node that splits it.
-    void build_kd_tree(std::size_t begin, std::size_t end, int axis, CancellationCheck check_cancelled) {
+    void build_kd_tree(std::size_t begin, std::size_t end, int axis) {
         if (end - begin < 2) return;
-        check_cancelled(end - begin);
         const std::size_t middle = begin + (end - begin) / 2;
         const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
         std::nth_element(at(begin), at(middle), at(end), [axis](const Point& a, const Point& b) {
             return std::pair(a.position[axis], a.vertex) < std::pair(b.position[axis], b.vertex);
         });
-        build_kd_tree(begin, middle, (axis + 1) % 3, check_cancelled);
-        build_kd_tree(middle + 1, end, (axis + 1) % 3, check_cancelled);
+        build_kd_tree(begin, middle, (axis + 1) % 3);
+        build_kd_tree(middle + 1, end, (axis + 1) % 3);
     }
 
     template <class Filter>

@@ -29,16 +29,11 @@ public:
 
     /// Finds the vertices on curves. O(vertices + faces)
     /// \param groups           empty, or the group of each face slot; borrowed, must outlive this object
-    /// \param check_cancelled  called for each vertex
-    /// \throws whatever `check_cancelled` throws
-    FeatureCurves(const CollapseMesh& mesh, std::span<const Index> groups,
-                  CancellationCheck check_cancelled = {})
-        : groups_(groups) {
+    FeatureCurves(const CollapseMesh& mesh, std::span<const Index> groups) : groups_(groups) {
         if (groups.empty()) return;
         is_on_curve_.assign(mesh.vertex_slots(), 0);
         mark_.assign(mesh.vertex_slots(), 0);
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             Index first = no_index;
             is_on_curve_[v] = !mesh.all_of_faces(v, [&](Index f, unsigned) {
                 if (first == no_index) first = f;

@@ -27,14 +27,10 @@ public:
     /// Finds the wedges. O(corners) for a bounded number of wedges per vertex
     /// \param mesh             the initial mesh
     /// \param attributes       values for each corner of each face slot of `mesh`; width >= 1; copied
-    /// \param check_cancelled  called for each vertex
-    /// \throws whatever `check_cancelled` throws
-    Wedges(const CollapseMesh& mesh, const CornerAttributes& attributes,
-           CancellationCheck check_cancelled = {})
+    Wedges(const CollapseMesh& mesh, const CornerAttributes& attributes)
         : width_(attributes.width), wedge_of_corner_(3 * mesh.face_slots(), no_index) {
         std::vector<Index> at_vertex;
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             at_vertex.clear();
             mesh.for_each_face(v, [&](Index f, unsigned corner) {
                 const std::size_t c = 3 * std::size_t{f} + corner;

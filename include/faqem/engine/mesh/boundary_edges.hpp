@@ -40,16 +40,12 @@ inline std::uint32_t edge_face_count(const CollapseMesh& mesh, const PairTable& 
 /// temporary memory per triangle
 /// \param triangles        with pairwise different corners
 /// \param vertices         number of vertices; larger than any corner
-/// \param check_cancelled  called for each triangle and vertex
 /// \return the edges, each with its smaller end first, in lexicographic order
-/// \throws whatever `check_cancelled` throws
 inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Triangle> triangles,
-                                                             std::size_t vertices,
-                                                             CancellationCheck check_cancelled = {}) {
+                                                             std::size_t vertices) {
     std::vector<std::size_t> offsets(vertices + 1, 0);
     const auto for_each_edge = [&](auto&& visit) {
         for (const Triangle& t : triangles) {
-            check_cancelled();
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 visit(std::min(a, b), std::max(a, b));
@@ -63,7 +59,6 @@ inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Tri
     std::vector<std::array<Index, 2>> open;
     std::size_t begin = 0;
     for (Index a = 0; a < vertices; ++a) {  // offsets[a] is now the end of the edges of a
-        check_cancelled();
         const std::size_t end = offsets[a];
         std::sort(larger.begin() + static_cast<std::ptrdiff_t>(begin),
                   larger.begin() + static_cast<std::ptrdiff_t>(end));

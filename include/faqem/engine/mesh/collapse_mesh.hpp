@@ -10,7 +10,6 @@
 
 #include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -33,15 +32,11 @@ public:
     /// \param positions  one per vertex slot, engine units
     /// \param triangles  one per face slot: indices into `positions`, pairwise different, or three times
     ///     no_index for a face that is not alive. At most max_faces
-    /// \param check_cancelled  called for each element
-    /// \throws whatever `check_cancelled` throws
-    CollapseMesh(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles,
-                 CancellationCheck check_cancelled = {}) {
+    CollapseMesh(const std::vector<Vector3>& positions, const std::vector<Triangle>& triangles) {
         vertices_.reserve(positions.size());
         for (const Vector3& p : positions) vertices_.push_back({p, Vector3::Zero(), {}, 0});
         faces_.resize(triangles.size());
         for (Index f = 0; f < faces_.size(); ++f) {
-            check_cancelled();
             faces_[f].corners = triangles[f];
             if (!is_alive(f)) continue;
             ++face_count_;
@@ -49,11 +44,9 @@ public:
         }
         corners_.reserve(3 * face_count_, vertices_.size());
         for (Vertex& vertex : vertices_) {
-            check_cancelled();
             if (vertex.degree > 0) vertex.corners = corners_.allocate(vertex.degree);
         }
         for (Index f = 0; f < faces_.size(); ++f) {
-            check_cancelled();
             if (!is_alive(f)) continue;
             for (Index k = 0; k < 3; ++k) corners_.push_back(vertices_[triangles[f][k]].corners, 4 * f + k);
             set_normal(f);

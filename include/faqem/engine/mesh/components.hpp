@@ -25,10 +25,8 @@ struct Component {
 };
 
 /// Finds the connected components. O(faces + vertices), plus the sorting of their faces
-/// \param check_cancelled  called for each face and each comparison
 /// \return the components in the order of their smallest face
-/// \throws whatever `check_cancelled` throws
-inline std::vector<Component> components(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
+inline std::vector<Component> components(const CollapseMesh& mesh) {
     std::vector<Component> found;
     std::vector<std::uint8_t> seen(mesh.face_slots(), 0), is_done(mesh.vertex_slots(), 0);
     std::vector<Index> stack;
@@ -40,7 +38,6 @@ inline std::vector<Component> components(const CollapseMesh& mesh, CancellationC
         while (!stack.empty()) {
             const Index f = stack.back();
             stack.pop_back();
-            check_cancelled();
             component.faces.push_back(f);
             for (const Index v : mesh.triangle(f)) {
                 if (std::exchange(is_done[v], std::uint8_t{1})) continue;
@@ -50,7 +47,7 @@ inline std::vector<Component> components(const CollapseMesh& mesh, CancellationC
                 });
             }
         }
-        std::sort(component.faces.begin(), component.faces.end(), cancellable_less(check_cancelled));
+        std::sort(component.faces.begin(), component.faces.end());
         found.push_back(std::move(component));
     }
     return found;
@@ -67,14 +64,11 @@ struct ComponentSize {
 /// having size 0. O(faces + vertices), plus sorting
 /// \param locked           one per vertex slot; components with a nonzero entry stay
 /// \param largest          components that exceed one of both bounds stay
-/// \param check_cancelled  called for each face and each comparison
 /// \return the components, smallest bounding box diagonal first
-/// \throws whatever `check_cancelled` throws
 inline std::vector<Component> removable_components(const CollapseMesh& mesh,
                                                    std::span<const std::uint8_t> locked,
-                                                   const ComponentSize& largest,
-                                                   CancellationCheck check_cancelled = {}) {
-    std::vector<Component> all = components(mesh, check_cancelled);
+                                                   const ComponentSize& largest) {
+    std::vector<Component> all = components(mesh);
     for (Component& c : all) {
         const bool has_no_area =
             std::all_of(c.faces.begin(), c.faces.end(), [&](Index f) { return is_degenerate(mesh, f); });

@@ -59,24 +59,18 @@ public:
     DegenerateFaces() = default;
     /// Counts the degenerate faces. O(face slots)
     /// \param mesh             the initial mesh
-    /// \param check_cancelled  called for each face
-    /// \throws whatever `check_cancelled` throws
-    explicit DegenerateFaces(const CollapseMesh& mesh, CancellationCheck check_cancelled = {})
-        : max_count_(count(mesh, check_cancelled)) {}
+    explicit DegenerateFaces(const CollapseMesh& mesh) : max_count_(count(mesh)) {}
 
     /// Whether the faces of a pair are the only faces that are not degenerate. If all faces of the pair are
     /// degenerate: whether they are the only faces. O(smaller valence of the pair); O(face slots) if nearly
     /// all faces are degenerate
     /// \param pair             index of a pair that is alive
-    /// \param check_cancelled  called for each face if they are counted again
-    /// \throws whatever `check_cancelled` throws
-    bool are_last_faces(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
-                        CancellationCheck check_cancelled = {}) {
+    bool are_last_faces(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
         if (pairs.face_count(pair) + max_count_ < mesh.face_count()) return false;
         const std::size_t with_area = pairs.face_count(pair) - count_at_pair(mesh, pairs, pair);
         if (with_area == 0) return pairs.face_count(pair) >= mesh.face_count();
         if (with_area + max_count_ < mesh.face_count()) return false;
-        max_count_ = count(mesh, check_cancelled);
+        max_count_ = count(mesh);
         return with_area + max_count_ >= mesh.face_count();
     }
 
@@ -86,10 +80,9 @@ public:
     }
 
 private:
-    static std::size_t count(const CollapseMesh& mesh, CancellationCheck check_cancelled) {
+    static std::size_t count(const CollapseMesh& mesh) {
         std::size_t count = 0;
         for (Index f = 0; f < mesh.face_slots(); ++f) {
-            check_cancelled();
             count += mesh.is_alive(f) && is_degenerate(mesh, f);
         }
         return count;

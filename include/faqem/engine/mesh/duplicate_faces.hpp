@@ -15,19 +15,16 @@ namespace engine {
 /// Finds faces with the same vertices and winding as a face of lower index. Removing them does not change
 /// the surface. O(n log n)
 /// \param mesh             removed faces are ignored
-/// \param check_cancelled  called for each face and each comparison
 /// \return indices of the duplicate faces, ascending
-/// \throws whatever `check_cancelled` throws
-inline std::vector<Index> duplicate_faces(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
+inline std::vector<Index> duplicate_faces(const CollapseMesh& mesh) {
     std::vector<std::pair<Triangle, Index>> faces;
     for (Index f = 0; f < mesh.face_slots(); ++f) {
-        check_cancelled();
         if (!mesh.is_alive(f)) continue;
         Triangle t = mesh.triangle(f);
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         faces.emplace_back(t, f);
     }
-    std::sort(faces.begin(), faces.end(), cancellable_less(check_cancelled));
+    std::sort(faces.begin(), faces.end());
     std::vector<Index> duplicates;
     for (std::size_t i = 1; i < faces.size(); ++i) {
         if (faces[i].first == faces[i - 1].first) duplicates.push_back(faces[i].second);

@@ -28,21 +28,17 @@ public:
     /// Finds the edges of a mesh. They are numbered by their smaller vertex, then in the order of that
     /// vertex's corners; the virtual pairs follow. O(faces)
     /// \param virtual_pairs    distinct pairs that are not edges
-    /// \param check_cancelled  called for each vertex and pair
-    /// \throws whatever `check_cancelled` throws
-    PairTable(const CollapseMesh& mesh, std::span<const std::pair<Index, Index>> virtual_pairs,
-              CancellationCheck check_cancelled = {})
+    PairTable(const CollapseMesh& mesh, std::span<const std::pair<Index, Index>> virtual_pairs)
         : vertices_(mesh.vertex_slots()) {
         // A closed surface has three edges per two faces; each boundary edge adds half an edge. Growing the
         // array later would take twice the memory.
         const std::size_t extra_boundary_pairs = mesh.face_count() / 64;
         pairs_.reserve(mesh.face_count() / 2 * 3 + extra_boundary_pairs + virtual_pairs.size());
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             add_edges_to_larger(mesh, v);
         }
         for (const auto& [a, b] : virtual_pairs) pairs_[add(a, b)].is_virtual = true;
-        build_pair_lists(check_cancelled);
+        build_pair_lists();
     }
 
     /// Number of pairs, including those that are not alive.
@@ -159,14 +155,12 @@ private:
     }
 
     // \pre each list size is the number of pairs of the vertex; the lists have no memory yet
-    void build_pair_lists(CancellationCheck check_cancelled) {
+    void build_pair_lists() {
         slots_.reserve(2 * pairs_.size(), vertices_.size());
         for (Vertex& vertex : vertices_) {
-            check_cancelled();
             if (vertex.slots.size > 0) vertex.slots = slots_.allocate(vertex.slots.size);
         }
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
-            check_cancelled();
             slots_.push_back(vertices_[first(pair)].slots, 2 * pair);
             slots_.push_back(vertices_[second(pair)].slots, 2 * pair + 1);
         }

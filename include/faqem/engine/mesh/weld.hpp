@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -53,15 +52,11 @@ inline Vec3 without_negative_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.
 
 /// Welds vertices at exactly equal positions; -0 equals 0. O(n) expected
 /// \param positions        model units or any other unit, finite
-/// \param check_cancelled  called for each vertex
 /// \return per vertex, the smallest index of a vertex at the same position
-/// \throws whatever `check_cancelled` throws
-inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions,
-                                     CancellationCheck check_cancelled = {}) {
+inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions) {
     std::vector<Index> representative(positions.size());
     weld_detail::VertexTable table(positions.size());
     for (Index v = 0; v < positions.size(); ++v) {
-        check_cancelled();
         Index* slot = table.find(weld_detail::without_negative_zero(positions[v]),
                                  [&](Index w) { return positions[w] == positions[v]; });
         if (*slot == no_index) *slot = v;
@@ -75,12 +70,9 @@ inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions,
 /// share a cell of size `distance`
 /// \param positions        finite
 /// \param distance         in the unit of `positions`, >= 0; 0: as weld_exact()
-/// \param check_cancelled  called for each vertex
 /// \return per vertex, the index of its representative
-/// \throws whatever `check_cancelled` throws
-inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance,
-                                      CancellationCheck check_cancelled = {}) {
-    std::vector<Index> representative = weld_exact(positions, check_cancelled);
+inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double distance) {
+    std::vector<Index> representative = weld_exact(positions);
     if (!(distance > 0)) return representative;
     const auto cell_of = [&](const Vec3& p) -> Vec3 {
         return {std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)};
@@ -98,7 +90,6 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
                           [&](Index w) { return cell_of(positions[w]) == cell; });
     };
     for (Index v = 0; v < positions.size(); ++v) {
-        check_cancelled();
         if (representative[v] != v) {
             representative[v] = representative[representative[v]];
             continue;

@@ -52,18 +52,15 @@ public:
         : weights_(weights), seam_vertex_(seam_vertex), curves_(curves) {}
 
     /// Computes the quadrics of the current mesh. O(faces)
-    /// \throws whatever `check_cancelled` throws
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
-                    CancellationCheck check_cancelled = {}) {
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) {
         quadrics_.assign(mesh.vertex_slots(), {});
         placement_bounds_.setEmpty();
         for (Index f = 0; f < mesh.face_slots(); ++f) {
             if (!mesh.is_alive(f)) continue;
             for (const Index v : mesh.triangle(f)) placement_bounds_.extend(mesh.position(v));
         }
-        choose_origins(mesh, 1e-5 * placement_bounds_.diagonal().norm(), check_cancelled);
+        choose_origins(mesh, 1e-5 * placement_bounds_.diagonal().norm());
         for (Index f = 0; f < mesh.face_slots(); ++f) {
-            check_cancelled();
             if (!mesh.is_alive(f)) continue;
             const Triangle& t = mesh.triangle(f);
             const Vector3 n2 = mesh.area_vector(f);
@@ -79,7 +76,6 @@ public:
             }
         }
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             add_vertex_terms(mesh, pairs, v);
         }
         placement_bounds_ = placement_bounds(placement_bounds_);
@@ -134,7 +130,7 @@ public:
 
 private:
     // Sets origins_: the vertices whose edges are all shorter than `length` have their own one.
-    void choose_origins(const CollapseMesh& mesh, double length, CancellationCheck check_cancelled) {
+    void choose_origins(const CollapseMesh& mesh, double length) {
         origins_.clear();
         const auto is_tiny = [&](Index f) {
             const Triangle& t = mesh.triangle(f);
@@ -146,7 +142,6 @@ private:
             return longest < length * length;
         };
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            check_cancelled();
             if (mesh.degree(v) == 0 || !mesh.all_of_faces(v, [&](Index f, unsigned) { return is_tiny(f); }))
                 continue;
             if (origins_.empty()) origins_.assign(mesh.vertex_slots(), Vector3::Zero());

@@ -31,14 +31,13 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
                                   const PairTable& pairs, Index pair, Index u, Index v,
                                   AllowedPosition allowed_position, const Vector3& p,
                                   const Candidate& candidate, std::size_t target_faces, double weight,
-                                  const PairTable::Change& change, std::span<const PairTable::Change> around,
-                                  CancellationCheck check_cancelled) {
+                                  const PairTable::Change& change,
+                                  std::span<const PairTable::Change> around) {
     // True if evaluate() returns a lower bound of the cost. The engine then calls exact_cost() for pairs that
     // are about to be collapsed.
     { M::has_exact_cost } -> std::convertible_to<bool>;
-    // Computes the state for the given mesh. Called once, before the other functions. `check_cancelled` may be
-    // kept for later calls; it is valid as long as the engine exists.
-    {metric.initialise(mesh, pairs, check_cancelled)};
+    // Computes the state for the given mesh. Called once, before the other functions.
+    {metric.initialise(mesh, pairs)};
     // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
     { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
     // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
@@ -59,14 +58,16 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
 /// Base of metrics: defaults for a metric with exact costs, weight 1 and no state.
 struct MetricDefaults {
     static constexpr bool has_exact_cost = false;
-    static void initialise(const CollapseMesh&, const PairTable&, CancellationCheck) {}
-    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index, const Candidate& candidate) {
+    static void initialise(const CollapseMesh&, const PairTable&) {}
+    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index,
+                             const Candidate& candidate) {
         return candidate.cost;
     }
     static constexpr double weight(Index, Index) { return 1; }
     static void set_target(std::size_t, double) {}
     static void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}
-    static void after_collapse(const CollapseMesh&, const PairTable&, Index, std::span<const PairTable::Change>) {}
+    static void after_collapse(const CollapseMesh&, const PairTable&, Index,
+                               std::span<const PairTable::Change>) {}
 };
 
 }  // namespace engine

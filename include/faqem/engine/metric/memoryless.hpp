@@ -46,18 +46,14 @@ public:
         : weights_(weights), curves_(curves) {}
 
     /// Computes the planes of the current mesh. O(faces) for bounded valence
-    /// \throws whatever `check_cancelled` throws
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
-                    CancellationCheck check_cancelled = {}) {
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) {
         vertex_planes_.assign(mesh.vertex_slots(), {});
         edge_planes_.assign(mesh.vertex_slots(), {});
         for (Index f = 0; f < mesh.face_slots(); ++f) {
-            check_cancelled();
             if (mesh.is_alive(f)) add_face(mesh, f, no_index, no_index, 1);
         }
         Eigen::AlignedBox3d box;
         for (Index v = 0; v < vertex_planes_.size(); ++v) {
-            check_cancelled();
             update_edge_planes(mesh, pairs, v);
             if (mesh.degree(v) > 0) box.extend(mesh.position(v));
         }

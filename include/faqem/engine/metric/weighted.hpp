@@ -28,10 +28,7 @@ public:
     WeightedMetric(Inner inner, std::vector<double> weights)
         : inner_(std::move(inner)), weights_(std::move(weights)) {}
 
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
-                    CancellationCheck check_cancelled = {}) {
-        inner_.initialise(mesh, pairs, check_cancelled);
-    }
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {

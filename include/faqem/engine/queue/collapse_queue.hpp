@@ -5,7 +5,6 @@
 #include <concepts>
 #include <cstddef>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -15,8 +14,7 @@ namespace engine {
 /// A priority queue of pairs with costs, finite and >= 0; cheapest first. The order of equal costs must be
 /// deterministic: it may depend only on the sequence of calls.
 template <class Q>
-concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, double cost, std::size_t pairs,
-                                CancellationCheck check_cancelled) {
+concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, double cost, std::size_t pairs) {
     {queue.reserve(pairs)};                  // clears the queue; pairs in [0, pairs) may be inserted
     {queue.set(pair, cost)};                 // inserts the pair or changes its cost
     {queue.erase(pair)};                     // removes the pair; does nothing if it is not in the queue
@@ -34,8 +32,8 @@ concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, doub
     { queue.mark_stale(pair) } -> std::same_as<bool>;
     // The cost of a popped pair is at most this factor times the lowest cost in the queue.
     { const_queue.approximation_factor() } -> std::same_as<double>;
-    // Sets the expected number of pairs at the target. Long loops call check_cancelled.
-    {queue.set_target(pairs, check_cancelled)};
+    // Sets the expected number of pairs at the target.
+    {queue.set_target(pairs)};
 };
 
 /// Base of queues: defaults for an exact queue whose strategy does not depend on the target.
@@ -43,7 +41,7 @@ struct QueueDefaults {
     static constexpr bool is_exact = true;
     static constexpr bool mark_stale(Index) { return false; }
     static constexpr double approximation_factor() { return 1; }
-    static void set_target(std::size_t, CancellationCheck) {}
+    static void set_target(std::size_t) {}
 };
 
 }  // namespace engine

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "faqem/engine/queue/bucket_queue.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -47,12 +46,7 @@ public:
 
     /// Sets the target.
     /// \param pairs            expected number of pairs at the target; 0 (as without this call): unknown
-    /// \param check_cancelled  called in pop(), which may iterate over all pairs; exceptions pass
-    ///     through pop()
-    void set_target(std::size_t pairs, CancellationCheck check_cancelled = {}) {
-        target_pairs_ = static_cast<double>(pairs);
-        check_cancelled_ = check_cancelled;
-    }
+    void set_target(std::size_t pairs) { target_pairs_ = static_cast<double>(pairs); }
 
     bool empty() const { return uses_buckets_ ? buckets_.empty() : size_ == 0; }
     bool contains(Index pair) const {
@@ -86,7 +80,6 @@ public:
         for (;;) {
             if (uses_buckets_) return buckets_.pop();
             for (; next_pair_ < costs_.size(); ++next_pair_) {
-                if (next_pair_ % check_interval == 0) check_cancelled_(operations);
                 const float cost = costs_[next_pair_];
                 if (cost <= limit_ && rounds_[next_pair_] != round_) {
                     const auto pair = static_cast<Index>(next_pair_++);
@@ -147,7 +140,6 @@ private:
         uses_buckets_ = true;
         buckets_.reserve(costs_.size());
         for (std::size_t i = 0; i < costs_.size(); ++i) {
-            check_cancelled_();
             if (costs_[i] != absent) buckets_.set_scaled(static_cast<Index>(i), costs_[i]);
         }
         std::vector<float>().swap(costs_);
@@ -155,8 +147,6 @@ private:
     }
 
     static constexpr std::size_t samples = 4096;
-    // Cancellation is checked every 64 pairs. 16 visited pairs count as one operation.
-    static constexpr std::size_t check_interval = 64, operations = 4;
 
     std::vector<float> costs_;          // per pair: its scaled_cost(); `absent` if it is not in the queue
     std::vector<std::uint8_t> rounds_;  // per pair: the last round in which it was marked as stale
@@ -167,7 +157,6 @@ private:
     float lowest_ = -1;          // lowest cost of the pairs skipped in this round
     std::uint8_t round_ = 0;
     bool uses_buckets_ = false;
-    CancellationCheck check_cancelled_;
     BucketQueue buckets_;
 };
 

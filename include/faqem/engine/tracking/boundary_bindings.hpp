@@ -30,17 +30,13 @@ public:
     /// \param tracked          the vertices to bind, original vertices ascending; the targets are vertices
     ///     of `mesh`
     /// \param mesh, pairs      the current mesh and its pairs
-    /// \param check_cancelled  called for each vertex
-    /// \throws whatever `check_cancelled` throws
     BoundaryBindings(const OriginalSurface& original, const TrackedVertices& tracked,
-                     const CollapseMesh& mesh, const PairTable& pairs,
-                     CancellationCheck check_cancelled = {}) {
-        const std::vector<Index> current = collect_points(original, tracked, check_cancelled);
+                     const CollapseMesh& mesh, const PairTable& pairs) {
+        const std::vector<Index> current = collect_points(original, tracked);
         if (points_.empty()) return;
         first_bound_.assign(pairs.size(), no_index);
         next_bound_.assign(points_.size(), no_index);
         for (Index i = 0; i < points_.size(); ++i) {
-            check_cancelled();
             const Index pair = find_near_edge(mesh, pairs, points_[i].position, current[i]);
             if (pair != no_index) bind(i, pair);
         }
@@ -118,11 +114,9 @@ private:
 
     // Sets points_ and segments_.
     // \return for each point, its vertex in the current mesh
-    std::vector<Index> collect_points(const OriginalSurface& original, const TrackedVertices& tracked,
-                                      CancellationCheck check_cancelled) {
+    std::vector<Index> collect_points(const OriginalSurface& original, const TrackedVertices& tracked) {
         std::vector<Index> current;
         for (std::size_t i = 0; i < tracked.original.size(); ++i) {
-            check_cancelled();
             const Index v = tracked.original[i];
             const std::span<const Index> ends = original.boundary_neighbours(v);
             if (ends.empty()) continue;

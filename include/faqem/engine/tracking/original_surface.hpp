@@ -51,13 +51,10 @@ public:
     /// per vertex if there is a boundary
     /// \param positions        one per vertex, engine units; borrowed
     /// \param triangles        indices into `positions`, pairwise different within a triangle; borrowed
-    /// \param check_cancelled  called for each element
-    /// \throws whatever `check_cancelled` throws
-    OriginalSurface(std::span<const Vector3> positions, std::span<const Triangle> triangles,
-                    CancellationCheck check_cancelled = {})
+    OriginalSurface(std::span<const Vector3> positions, std::span<const Triangle> triangles)
         : positions_(positions),
           triangles_(triangles),
-          boundary_edges_(find_boundary_edges(triangles, positions.size(), check_cancelled)),
+          boundary_edges_(find_boundary_edges(triangles, positions.size())),
           face_offsets_(positions.size() + 1, 0) {
         for (const Triangle& t : triangles_) {
             for (const Index v : t) ++face_offsets_[v + 1];
@@ -65,13 +62,12 @@ public:
         std::partial_sum(face_offsets_.begin(), face_offsets_.end(), face_offsets_.begin());
         vertex_faces_.resize(face_offsets_.back());
         for (Index f = 0; f < triangles_.size(); ++f) {
-            check_cancelled();
             for (const Index v : triangles_[f]) vertex_faces_[face_offsets_[v]++] = f;
         }
         // Each offset has moved to the start of the next vertex.
         std::copy_backward(face_offsets_.begin(), face_offsets_.end() - 1, face_offsets_.end());
         face_offsets_.front() = 0;
-        find_boundary_neighbours(check_cancelled);
+        find_boundary_neighbours();
     }
 
     /// Position of vertex v.
@@ -98,14 +94,13 @@ public:
 
 private:
     // The edges are sorted, so that the neighbours of each vertex are, too.
-    void find_boundary_neighbours(CancellationCheck check_cancelled) {
+    void find_boundary_neighbours() {
         if (boundary_edges_.empty()) return;
         boundary_offsets_.assign(positions_.size() + 1, 0);
         for (const auto& [a, b] : boundary_edges_) ++boundary_offsets_[a + 1], ++boundary_offsets_[b + 1];
         std::partial_sum(boundary_offsets_.begin(), boundary_offsets_.end(), boundary_offsets_.begin());
         boundary_neighbours_.resize(boundary_offsets_.back());
         for (const auto& [a, b] : boundary_edges_) {
-            check_cancelled();
             boundary_neighbours_[boundary_offsets_[a]++] = b;
             boundary_neighbours_[boundary_offsets_[b]++] = a;
         }

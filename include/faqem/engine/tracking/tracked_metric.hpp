@@ -13,6 +13,7 @@
 #include "faqem/engine/tracking/boundary_bindings.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/tracking/vertex_bindings.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -47,22 +48,21 @@ public:
     /// \param target_faces  target face count; 0: only boundaries are tracked
     /// \param weight        w, the cost of a squared distance, > 0; engine units squared
     /// \param curves        as for MemorylessMetric
+    /// \param check_cancelled  called by initialise(), exact_cost() and after_collapse(); exceptions pass through
     TrackedMetric(const MemorylessWeights& weights, const OriginalSurface& original, TrackedVertices tracked,
-                  std::size_t target_faces, double weight, const FeatureCurves* curves = nullptr)
-        : memoryless_(weights, curves),
+                  std::size_t target_faces, double weight, const FeatureCurves* curves = nullptr,
+                  CancellationCheck check_cancelled = {})
+        : check_cancelled_(check_cancelled),
+          memoryless_(weights, curves),
           original_(&original),
           tracked_(std::move(tracked)),
           target_faces_(target_faces),
           weight_(weight) {}
 
     /// Binds the tracked vertices. To be called once. O(faces + tracked vertices), typically
-    /// \param check_cancelled  is stored and also called by later member functions
-    /// \throws whatever `check_cancelled` throws
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs,
-                    CancellationCheck check_cancelled = {}) {
-        check_cancelled_ = check_cancelled;
-        memoryless_.initialise(mesh, pairs, check_cancelled);
-        boundary_bindings_.emplace(*original_, tracked_, mesh, pairs, check_cancelled);
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) {
+        memoryless_.initialise(mesh, pairs);
+        boundary_bindings_.emplace(*original_, tracked_, mesh, pairs);
         bindings_.emplace(*original_, std::exchange(tracked_, {}), mesh);
         start_tracking_if_near_target(mesh);
     }
@@ -152,15 +152,11 @@ private:
         });
     }
 
-    // Calls visit(i) for each vertex in bound_, with cancellation checks.
+    // Calls visit(i) for each vertex in bound_, which may be most of the original vertices.
     template <class Visit>
     void for_each_bound(Visit&& visit) const {
-        constexpr std::size_t batch_size = 128;
-        for (std::size_t begin = 0; begin < bound_.size(); begin += batch_size) {
-            const std::size_t end = std::min(bound_.size(), begin + batch_size);
-            check_cancelled_(2 * (end - begin));  // each visit computes several distances
-            for (std::size_t i = begin; i < end; ++i) visit(bound_[i]);
-        }
+        check_cancelled_(bound_.size());
+        for (const Index x : bound_) visit(x);
     }
 
     // Largest squared distance from the vertices in bound_ to the faces after the collapse.

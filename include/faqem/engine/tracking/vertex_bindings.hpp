@@ -11,6 +11,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -50,8 +51,7 @@ public:
     /// Binds each tracked vertex to a face near it, unless its current vertex has no faces. Typically
     /// O(tracked vertices)
     /// \param mesh             the current mesh
-    /// \param check_cancelled  called for each vertex
-    /// \throws whatever `check_cancelled` throws
+    /// \param check_cancelled  called for each vertex; exceptions pass through
     void bind_all(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
         first_bound_.assign(mesh.face_slots(), no_index);
         next_bound_.assign(tracked_.original.size(), no_index);

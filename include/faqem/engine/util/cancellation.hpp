@@ -68,16 +68,5 @@ private:
     ProgressMonitor* monitor_ = nullptr;
 };
 
-/// Wraps a comparison function for sorting, so that each comparison counts as one operation.
-/// \param check_cancelled  called before each comparison; exceptions pass through the sort
-/// \param less             the comparison function
-template <class Less = std::less<>>
-auto cancellable_less(CancellationCheck check_cancelled, Less less = {}) {
-    return [=](const auto& a, const auto& b) {
-        check_cancelled();
-        return less(a, b);
-    };
-}
-
 }  // namespace engine
 FAQEM_NAMESPACE_END
