@@ -68,42 +68,27 @@ std::string file_extension(const std::string& mime_type) {
 
 }  // namespace detail
 
-Pixels decode(const Image& image) { return detail::decode(image, {}); }
+Pixels decode(const Image& image) {
+    const std::string type = detail::sniff_mime_type(image.encoded);
+    if (!detail::can_decode_image(type))
+        throw UnsupportedError(
+            image.uri, detail::image_title(image),
+            (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
+                detail::decodable_format_names() + " are supported");
+    detail::check_header(image);
+    if (type == "image/png") return detail::read_png(image);
+    if (type == "image/jpeg") return detail::read_jpeg(image);
+    return detail::image_codec().decode(image, type.substr(6));
+}
 
 Image encode_png(const Pixels& pixels, const std::string& name) {
-    return detail::encode_png(pixels, name, {});
+    detail::check_pixel_count(pixels, name);
+    return detail::write_png(pixels, name);
 }
 
 Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
-    return detail::encode_jpeg(pixels, name, quality, content, {});
-}
-
-Pixels detail::decode(const Image& image, engine::CancellationCheck check_cancelled) {
-    const std::string type = sniff_mime_type(image.encoded);
-    if (!can_decode_image(type))
-        throw UnsupportedError(
-            image.uri, image_title(image),
-            (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
-                decodable_format_names() + " are supported");
-    check_header(image);
-    check_cancelled.now();
-    if (type == "image/png") return read_png(image);
-    if (type == "image/jpeg") return read_jpeg(image);
-    return image_codec().decode(image, type.substr(6));
-}
-
-Image detail::encode_png(const Pixels& pixels, const std::string& name,
-                         engine::CancellationCheck check_cancelled) {
-    check_pixel_count(pixels, name);
-    check_cancelled.now();
-    return write_png(pixels, name);
-}
-
-Image detail::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                          Content content, engine::CancellationCheck check_cancelled) {
-    check_pixel_count(pixels, name);
-    check_cancelled.now();
-    return write_jpeg(pixels, name, quality, content);
+    detail::check_pixel_count(pixels, name);
+    return detail::write_jpeg(pixels, name, quality, content);
 }
 
 }  // namespace faqem

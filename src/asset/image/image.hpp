@@ -1,24 +1,14 @@
 #pragma once
 /// \file
-/// Detection of image formats, and decoding and encoding with cancellation.
+/// Detection of image formats.
 
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/util/cancellation.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
-
-/// Same as the public functions of these names, with a cancellation check.
-/// \throws Cancelled  if `check_cancelled` requests it; other exceptions of `check_cancelled` are passed on
-FAQEM_EXPORT Pixels decode(const Image& image, engine::CancellationCheck check_cancelled);
-FAQEM_EXPORT Image encode_png(const Pixels& pixels, const std::string& name,
-                              engine::CancellationCheck check_cancelled);
-FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
-                               Content content, engine::CancellationCheck check_cancelled);
 
 /// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2,
 /// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.

@@ -50,9 +50,9 @@ public:
             if (bake.image_format == ImageFormat::automatic)
                 to = encode_smallest(pixels, known, name, content, limits(content), check_cancelled);
             else if (is_jpeg)
-                to = encode_jpeg(pixels, name, bake.jpeg_quality, content, check_cancelled);
+                to = encode_jpeg(pixels, name, bake.jpeg_quality, content);
             else
-                to = encode_png(pixels, name, check_cancelled);
+                to = encode_png(pixels, name);
         };
         parallel_blocks(pending_.size(), 1, job_.workers(), encode);
     }

@@ -38,10 +38,9 @@ double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std
 }
 
 // Errors name the material that uses the image, since images may have no names.
-Pixels decode_for(const Asset& asset, Index image, Index material,
-                  engine::CancellationCheck check_cancelled) {
+Pixels decode_for(const Asset& asset, Index image, Index material) {
     try {
-        return decode(asset.images[image], check_cancelled);
+        return decode(asset.images[image]);
     } catch (const UnsupportedError& error) {
         throw UnsupportedError("", material_title(asset, material), error.what());
     } catch (const InputError& error) {
@@ -105,7 +104,8 @@ SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_re
     if (!texture_ref) return {};
     auto& image = images_[{texture_ref.image, encoding}];
     if (!image) {
-        Pixels pixels = decode_for(asset_, texture_ref.image, material, workers.check_cancelled);
+        workers.check_cancelled.now();
+        Pixels pixels = decode_for(asset_, texture_ref.image, material);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "an image of it has no pixels");
         }

@@ -111,39 +111,3 @@ TEST_CASE("pixel arrays that do not match the image size are rejected") {
     CHECK_THROWS_AS(encode_png(Pixels{2, 2, Bytes(12), false}, ""), InputError);
     CHECK_THROWS_AS(encode_png(Pixels{}, ""), InputError);
 }
-
-TEST_CASE("encoding and decoding an image can be cancelled") {
-    Pixels pixels{600, 300, {}, false};
-    for (std::uint32_t i = 0; i < pixels.width * pixels.height; ++i) {
-        for (const std::uint32_t value : {i % 251, i / 7 % 256, i * i % 256, 255u})
-            pixels.rgba.push_back(static_cast<std::uint8_t>(value));
-    }
-    const Image png = encode_png(pixels, "x"), jpeg = encode_jpeg(pixels, "x", 90, Content::color);
-    const std::function<bool(engine::CancellationCheck)> works[] = {
-        [&](engine::CancellationCheck check_cancelled) {
-            return detail::encode_png(pixels, "x", check_cancelled).encoded == png.encoded;
-        },
-        [&](engine::CancellationCheck check_cancelled) {
-            return detail::encode_jpeg(pixels, "x", 90, Content::color, check_cancelled).encoded ==
-                   jpeg.encoded;
-        },
-        [&](engine::CancellationCheck check_cancelled) {
-            return detail::decode(png, check_cancelled).rgba == pixels.rgba;
-        },
-        [&](engine::CancellationCheck check_cancelled) {
-            return detail::decode(jpeg, check_cancelled).width == 600;
-        }};
-    for (const auto& work : works) {
-        int questions = 0;
-        engine::ProgressMonitor count([&] { return ++questions, Continue::yes; });
-        CHECK(work(engine::CancellationCheck(count)));
-        CHECK(questions == 1);
-        for (int stop = 1; stop <= questions; ++stop) {
-            int calls = 0;
-            engine::ProgressMonitor monitor(
-                [&] { return ++calls == stop ? Continue::cancel : Continue::yes; });
-            CHECK_THROWS_AS(work(engine::CancellationCheck(monitor)), engine::Cancelled);
-            CHECK(calls == stop);
-        }
-    }
-}
