@@ -30,11 +30,9 @@ struct ChartBoundaryEdge {
 };
 
 // The boundary edges of a chart, face by face.
-std::vector<ChartBoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart,
-                                              engine::CancellationCheck check_cancelled) {
+std::vector<ChartBoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart) {
     std::vector<ChartBoundaryEdge> edges;
     for (std::size_t i = 0; i < chart.faces.size(); ++i) {
-        check_cancelled();
         const ChartFace& face = all[chart.faces[i]];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index other = face.adjacent[c].triangle;
@@ -69,18 +67,16 @@ bool has_clearance(const ChartBoundaryEdge& s, const ChartBoundaryEdge& t) {
 
 }  // namespace
 
-bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
-                            engine::CancellationCheck check_cancelled) {
-    const std::vector<ChartBoundaryEdge> edges = boundary_edges(all, chart, check_cancelled);
+bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work) {
+    const std::vector<ChartBoundaryEdge> edges = boundary_edges(all, chart);
     std::vector<Box2> boxes;
     boxes.reserve(edges.size());
     for (const ChartBoundaryEdge& s : edges) {
-        check_cancelled();
         boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_distance / 2));
     }
     const std::optional<BoxGrid> grid = BoxGrid::build(boxes, work);
     if (!grid) return false;
-    return grid->all_pairs(boxes, work, check_cancelled, [&](Index a, Index b) {
+    return grid->all_pairs(boxes, work, [&](Index a, Index b) {
         return has_clearance(edges[a], edges[b]) && has_clearance(edges[b], edges[a]);
     });
 }

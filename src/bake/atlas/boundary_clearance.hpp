@@ -6,7 +6,6 @@
 #include <span>
 
 #include "bake/atlas/chart.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 
@@ -18,8 +17,6 @@ namespace faqem::detail {
 /// \param work   as in have_disjoint_interiors()
 /// \return false also if `work` is used up before the result is known
 /// Complexity: O(n) expected.
-/// \throws whatever `check_cancelled` throws
-bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work,
-                            engine::CancellationCheck check_cancelled = {});
+bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work);
 
 }  // namespace faqem::detail

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bake/atlas/point2.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -28,16 +27,12 @@ public:
     /// \param work   maximum number of pairs visited; decreased by the number visited
     /// \return whether `test` always returned true; false also if `work` is used up before
     /// Complexity: O(n) expected.
-    /// \throws whatever `check_cancelled` throws
     template <class Test>
-    bool all_pairs(std::span<const Box2> boxes, std::uint64_t& work,
-                   engine::CancellationCheck check_cancelled, const Test& test) const {
+    bool all_pairs(std::span<const Box2> boxes, std::uint64_t& work, const Test& test) const {
         for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
-            check_cancelled();
             for (std::uint64_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
                 const Box2& a = boxes[members_[i]];
                 for (std::uint64_t j = i + 1; j < begin_[cell + 1]; ++j) {
-                    check_cancelled();
                     if (work == 0) return false;
                     --work;
                     const Box2& b = boxes[members_[j]];

@@ -43,12 +43,13 @@ Charts parametrize_region(std::span<const ChartFace> all, const std::vector<Inde
     while (!waiting.empty()) {
         std::vector<Index> faces = std::move(waiting.back());
         waiting.pop_back();
+        check_cancelled(faces.size());
         if (faces.size() > 1 && work == 0) {
             result.faces_over_work_limit += faces.size();
             for (Index f : faces) waiting.push_back({f});
             continue;
         }
-        Parametrization parametrization = parametrize(all, faces, work, check_cancelled);
+        Parametrization parametrization = parametrize(all, faces, work);
         if (faces.size() == 1 || is_acceptable(parametrization, max_diagonal)) {
             result.charts.push_back(std::move(parametrization.chart));
             continue;
@@ -90,7 +91,6 @@ public:
         while (!queue_.empty() && work > 0) {
             const MergeCandidate merge = queue_.top();
             queue_.pop();
-            workers_.check_cancelled();
             if (!is_valid(merge)) continue;
             Parametrization parametrization = merged_parametrization(merge, work);
             if (!is_acceptable(parametrization, max_diagonal_)) continue;
@@ -136,8 +136,7 @@ private:
         const std::uint64_t used = speculative.allowed - speculative.left;
         // An attempt that reached its work limit, or used at least as much as is left now, is repeated with
         // what is left, so that the result does not depend on the number of threads.
-        if (speculative.left == 0 || used >= work)
-            return parametrize_merge(merge, work, workers_.check_cancelled);
+        if (speculative.left == 0 || used >= work) return parametrize_merge(merge, work);
         work -= used;
         return std::move(speculative.parametrization);
     }
@@ -162,25 +161,22 @@ private:
                 speculative_merges_.push_back({merge, work, work, {}});
         }
         for (const MergeCandidate& merge : later) queue_.push(merge);
-        parallel_blocks(speculative_merges_.size() - known, 1, workers_,
-                        [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                            for (std::size_t i = known + begin; i < known + end; ++i)
-                                speculative_merges_[i].parametrization =
-                                    parametrize_merge(speculative_merges_[i].merge,
-                                                      speculative_merges_[i].left, check_cancelled);
-                        });
+        parallel_blocks(
+            speculative_merges_.size() - known, 1, workers_, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = known + begin; i < known + end; ++i)
+                    speculative_merges_[i].parametrization =
+                        parametrize_merge(speculative_merges_[i].merge, speculative_merges_[i].left);
+            });
     }
 
-    Parametrization parametrize_merge(const MergeCandidate& merge, std::uint64_t& work,
-                                      CancellationCheck check_cancelled) const {
+    Parametrization parametrize_merge(const MergeCandidate& merge, std::uint64_t& work) const {
         const std::vector<Index>&a = charts_[merge.a].faces, &b = charts_[merge.b].faces;
         std::vector<Index> faces;
         std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(faces));
-        return parametrize(all_, std::move(faces), work, check_cancelled);
+        return parametrize(all_, std::move(faces), work);
     }
 
     void assign_faces(Index chart) {
-        workers_.check_cancelled(charts_[chart].faces.size());
         perimeters_.resize(charts_.size());
         for (Index f : charts_[chart].faces) chart_of_face_[f] = chart;
         for (Index f : charts_[chart].faces) {

@@ -28,7 +28,6 @@ struct Charts {
 /// become charts of their own, and the remaining charts are not merged.
 /// The result does not depend on the number of threads.
 /// Complexity: O(n log n) expected, plus O(n) flattenings of a face.
-/// \throws whatever `workers.check_cancelled` throws
 Charts make_charts(std::span<const ChartFace> faces, Workers workers);
 
 }  // namespace faqem::detail

@@ -112,14 +112,13 @@ bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y
     return true;
 }
 
-std::optional<OccupancyGrid::BlockPosition> OccupancyGrid::find_free(
-    const BlockMask& mask, std::uint32_t from, std::uint32_t end, std::uint32_t step,
-    engine::CancellationCheck check_cancelled) const {
+std::optional<OccupancyGrid::BlockPosition> OccupancyGrid::find_free(const BlockMask& mask,
+                                                                     std::uint32_t from, std::uint32_t end,
+                                                                     std::uint32_t step) const {
     if (mask.columns > columns_ || mask.rows > rows_) return std::nullopt;
     const std::vector<Run> runs = runs_of(mask);
     Row candidates, scratch;
     for (std::uint32_t y = from; y < std::min(end, rows_ - mask.rows + 1); y += step) {
-        check_cancelled();
         if (!find_free_columns(runs, y, candidates, scratch)) continue;
         for (std::uint32_t i = 0; i < candidates.size(); ++i) {
             if (candidates[i])

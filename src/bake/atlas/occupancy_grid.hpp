@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
-
 namespace faqem::detail {
 
 /// The blocks that a chart occupies.
@@ -40,10 +38,8 @@ public:
     /// \param end   end (exclusive) of these rows
     /// \param step  only every step-th row is tried
     /// \return nothing if the mask does not fit
-    /// \throws whatever `check_cancelled` throws
     std::optional<BlockPosition> find_free(const BlockMask& mask, std::uint32_t from, std::uint32_t end,
-                                           std::uint32_t step,
-                                           engine::CancellationCheck check_cancelled = {}) const;
+                                           std::uint32_t step) const;
 
     /// Marks the blocks of the mask as occupied.
     void occupy(const BlockMask& mask, BlockPosition position);

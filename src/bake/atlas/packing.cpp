@@ -24,7 +24,7 @@ struct OrientedChart {
 };
 
 // Convex hull, counter-clockwise (Andrew's monotone chain).
-std::vector<Point2> convex_hull(const Chart& chart, engine::CancellationCheck check_cancelled) {
+std::vector<Point2> convex_hull(const Chart& chart) {
     std::vector<Point2> points;
     for (const Triangle2& t : chart.points) points.insert(points.end(), t.begin(), t.end());
     const auto less = [](const Point2& a, const Point2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
@@ -58,10 +58,10 @@ bool has_valid_coordinates(const Chart& chart) {
 }
 
 // Rotates a chart; tries the directions of the edges of its convex hull.
-OrientedChart orient(const Chart& chart, engine::CancellationCheck check_cancelled) {
+OrientedChart orient(const Chart& chart) {
     if (!has_valid_coordinates(chart))
         return {std::vector<Triangle2>(chart.points.size()), 0, 0, 0};  // one texel
-    const std::vector<Point2> hull = convex_hull(chart, check_cancelled);
+    const std::vector<Point2> hull = convex_hull(chart);
     Point2 best = {1, 0};
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -118,8 +118,7 @@ bool overlaps_square(const Triangle2& t, const Point2& centre, double half) {
 }
 
 // The blocks that the triangles of a chart overlap.
-BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
-                     engine::CancellationCheck check_cancelled) {
+BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster) {
     const double block_size = raster.block_size;
     BlockMask mask = raster.mask;
     mask.blocks.assign(std::size_t{mask.columns} * mask.rows, 0);
@@ -127,7 +126,6 @@ BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
         return static_cast<std::uint32_t>(std::clamp(i, 0.0, double(n - 1)));
     };
     for (const Triangle2& t : shape.points) {
-        check_cancelled();
         const Triangle2 p = {raster.texel_point(t[0]), raster.texel_point(t[1]), raster.texel_point(t[2])};
         const Box2 bounds = bounding_box(p);
         const std::uint32_t x0 = clamped(std::floor(bounds.low.x / block_size - 0.5), mask.columns);
@@ -145,8 +143,7 @@ BlockMask block_mask(const OrientedChart& shape, const ChartRaster& raster,
     return mask;
 }
 
-ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t width, std::uint32_t height,
-                      engine::CancellationCheck check_cancelled) {
+ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t width, std::uint32_t height) {
     ChartRaster raster{scale, scale, 1, true, {}};
     if (!(std::max(shape.width, shape.height) * scale >= 0.75)) return raster;
     raster.is_single_texel = false;
@@ -165,7 +162,7 @@ ChartRaster rasterize(const OrientedChart& shape, double scale, std::uint32_t wi
     };
     raster.mask.columns = blocks(shape.width * raster.scale_x);
     raster.mask.rows = blocks(shape.height * raster.scale_y);
-    raster.mask = block_mask(shape, raster, check_cancelled);
+    raster.mask = block_mask(shape, raster);
     return raster;
 }
 
@@ -183,16 +180,17 @@ struct ChartPlacement {
 class ChartPacking {
 public:
     ChartPacking(std::span<const OrientedChart> shapes, double scale, std::uint32_t width,
-                 std::uint32_t height, engine::CancellationCheck check_cancelled)
-        : width_(width), height_(height), check_cancelled_(check_cancelled) {
+                 std::uint32_t height)
+        : width_(width), height_(height) {
         rasters_.reserve(shapes.size());
         for (const OrientedChart& shape : shapes) {
-            check_cancelled();
-            rasters_.push_back(rasterize(shape, scale, width, height, check_cancelled));
+            rasters_.push_back(rasterize(shape, scale, width, height));
         }
     }
 
-    bool run() {
+    // Returns whether all charts fit.
+    bool run(engine::CancellationCheck check_cancelled) {
+        check_cancelled.now();
         std::uint64_t texels = 0;
         for (const ChartRaster& raster : rasters_) {
             const auto blocks = std::count_if(raster.mask.blocks.begin(), raster.mask.blocks.end(),
@@ -218,6 +216,7 @@ public:
         std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> first_row;
         for (std::size_t number = 0; number < order.size(); ++number) {
             const std::size_t i = order[number];
+            check_cancelled(1 + height_ / block_size / 32);  // up to that many rows are tested
             for (; block_size > rasters_[i].block_size; block_size /= 2) grid.refine();
             std::optional<ChartPlacement> best;
             std::uint32_t best_end = height_ / block_size + 1;
@@ -233,8 +232,7 @@ public:
                     is_exhaustive ? top
                                   : first_row[{block_size, size_class(mask.columns), size_class(mask.rows)}];
                 const std::uint32_t step = is_exhaustive ? 1 : 1 + mask.rows / 8;
-                const auto position =
-                    grid.find_free(mask, from, best_end - mask.rows, step, check_cancelled_);
+                const auto position = grid.find_free(mask, from, best_end - mask.rows, step);
                 if (!position) continue;
                 from = position->y;
                 best = ChartPlacement{*position, t};
@@ -253,7 +251,6 @@ public:
 
 private:
     std::uint32_t width_, height_;
-    engine::CancellationCheck check_cancelled_;
     std::vector<ChartRaster> rasters_;
     std::vector<ChartPlacement> placements_;
 };
@@ -314,8 +311,7 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     std::vector<OrientedChart> shapes;
     double area = 0;
     for (const Chart& chart : charts) {
-        check_cancelled(chart.points.size());
-        shapes.push_back(orient(chart, check_cancelled));
+        shapes.push_back(orient(chart));
         area += shapes.back().area;
     }
     std::uint32_t width = 4, height = 4;
@@ -323,8 +319,8 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     for (; !fits; width *= 2) {
         for (const std::uint32_t h : {width / 2, width}) {
             height = h;
-            fits = area <= double(width) * height &&
-                   ChartPacking(shapes, 1, width, height, check_cancelled).run();
+            fits =
+                area <= double(width) * height && ChartPacking(shapes, 1, width, height).run(check_cancelled);
             if (fits) break;
         }
         if (fits || width == max_size) break;
@@ -335,12 +331,12 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     double next = std::sqrt(0.55 * double(width) * height / area);
     while (high - low > 0.01 * high && high > 1e-6) {
         if (!(next > low && next < high)) next = (low + high) / 2;
-        const bool good = ChartPacking(shapes, next, width, height, check_cancelled).run();
+        const bool good = ChartPacking(shapes, next, width, height).run(check_cancelled);
         (good ? low : high) = next;
         next *= good ? 1.07 : 1 / 1.07;
     }
-    ChartPacking packing(shapes, low, width, height, check_cancelled);
-    if (!packing.run()) return std::nullopt;
+    ChartPacking packing(shapes, low, width, height);
+    if (!packing.run(check_cancelled)) return std::nullopt;
     return make_page(charts, shapes, packing, faces, width, height, low);
 }
 

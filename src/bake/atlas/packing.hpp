@@ -47,7 +47,7 @@ struct ChartPage {
 /// \param faces     number of faces of all charts together
 /// \param max_size  largest width and height in texels, a power of two
 /// \return nothing if there are more charts than texels
-/// \throws whatever `check_cancelled` throws
+/// \param check_cancelled  called for each chart in each attempt; exceptions pass through
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
                                      engine::CancellationCheck check_cancelled = {});
 

@@ -338,11 +338,9 @@ Chart make_chart(ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z, doub
 
 }  // namespace
 
-Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
-                            engine::CancellationCheck check_cancelled) {
+Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work) {
     Parametrization result;
     if (faces.size() > max_faces_per_chart) return result;
-    check_cancelled(faces.size());
     ChartMesh chart_mesh(all, std::move(faces));
     if (chart_mesh.size() == 1) {
         const LocalTriangle& local = chart_mesh.local(0);
@@ -362,10 +360,8 @@ Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> f
         if (z.empty()) return result;
     }
     double least = HUGE_VAL;
-    check_cancelled(chart_mesh.size());
     const ArapSolver arap(chart_mesh);
     for (int round = 0;; ++round) {
-        check_cancelled(chart_mesh.size());
         const std::vector<Index> flipped = flipped_faces_of(chart_mesh, z);
         if (flipped.empty()) {
             const double stretch = stretch_of(chart_mesh, z);
@@ -388,8 +384,7 @@ Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> f
     }
     result.flipped_faces.clear();
     Chart chart = make_chart(chart_mesh, best, least);
-    if (!have_disjoint_interiors(chart.points, work, check_cancelled) ||
-        !has_boundary_clearance(all, chart, work, check_cancelled))
+    if (!have_disjoint_interiors(chart.points, work) || !has_boundary_clearance(all, chart, work))
         return result;
     result.chart = std::move(chart);
     result.outcome = Parametrization::Outcome::valid;

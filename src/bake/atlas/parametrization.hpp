@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bake/atlas/chart.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 
@@ -43,10 +42,7 @@ inline constexpr std::size_t max_faces_per_chart = 8192;
 /// \param faces  indices into `all`, ascending, connected over ChartFace::adjacent
 /// \param work   as in have_disjoint_interiors(); the flattening itself counts as
 ///               `parametrization_work_per_face` comparisons per face
-/// \throws whatever `check_cancelled` throws; there is no check while a linear system over all vertices is
-///         solved
 /// Complexity: O(n^1.5) expected.
-Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work,
-                            engine::CancellationCheck check_cancelled = {});
+Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work);
 
 }  // namespace faqem::detail

@@ -124,10 +124,9 @@ class ShelfPacking {
 public:
     ShelfPacking(std::span<const AtlasTriangle> triangles, double scale,
                  engine::CancellationCheck check_cancelled)
-        : triangles_(triangles), scale_(scale), check_cancelled_(check_cancelled) {
+        : triangles_(triangles), scale_(scale) {
         std::vector<Unit> unpaired;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-            check_cancelled();
             const auto t = static_cast<Index>(i);
             const AtlasTriangle& a = triangles[i];
             if (a.partner != no_index) {
@@ -144,20 +143,19 @@ public:
             }
             unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});
         }
-        std::sort(unpaired.begin(), unpaired.end(), [check_cancelled](const Unit& a, const Unit& b) {
-            check_cancelled();
+        check_cancelled.now();
+        std::sort(unpaired.begin(), unpaired.end(), [](const Unit& a, const Unit& b) {
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
         for (std::size_t i = 0; i < unpaired.size(); ++i) {
-            check_cancelled();
             Unit unit = unpaired[i];
             const bool two = !unit.shape.is_single_texel && i + 1 < unpaired.size() &&
                              unit.shape.key() == unpaired[i + 1].shape.key();
             if (two) unit.second = unpaired[++i].first;
             units_.push_back(unit);
         }
-        std::sort(units_.begin(), units_.end(), [check_cancelled](const Unit& a, const Unit& b) {
-            check_cancelled();
+        check_cancelled.now();
+        std::sort(units_.begin(), units_.end(), [](const Unit& a, const Unit& b) {
             if (a.shape.size() != b.shape.size()) return a.shape.size() > b.shape.size();
             return std::tuple(a.order, a.first) < std::tuple(b.order, b.first);
         });
@@ -169,7 +167,6 @@ public:
     bool place_on_shelves(std::uint32_t width, std::uint32_t height, Place&& place) const {
         std::uint64_t x = 0, y = 0, shelf = 0;
         for (std::size_t i = 0; i < units_.size(); ++i) {
-            check_cancelled_();
             const CellShape& shape = units_[i].shape;
             if (shape.width > width) return false;
             if (shape.height > shelf || x + shape.width > width) {
@@ -203,7 +200,6 @@ public:
                       curve_points.begin() + std::ptrdiff_t(end));
         }
         for (std::size_t i = 0; i < units_.size(); ++i) {
-            check_cancelled_();
             const Unit& unit = units_[i];
             const AtlasCell cell{curve_points[i].x,         curve_points[i].y, unit.shape.width,
                                  unit.shape.height,         unit.first,        unit.second,
@@ -227,17 +223,17 @@ private:
 
     std::span<const AtlasTriangle> triangles_;
     double scale_;
-    engine::CancellationCheck check_cancelled_;
     std::vector<Unit> units_;
 };
 
 // The largest scale in [low, high] that fits, with a relative accuracy of 0.001; `low` must fit.
-double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t width, std::uint32_t height,
-                     double low, double high, engine::CancellationCheck check_cancelled) {
-    if (ShelfPacking(triangles, high, check_cancelled).fits(width, height)) return high;
+// \param pack  double -> ShelfPacking
+template <class Pack>
+double largest_scale(const Pack& pack, std::uint32_t width, std::uint32_t height, double low, double high) {
+    if (pack(high).fits(width, height)) return high;
     for (int i = 0; i < 40 && high - low > 1e-3 * high; ++i) {
         const double middle = (low + high) / 2;
-        (ShelfPacking(triangles, middle, check_cancelled).fits(width, height) ? low : high) = middle;
+        (pack(middle).fits(width, height) ? low : high) = middle;
     }
     return low;
 }
@@ -246,18 +242,16 @@ double largest_scale(std::span<const AtlasTriangle> triangles, std::uint32_t wid
 
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
                                     engine::CancellationCheck check_cancelled) {
-    const ShelfPacking wanted(triangles, 1, check_cancelled);
+    const auto pack = [&](double scale) { return ShelfPacking(triangles, scale, check_cancelled); };
+    const ShelfPacking wanted = pack(1);
     for (std::uint32_t width = 4; width <= max_size; width *= 2) {
         for (std::uint32_t height : {width / 2, width}) {
             if (!wanted.fits(width, height)) continue;
-            const double scale = largest_scale(triangles, width, height, 1, std::sqrt(2.0), check_cancelled);
-            return ShelfPacking(triangles, scale, check_cancelled).atlas(width, height);
+            return pack(largest_scale(pack, width, height, 1, std::sqrt(2.0))).atlas(width, height);
         }
     }
-    if (!ShelfPacking(triangles, 0, check_cancelled).fits(max_size, max_size)) return std::nullopt;
-    return ShelfPacking(triangles, largest_scale(triangles, max_size, max_size, 0, 1, check_cancelled),
-                        check_cancelled)
-        .atlas(max_size, max_size);
+    if (!pack(0).fits(max_size, max_size)) return std::nullopt;
+    return pack(largest_scale(pack, max_size, max_size, 0, 1)).atlas(max_size, max_size);
 }
 
 BarycentricFrame::BarycentricFrame(const TrianglePlacement& placement) : placement_(placement) {

@@ -69,7 +69,7 @@ struct Atlas {
 /// \param max_size   largest width and height in texels, a power of two
 /// \return nothing if there are more triangles than texels
 /// Complexity: O(n log n).
-/// \throws whatever `check_cancelled` throws
+/// \param check_cancelled  called for each attempt; exceptions pass through
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
                                     engine::CancellationCheck check_cancelled = {});
 

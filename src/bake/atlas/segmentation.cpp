@@ -48,8 +48,8 @@ struct Merge {
 
 class RegionClustering {
 public:
-    RegionClustering(std::span<const ChartFace> faces, engine::CancellationCheck check_cancelled)
-        : regions_(faces.size()), parent_(faces.size()), check_cancelled_(check_cancelled) {
+    explicit RegionClustering(std::span<const ChartFace> faces)
+        : regions_(faces.size()), parent_(faces.size()) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
         for (std::size_t f = 0; f < faces.size(); ++f) init_region(faces, static_cast<Index>(f));
         for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -59,14 +59,13 @@ public:
         }
     }
 
-    void run() {
+    void run(engine::CancellationCheck check_cancelled) {
         while (!queue_.empty()) {
-            check_cancelled_();
             const Merge m = queue_.top();
             queue_.pop();
             const FaceRegion &a = regions_[m.a], &b = regions_[m.b];
             if (a.is_merged || b.is_merged || a.version != m.version_a || b.version != m.version_b) continue;
-            merge(m.a, m.b);
+            check_cancelled(merge(m.a, m.b));
         }
     }
 
@@ -86,7 +85,6 @@ public:
 
 private:
     void init_region(std::span<const ChartFace> faces, Index f) {
-        check_cancelled_();
         const ChartFace& face = faces[f];
         std::array<Vector3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
@@ -125,7 +123,6 @@ private:
     }
 
     void enqueue_merge(Index i, Index j) {
-        check_cancelled_();
         if (i > j) std::swap(i, j);
         const FaceRegion &a = regions_[i], &b = regions_[j];
         const double shared = shared_length(a, j);
@@ -141,7 +138,9 @@ private:
         if (std::isfinite(cost)) queue_.push({cost, i, j, a.version, b.version});
     }
 
-    void merge(Index i, Index j) {
+    // Returns the number of operations: about one per 16 entries of the changed lists of neighbours.
+    std::uint64_t merge(Index i, Index j) {
+        std::size_t visited = 16;
         // The region with more neighbours is kept, so that fewer neighbour lists have to be updated.
         if (regions_[i].neighbours.size() < regions_[j].neighbours.size()) std::swap(i, j);
         FaceRegion &a = regions_[i], &b = regions_[j];
@@ -156,16 +155,17 @@ private:
         for (const SharedBoundary& s : b.neighbours) {
             if (s.region == i) continue;
             replace_neighbour(regions_[s.region].neighbours, j, i);
+            visited += regions_[s.region].neighbours.size();
             a.neighbours.push_back(s);
         }
         std::erase_if(a.neighbours, [&](const SharedBoundary& s) { return s.region == j; });
         sort_and_combine(a.neighbours);
         std::vector<SharedBoundary>().swap(b.neighbours);
         for (const SharedBoundary& s : a.neighbours) enqueue_merge(i, s.region);
+        return (visited + a.neighbours.size()) / 16;
     }
 
-    void replace_neighbour(std::vector<SharedBoundary>& neighbours, Index from, Index to) const {
-        check_cancelled_(1 + neighbours.size() / 16);
+    static void replace_neighbour(std::vector<SharedBoundary>& neighbours, Index from, Index to) {
         for (SharedBoundary& s : neighbours) {
             if (s.region == from) s.region = to;
         }
@@ -180,7 +180,6 @@ private:
     std::vector<FaceRegion> regions_;
     std::vector<Index> parent_;
     std::priority_queue<Merge> queue_;
-    engine::CancellationCheck check_cancelled_;
 };
 
 // Calls visit(j) for every neighbour faces[j] of faces[i].
@@ -215,8 +214,8 @@ std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span
 
 std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
                                               engine::CancellationCheck check_cancelled) {
-    RegionClustering clustering(faces, check_cancelled);
-    clustering.run();
+    RegionClustering clustering(faces);
+    clustering.run(check_cancelled);
     return clustering.regions();
 }
 

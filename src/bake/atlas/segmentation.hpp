@@ -18,7 +18,7 @@ namespace faqem::detail {
 /// of 2.
 /// \return the faces of every region, ascending; regions sorted by smallest face
 /// Complexity: O(n log n) expected.
-/// \throws whatever `check_cancelled` throws
+/// \param check_cancelled  called for each merge of two regions; exceptions pass through
 std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
                                               engine::CancellationCheck check_cancelled = {});
 

@@ -31,15 +31,14 @@ bool is_separated(const Triangle2& a, const Box2& box_a, const Triangle2& b, con
 
 }  // namespace
 
-bool have_disjoint_interiors(std::span<const Triangle2> triangles, std::uint64_t& work,
-                             engine::CancellationCheck check_cancelled) {
+bool have_disjoint_interiors(std::span<const Triangle2> triangles, std::uint64_t& work) {
     if (triangles.size() < 2) return true;
     std::vector<Box2> boxes;
     boxes.reserve(triangles.size());
     for (const Triangle2& t : triangles) boxes.push_back(bounding_box(t));
     const std::optional<BoxGrid> grid = BoxGrid::build(boxes, work);
     if (!grid) return false;
-    return grid->all_pairs(boxes, work, check_cancelled, [&](Index a, Index b) {
+    return grid->all_pairs(boxes, work, [&](Index a, Index b) {
         return is_separated(triangles[a], boxes[a], triangles[b], boxes[b]);
     });
 }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bake/atlas/point2.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 
@@ -19,8 +18,6 @@ namespace faqem::detail {
 /// \param work       maximum number of comparisons; decreased by the number made
 /// \return false also if `work` is used up before the result is known
 /// Complexity: O(n) expected.
-/// \throws whatever `check_cancelled` throws
-bool have_disjoint_interiors(std::span<const Triangle2> triangles, std::uint64_t& work,
-                             engine::CancellationCheck check_cancelled = {});
+bool have_disjoint_interiors(std::span<const Triangle2> triangles, std::uint64_t& work);
 
 }  // namespace faqem::detail

@@ -41,13 +41,9 @@ double waste(std::span<const PairTriangle> triangles, Index t, std::uint8_t corn
 
 class Matching {
 public:
-    Matching(std::span<const PairTriangle> triangles, engine::CancellationCheck check_cancelled)
-        : triangles_(triangles),
-          corner_(triangles.size(), no_partner),
-          waste_(triangles.size()),
-          check_cancelled_(check_cancelled) {
+    explicit Matching(std::span<const PairTriangle> triangles)
+        : triangles_(triangles), corner_(triangles.size(), no_partner), waste_(triangles.size()) {
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            check_cancelled_();
             for (std::uint8_t c = 0; c < 3; ++c) waste_[t][c] = waste(triangles, static_cast<Index>(t), c);
         }
     }
@@ -68,7 +64,6 @@ public:
             }
         }
         std::sort(candidates.begin(), candidates.end(), [this](const Candidate& a, const Candidate& b) {
-            check_cancelled_();
             if (a.waste != b.waste) return a.waste < b.waste;
             return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
         });
@@ -101,7 +96,6 @@ private:
     // Finds a partner for t, which is unpaired or whose pair is split by the current path. The rest of the
     // path may split at most `pairs` pairs.
     bool find_augmenting_path(Index t, int pairs) {
-        check_cancelled_();
         path_.push_back(t);
         bool found = false;
         for (std::uint8_t c : by_waste(t)) {
@@ -136,14 +130,12 @@ private:
     std::vector<std::uint8_t> corner_;
     std::vector<std::array<double, 3>> waste_;
     std::vector<Index> path_;
-    engine::CancellationCheck check_cancelled_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles,
-                                         engine::CancellationCheck check_cancelled) {
-    Matching matching(triangles, check_cancelled);
+std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles) {
+    Matching matching(triangles);
     matching.greedy();
     matching.augment();
     return std::move(matching).corners();

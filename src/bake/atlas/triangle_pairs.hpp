@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -38,8 +37,6 @@ inline double shared_side(double a, double b) { return std::sqrt((a * a + b * b)
 /// number of triangles without a partner. No pair has a waste above `max_waste`.
 /// \return by triangle: the corner opposite the edge to its partner, or 3 if it has no partner
 /// Complexity: O(n log n).
-/// \throws whatever `check_cancelled` throws
-std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles,
-                                         engine::CancellationCheck check_cancelled = {});
+std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles);
 
 }  // namespace faqem::detail

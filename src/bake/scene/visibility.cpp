@@ -22,8 +22,6 @@ using engine::to_eigen;
 using engine::Vector3;
 
 constexpr std::size_t direction_count = 32;
-// Operations that a visibility query counts as in cancellation checks: a ray takes a few microseconds.
-constexpr std::uint64_t visibility_query_cost = 4 * direction_count;
 // Distance of the rays' origins from the surface, relative to the diagonal.
 constexpr double ray_offset_ratio = 1.0 / 5000;
 // Radius of a patch around its first face, relative to the diagonal.
@@ -39,13 +37,12 @@ struct InstanceMesh {
     std::vector<Triangle> triangles;  // with reversed winding if the transform is a reflection
 };
 
-InstanceMesh instance_mesh(const Asset& scene, const Instance& instance, CancellationCheck check_cancelled) {
+InstanceMesh instance_mesh(const Asset& scene, const Instance& instance) {
     const Part& part = scene.parts[instance.part];
     const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
     InstanceMesh result;
     result.positions.reserve(part.positions.size());
     for (const Vec3& p : part.positions) {
-        check_cancelled();
         result.positions.push_back(to_array((transform * to_eigen(p).homogeneous()).head<3>()));
     }
     result.triangles = part.triangles;
@@ -78,11 +75,10 @@ public:
         check_size(scene, all);
         for (const Instance& instance : all) {
             const Part& part = scene.parts[instance.part];
-            const InstanceMesh own = instance_mesh(scene, instance, check_cancelled);
+            const InstanceMesh own = instance_mesh(scene, instance);
             const auto first = static_cast<Index>(positions.size());
             positions.insert(positions.end(), own.positions.begin(), own.positions.end());
             for (std::size_t f = 0; f < own.triangles.size(); ++f) {
-                check_cancelled();
                 const OccludingSides kind =
                     occluding_sides(scene, part.face_material.empty() ? no_index : part.face_material[f]);
                 if (kind == OccludingSides::none) continue;
@@ -145,12 +141,10 @@ public:
     // Visibility by position of the surface: the maximum over the faces around it.
     std::vector<float> by_position(const Workers& workers) const {
         std::vector<float> result(surface_.positions.size());
-        parallel_blocks(result.size(), 64, workers,
-                        [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                            for (std::size_t v = begin; v < end; ++v)
-                                result[v] = static_cast<float>(
-                                    visibility_at_position(static_cast<Index>(v), check_cancelled));
-                        });
+        parallel_blocks(result.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v)
+                result[v] = static_cast<float>(visibility_at_position(static_cast<Index>(v)));
+        });
         return result;
     }
 
@@ -173,7 +167,6 @@ private:
         patch_.assign(surface_.triangles.size(), no_index);
         std::vector<Index> first, todo;
         for (Index f = 0; f < patch_.size(); ++f) {
-            workers.check_cancelled();
             if (patch_[f] != no_index || !is_small(f)) continue;
             patch_[f] = static_cast<Index>(first.size());
             first.push_back(f);
@@ -181,24 +174,20 @@ private:
             while (!todo.empty()) {
                 const Index from = todo.back();
                 todo.pop_back();
-                for (const Index v : surface_.triangles[from])
-                    grow_patch(v, f, todo, workers.check_cancelled);
+                for (const Index v : surface_.triangles[from]) grow_patch(v, f, todo);
             }
         }
         patch_visibility_.resize(first.size());
-        parallel_blocks(first.size(), 64, workers,
-                        [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                            for (std::size_t i = begin; i < end; ++i) {
-                                check_cancelled(visibility_query_cost);
-                                patch_visibility_[i] = visibility_from(first[i], centroid(first[i]));
-                            }
-                        });
+        parallel_blocks(first.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                patch_visibility_[i] = visibility_from(first[i], centroid(first[i]));
+            }
+        });
     }
 
     // Adds the faces around vertex v that belong to the patch of face `first`.
-    void grow_patch(Index v, Index first, std::vector<Index>& todo, CancellationCheck check_cancelled) {
+    void grow_patch(Index v, Index first, std::vector<Index>& todo) {
         for (const Index g : around_[v]) {
-            check_cancelled();
             if (patch_[g] != no_index || !is_small(g)) continue;
             if (!((centroid(g) - centroid(first)).norm() <= max_patch_radius())) continue;
             if (!(surface_.normals[g].dot(surface_.normals[first]) >= min_patch_normal_cosine)) continue;
@@ -207,7 +196,7 @@ private:
         }
     }
 
-    double visibility_at_position(Index position, CancellationCheck check_cancelled) const {
+    double visibility_at_position(Index position) const {
         double most = 0;
         for (const Index f : around_[position]) {
             if (patch_[f] != no_index) {
@@ -215,7 +204,6 @@ private:
                 continue;
             }
             if (most >= sufficient_visibility) continue;
-            check_cancelled(visibility_query_cost);
             most = std::max(
                 most, visibility_from(f, 0.55 * to_eigen(surface_.positions[position]) + 0.45 * centroid(f)));
         }
@@ -253,7 +241,8 @@ VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers) {
     std::vector<std::vector<std::optional<float>>> seen(scene.parts.size());
     for (std::size_t p = 0; p < seen.size(); ++p) seen[p].resize(scene.parts[p].positions.size());
     for (const Instance& instance : all) {
-        const InstanceMesh own = instance_mesh(scene, instance, workers.check_cancelled);
+        workers.check_cancelled.now();
+        const InstanceMesh own = instance_mesh(scene, instance);
         const Surface surface = extract_surface({own.positions, own.triangles});
         const std::vector<float> at = VisibilitySampler(surface, occluders, workers).by_position(workers);
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {

@@ -174,8 +174,7 @@ std::vector<std::vector<Vec4f>> corner_tangents(const BakeJob& job, const std::v
             for (; end < page.faces.size() && page.faces[end].part == part; ++end) {
                 faces.push_back(page.faces[end].face);
             }
-            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], job.cancellation_check(),
-                         result[part]);
+            set_tangents(job.parts[part], job.normals[part], faces, uvs[part], result[part]);
         }
     }
     return result;
@@ -241,7 +240,7 @@ bool bake_pages(BakeJob& job) {
     for (const BakePart& part : job.parts) {
         CornerValues values{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) values.uvs.push_back(std::move(uvs[part.index]));
-        WeldedPart welded = weld_corners(part, values, job.cancellation_check());
+        WeldedPart welded = weld_corners(part, values);
         transfer_skin_and_morphs(part, welded, job.cancellation_check());
         for (Index f : part.simplified->history.kept_faces) {
             welded.part.face_material.push_back(groups.group_of(face_material(*part.source, f)));

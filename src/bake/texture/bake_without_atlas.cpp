@@ -44,7 +44,7 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
 
 void finish_part(BakeJob& job, const BakePart& part, const CornerValues& values,
                  std::vector<Index> materials) {
-    WeldedPart welded = weld_corners(part, values, job.cancellation_check());
+    WeldedPart welded = weld_corners(part, values);
     transfer_skin_and_morphs(part, welded, job.cancellation_check());
     welded.part.face_material = std::move(materials);
     job.result.asset.parts.push_back(std::move(welded.part));
@@ -76,7 +76,7 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
                 uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
             }
         }
-        set_tangents(part, job.normals[part.index], faces, moved, job.cancellation_check(), result);
+        set_tangents(part, job.normals[part.index], faces, moved, result);
     }
     return result;
 }
@@ -108,10 +108,10 @@ void bake_vertex(BakeJob& job) {
 }
 
 void bake_keep(BakeJob& job) {
-    const CancellationCheck check_cancelled = job.cancellation_check();
     job.result.asset.materials = job.source.materials;
     job.result.asset.images = job.source.images;
     for (const BakePart& part : job.parts) {
+        job.cancellation_check().now();
         const std::size_t sets = part.source->uvs.size();
         const bool colors = !part.source->colors.empty();
         const std::size_t width = 2 * sets + (colors ? 4 : 0), corners = 3 * part.faces();
@@ -124,7 +124,6 @@ void bake_keep(BakeJob& job) {
         }
         CornerValues values{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {
-            check_cancelled();
             const float* corner = from.values.data() + c * width;
             for (std::size_t s = 0; s < sets; ++s)
                 values.uvs[s].push_back({corner[2 * s], corner[2 * s + 1]});

@@ -49,13 +49,11 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
 
 double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(),
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                        for (std::size_t i = begin; i < end; ++i) {
-                            check_cancelled(4 * map_query_cost);
-                            each[i] = face_deviation(job, faces[i]);
-                        }
-                    });
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            each[i] = face_deviation(job, faces[i]);
+        }
+    });
     Deviation all;
     for (const Deviation& d : each) {
         all.sum += d.sum;
@@ -77,8 +75,7 @@ bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<
 }
 
 void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, CancellationCheck check_cancelled,
-                  std::vector<Vec4f>& tangents) {
+                  std::span<const Vec2f> uvs, std::vector<Vec4f>& tangents) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
@@ -90,7 +87,7 @@ void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<
         }
     }
     tangents.resize(3 * part.faces(), Vec4f{});
-    const std::vector<Vec4f> made = mikk_tangents(corners, check_cancelled);
+    const std::vector<Vec4f> made = mikk_tangents(corners);
     for (std::size_t i = 0; i < made.size(); ++i) {
         tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
     }

@@ -26,7 +26,6 @@ double normal_deviation(const BakeJob& job, std::span<const PageFace> faces);
 /// \param uvs       by corner of the simplified mesh
 /// \param tangents  by corner of the simplified mesh; resized if it is shorter
 void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, CancellationCheck check_cancelled,
-                  std::vector<Vec4f>& tangents);
+                  std::span<const Vec2f> uvs, std::vector<Vec4f>& tangents);
 
 }  // namespace faqem::detail

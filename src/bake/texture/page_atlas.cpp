@@ -99,19 +99,16 @@ struct FaceEdge {
 
 std::vector<std::array<AdjacentTriangle, 3>> face_adjacency(const BakeJob& job,
                                                             std::span<const PageFace> faces) {
-    const CancellationCheck check_cancelled = job.cancellation_check();
     std::vector<FaceEdge> edges;
     edges.reserve(3 * faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        check_cancelled();
         const Triangle& t = job.parts[faces[i].part].simplified->mesh.triangles[faces[i].face];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
             edges.push_back({faces[i].part, std::min(a, b), std::max(a, b), 3 * i + c, a < b});
         }
     }
-    std::sort(edges.begin(), edges.end(), [check_cancelled](const FaceEdge& a, const FaceEdge& b) {
-        check_cancelled();
+    std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
         if (a.part != b.part) return a.part < b.part;
         if (a.low != b.low) return a.low < b.low;
         return a.high != b.high ? a.high < b.high : a.corner < b.corner;
@@ -154,13 +151,11 @@ double small_page_factor(double texels) {
 std::vector<double> wanted_densities(const BakeJob& job, const SourceSampler& sampler,
                                      std::span<const PageFace> faces) {
     std::vector<double> density(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(),
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                        for (std::size_t i = begin; i < end; ++i) {
-                            check_cancelled(4 * map_query_cost);
-                            density[i] = density_at(job.parts[faces[i].part], sampler, faces[i].face);
-                        }
-                    });
+    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            density[i] = density_at(job.parts[faces[i].part], sampler, faces[i].face);
+        }
+    });
     clamp_densities(job, faces, density);
     const double factor = job.options.bake.texel_density
                               ? *job.options.bake.texel_density
@@ -179,7 +174,7 @@ bool layout_triangles(const BakeJob& job, std::span<const PageFace> faces, const
         }
         shapes[i].adjacent = result.adjacent[i];
     }
-    const std::vector<std::uint8_t> corner = pair_triangles(shapes, job.cancellation_check());
+    const std::vector<std::uint8_t> corner = pair_triangles(shapes);
     const std::vector<std::uint64_t> orders = morton_codes(job, faces);
     std::vector<AtlasTriangle> triangles(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {

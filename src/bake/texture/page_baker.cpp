@@ -18,11 +18,8 @@ using engine::Vector3;
 // Texels with a lower alpha take their colour from the texels around them.
 constexpr float min_visible_alpha = 1.0f / 512;
 
-constexpr std::size_t texels_per_check = 4096;
-
-Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha, CancellationCheck check_cancelled) {
+Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha) {
     if (!wanted) return {};
-    check_cancelled.now();
     const std::size_t texels = std::size_t{atlas.width} * atlas.height;
     return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * texels, 255), has_alpha};
 }
@@ -67,14 +64,13 @@ public:
         : job_(job), sampler_(sampler), request_(request), samples_(job.options.bake.samples) {
         const Atlas& atlas = request.atlas;
         const Channels& channels = request.channels;
-        const CancellationCheck check_cancelled = job.cancellation_check();
-        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque, check_cancelled);
+        images_.base = blank(atlas, channels.base, request.alpha_mode != AlphaMode::opaque);
         images_.occlusion_roughness_metallic =
-            blank(atlas, channels.occlusion || channels.metallic_roughness, false, check_cancelled);
-        images_.emissive = blank(atlas, channels.emissive, false, check_cancelled);
-        images_.normal = blank(atlas, channels.normal, false, check_cancelled);
+            blank(atlas, channels.occlusion || channels.metallic_roughness, false);
+        images_.emissive = blank(atlas, channels.emissive, false);
+        images_.normal = blank(atlas, channels.normal, false);
         for (const ExtensionLayer& layer : request.layers)
-            images_.layers.push_back(blank(atlas, true, layer.has_alpha(), check_cancelled));
+            images_.layers.push_back(blank(atlas, true, layer.has_alpha()));
         is_covered_.assign(std::size_t{atlas.width} * atlas.height, 0);
         approximate_samples_.assign(is_covered_.size(), 0);
         closest_samples_.assign(is_covered_.size(), 0);
@@ -104,10 +100,10 @@ public:
         projectors.reserve(owned.triangles.size());
         for (Index t : owned.triangles) projectors.push_back(projector(t));
         for (std::uint32_t y = 0; y < tile.height; ++y) {
+            check_cancelled(std::uint64_t{tile.width} * samples_ * samples_);
             for (std::uint32_t x = 0; x < tile.width; ++x) {
                 const std::size_t first = (std::size_t{y} * tile.width * samples_ + x) * samples_;
                 if (owned.owners[first] == TileOwners::none) continue;
-                check_cancelled(std::uint64_t{samples_} * samples_);
                 TexelSums sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -135,13 +131,12 @@ public:
             {images_.emissive, is_covered_, is_covered_},
             {images_.normal, is_covered_, is_covered_}};
         for (Pixels& layer : images_.layers) all.push_back({layer, has_layer_samples_, has_layer_samples_});
-        parallel_blocks(all.size(), 1, job_.workers(),
-                        [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-                            auto& [image, known, known_alpha] = all[i];
-                            if (image.rgba.empty()) return;
-                            push_pull(image, known, {0, 3}, check_cancelled);
-                            if (image.has_alpha) push_pull(image, known_alpha, {3, 4}, check_cancelled);
-                        });
+        parallel_blocks(all.size(), 1, job_.workers(), [&](std::size_t i, std::size_t) {
+            auto& [image, known, known_alpha] = all[i];
+            if (image.rgba.empty()) return;
+            push_pull(image, known, {0, 3});
+            if (image.has_alpha) push_pull(image, known_alpha, {3, 4});
+        });
         images_.known = shown_texels(request_.atlas);
         images_.known_layers = std::move(has_layer_samples_);
         for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
@@ -160,8 +155,8 @@ private:
     template <class Choose>
     void bake_texels(const AtlasCell& cell, CancellationCheck check_cancelled, Choose&& choose) {
         for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
+            check_cancelled(std::uint64_t{cell.width} * samples_ * samples_);
             for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-                check_cancelled(std::uint64_t{samples_} * samples_);
                 TexelSums sum(request_.layers.size());
                 for (std::uint32_t j = 0; j < samples_; ++j) {
                     for (std::uint32_t i = 0; i < samples_; ++i) {
@@ -255,10 +250,8 @@ private:
     }
 
     void count_samples() {
-        const CancellationCheck check_cancelled = job_.cancellation_check();
         auto& [history, approximate, closest] = images_.samples;
         for (std::size_t i = 0; i < is_covered_.size(); ++i) {
-            if (i % texels_per_check == 0) check_cancelled(texels_per_check / 16);
             images_.texels += is_covered_[i];
             history += is_covered_[i] *
                        (std::uint64_t{samples_} * samples_ - approximate_samples_[i] - closest_samples_[i]);

@@ -13,13 +13,12 @@ struct PyramidLevel {
 };
 
 PyramidLevel push(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba,
-                  const std::vector<std::uint8_t>& known, engine::CancellationCheck check_cancelled) {
+                  const std::vector<std::uint8_t>& known) {
     PyramidLevel result{(width + 1) / 2, (height + 1) / 2, {}, {}};
     const std::size_t size = std::size_t{result.width} * result.height;
     result.rgba.resize(4 * size);
     result.known.resize(size);
     for (std::uint32_t y = 0; y < result.height; ++y) {
-        check_cancelled(result.width / 8);
         for (std::uint32_t x = 0; x < result.width; ++x) {
             std::array<unsigned, 4> sum{};
             unsigned count = 0;
@@ -58,10 +57,8 @@ std::uint8_t upsampled(const PyramidLevel& coarse, std::uint32_t x, std::uint32_
 }
 
 void pull(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& rgba,
-          const std::vector<std::uint8_t>& known, const PyramidLevel& coarse, ChannelRange channels,
-          engine::CancellationCheck check_cancelled) {
+          const std::vector<std::uint8_t>& known, const PyramidLevel& coarse, ChannelRange channels) {
     for (std::uint32_t y = 0; y < height; ++y) {
-        check_cancelled(width / 8);
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
             if (known[at]) continue;
@@ -78,22 +75,21 @@ bool is_complete(const std::vector<std::uint8_t>& known) {
 
 }  // namespace
 
-void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
-               engine::CancellationCheck check_cancelled) {
+void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels) {
     if (is_complete(known) || std::none_of(known.begin(), known.end(), [](std::uint8_t k) { return k; }))
         return;
     std::vector<PyramidLevel> levels;
-    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known, check_cancelled));
+    levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known));
     while (!is_complete(levels.back().known)) {
         const PyramidLevel& last = levels.back();
-        PyramidLevel next = push(last.width, last.height, last.rgba, last.known, check_cancelled);
+        PyramidLevel next = push(last.width, last.height, last.rgba, last.known);
         levels.push_back(std::move(next));
     }
     for (std::size_t i = levels.size() - 1; i-- > 0;) {
         PyramidLevel& fine = levels[i];
-        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {}, check_cancelled);
+        pull(fine.width, fine.height, fine.rgba, fine.known, levels[i + 1], {});
     }
-    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels, check_cancelled);
+    pull(pixels.width, pixels.height, pixels.rgba, known, levels.front(), channels);
 }
 
 }  // namespace faqem::detail

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 
 namespace faqem::detail {
 
@@ -23,8 +22,6 @@ struct ChannelRange {
 /// \param known     width * height entries, nonzero for baked texels; if all are zero, nothing is changed
 /// \param channels  the channels to be filled
 /// Complexity: O(texels) time, 5/3 bytes of memory per texel.
-/// \throws whatever `check_cancelled` throws
-void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels,
-               engine::CancellationCheck check_cancelled = {});
+void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels);
 
 }  // namespace faqem::detail

@@ -81,13 +81,11 @@ double normal_winding_agreement(const Part& part, std::size_t face) {
     return result > 0 ? area.norm() : result < 0 ? -area.norm() : 0;
 }
 
-std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part,
-                                                      engine::CancellationCheck check_cancelled) {
+std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
     std::vector<std::uint8_t> result(part.faces(), 0);
     if (part.source->normals.empty()) return result;
     double total = 0;
     for (std::size_t f = 0; f < part.source->triangles.size(); ++f) {
-        check_cancelled();
         total += normal_winding_agreement(*part.source, f);
     }
     if (!(total > 0)) return result;
@@ -118,33 +116,29 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Wor
     const bool transfers = options.normals == Normals::transfer;
     std::vector<Vector3> raw(corners), face_normals(mesh.triangles.size());
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
-                         faces_with_reversed_winding(part, workers.check_cancelled)};
-    parallel_blocks(mesh.triangles.size(), 256, workers,
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                        for (std::size_t f = begin; f < end; ++f) {
-                            face_normals[f] = transfers ? oriented_face_normal(part, result, f)
-                                                        : winding_normal(mesh.positions, mesh.triangles[f]);
-                        }
-                        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-                            check_cancelled(transfers ? map_query_cost : 1);
-                            const Vector3& face_normal = face_normals[c / 3];
-                            raw[c] = face_normal;
-                            if (transfers) {
-                                const SurfacePoint point = part.map->map(
-                                    static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset));
-                                const Vector3 original = interpolated_normal(*part.source, point);
-                                if (!original.isZero(0)) raw[c] = original;
-                            }
-                            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
-                            if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0))
-                                raw[c] = face_normal;
-                        }
-                    });
+                         faces_with_reversed_winding(part)};
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            face_normals[f] = transfers ? oriented_face_normal(part, result, f)
+                                        : winding_normal(mesh.positions, mesh.triangles[f]);
+        }
+        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+            const Vector3& face_normal = face_normals[c / 3];
+            raw[c] = face_normal;
+            if (transfers) {
+                const SurfacePoint point =
+                    part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset));
+                const Vector3 original = interpolated_normal(*part.source, point);
+                if (!original.isZero(0)) raw[c] = original;
+            }
+            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
+            if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0)) raw[c] = face_normal;
+        }
+    });
     // The tolerance allows for rounding differences between equal normals.
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
-    const VertexCorners at = vertex_corners(mesh, workers.check_cancelled);
+    const VertexCorners at = vertex_corners(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        workers.check_cancelled();
         smooth_vertex(mesh, at.at(v), face_normals, raw, min_normal_cosine, result);
     }
     if (options.normals == Normals::flat) {

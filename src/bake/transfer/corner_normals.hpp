@@ -39,7 +39,6 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 /// latter, which is oriented_face_normal() with Normals::transfer, and otherwise given by the winding.
 /// Normals::flat has the clusters of Normals::smooth, but keeps the face normals.
 /// Complexity: O(corners) for a bounded number of creases per vertex.
-/// \throws whatever `workers.check_cancelled` throws
 CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers);
 
 }  // namespace faqem::detail

@@ -31,17 +31,14 @@ int compare(const CornerValues& values, std::uint64_t a, std::uint64_t b) {
 }
 
 // By corner: the first corner of its vertex that agrees with it in all values.
-std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerValues& values,
-                                           engine::CancellationCheck check_cancelled) {
-    const VertexCorners at = vertex_corners(mesh, check_cancelled);
+std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerValues& values) {
+    const VertexCorners at = vertex_corners(mesh);
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
     std::vector<std::uint64_t> sorted;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        check_cancelled();
         const auto corners = at.at(v);
         sorted.assign(corners.begin(), corners.end());
         std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
-            check_cancelled();
             const int c = compare(values, a, b);
             return c ? c < 0 : a < b;
         });
@@ -55,18 +52,16 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
 
 }  // namespace
 
-VertexCorners vertex_corners(const TriangleMesh& mesh, engine::CancellationCheck check_cancelled) {
+VertexCorners vertex_corners(const TriangleMesh& mesh) {
     VertexCorners result;
     result.begin.assign(mesh.positions.size() + 1, 0);
     for (const Triangle& t : mesh.triangles) {
-        check_cancelled();
         for (Index v : t) ++result.begin[std::size_t{v} + 1];
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) result.begin[v + 1] += result.begin[v];
     result.corners.resize(result.begin.back());
     std::vector<std::uint64_t> fill(result.begin.begin(), result.begin.end() - 1);
     for (std::uint64_t c = 0; c < result.corners.size(); ++c) {
-        check_cancelled();
         result.corners[fill[mesh.triangles[c / 3][c % 3]]++] = c;
     }
     return result;
@@ -78,10 +73,9 @@ Vec3 barycentrics_near_corner(std::size_t corner, double inset) {
     return w;
 }
 
-WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values,
-                        engine::CancellationCheck check_cancelled) {
+WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values) {
     const TriangleMesh& mesh = bake_part.simplified->mesh;
-    const std::vector<std::uint64_t> first = representatives(mesh, values, check_cancelled);
+    const std::vector<std::uint64_t> first = representatives(mesh, values);
     std::vector<Index> number(first.size(), no_index);
     WeldedPart result;
     Part& part = result.part;
@@ -90,7 +84,6 @@ WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values,
     part.triangles.resize(mesh.triangles.size());
     part.uvs.resize(values.uvs.size());
     for (std::uint64_t c = 0; c < first.size(); ++c) {
-        check_cancelled();
         Index& n = number[first[c]];
         if (n == no_index) {
             n = static_cast<Index>(result.corner.size());

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 
@@ -38,7 +37,7 @@ struct VertexCorners {
 };
 
 /// Sorts the corners of a mesh by vertex. Complexity: O(faces + vertices).
-VertexCorners vertex_corners(const TriangleMesh& mesh, engine::CancellationCheck check_cancelled = {});
+VertexCorners vertex_corners(const TriangleMesh& mesh);
 
 /// Barycentric coordinates of a point near a corner, at the fraction `inset` of the way from the corner to
 /// the midpoint of the opposite edge.
@@ -61,8 +60,6 @@ struct WeldedPart {
 /// Makes one output vertex of all corners of a simplified vertex that agree in all values. Output vertices
 /// are in the order of their first use. Part::name and Part::source are those of the source part.
 /// Complexity: O(corners log valence).
-/// \throws whatever `check_cancelled` throws
-WeldedPart weld_corners(const BakePart& part, const CornerValues& values,
-                        engine::CancellationCheck check_cancelled = {});
+WeldedPart weld_corners(const BakePart& part, const CornerValues& values);
 
 }  // namespace faqem::detail

@@ -38,14 +38,13 @@ TangentCorner tangent_corner(const Part& part, const TextureRef& texture_ref, st
 }
 
 void add_mikk_tangents(const Part& part, const TextureRef& texture_ref, const std::vector<Index>& faces,
-                       engine::CancellationCheck check_cancelled, std::vector<Vec4f>& result) {
+                       std::vector<Vec4f>& result) {
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
     for (const Index f : faces) {
-        check_cancelled();
         for (std::size_t c = 0; c < 3; ++c) corners.push_back(tangent_corner(part, texture_ref, f, c));
     }
-    const std::vector<Vec4f> tangents = mikk_tangents(corners, check_cancelled);
+    const std::vector<Vec4f> tangents = mikk_tangents(corners);
     for (std::size_t i = 0; i < tangents.size(); ++i) {
         result[std::size_t{3} * faces[i / 3] + i % 3] = tangents[i];
     }
@@ -95,12 +94,10 @@ Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner) {
     return n.isZero(0) ? winding_normal(part.positions, t) : n;
 }
 
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
-                                   engine::CancellationCheck check_cancelled) {
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> without;  // faces without tangents, by material
     for (Index f = 0; f < part.triangles.size(); ++f) {
-        check_cancelled();
         const Index material = face_material(part, f);
         if (!tangent_texture(material_or_default(asset, material))) continue;
         result.resize(3 * part.triangles.size(), Vec4f{});
@@ -115,8 +112,7 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
         }
     }
     for (const auto& [material, faces] : without) {
-        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces,
-                          check_cancelled, result);
+        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces, result);
     }
     return result;
 }

@@ -48,8 +48,6 @@ engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t co
 /// texture coordinates after the texture transform.
 /// \return by corner; empty if no face has such a material
 /// Complexity: O(n log n).
-/// \throws whatever `check_cancelled` throws
-std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part,
-                                   engine::CancellationCheck check_cancelled = {});
+std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part);
 
 }  // namespace faqem::detail

@@ -67,9 +67,9 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     densities_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
-        measure_densities(asset.parts[p], workers.check_cancelled, densities_[p]);
-        if (wanted.needs_tangents())
-            tangents_[p] = source_tangents(asset, asset.parts[p], workers.check_cancelled);
+        workers.check_cancelled.now();
+        measure_densities(asset.parts[p], densities_[p]);
+        if (wanted.needs_tangents()) tangents_[p] = source_tangents(asset, asset.parts[p]);
     }
 }
 
@@ -117,13 +117,11 @@ SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_re
             uv_transform(texture_ref)};
 }
 
-void SourceSampler::measure_densities(const Part& part, engine::CancellationCheck check_cancelled,
-                                      PartDensity& density) const {
+void SourceSampler::measure_densities(const Part& part, PartDensity& density) const {
     const std::size_t faces = part.triangles.size();
     std::vector<float> length(faces);  // square root of the area
     double area = 0;
     for (std::size_t f = 0; f < faces; ++f) {
-        check_cancelled();
         const double a = face_area(part, f);
         area += a;
         length[f] = static_cast<float>(std::sqrt(a));
@@ -139,7 +137,6 @@ void SourceSampler::measure_densities(const Part& part, engine::CancellationChec
         std::vector<float>& ratio = density.uv_per_length[set];
         ratio.resize(faces, 0.0f);
         for (std::size_t f = 0; f < faces; ++f) {
-            check_cancelled();
             const double r = std::sqrt(uv_area(part.uvs[set], part.triangles[f])) / length[f];
             if (std::isfinite(r)) ratio[f] = static_cast<float>(r);
         }

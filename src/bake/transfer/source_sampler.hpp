@@ -52,7 +52,6 @@ public:
     /// \param wanted  channels that will be sampled
     /// \throws InputError if an image is damaged
     /// \throws UnsupportedError if an image has an unknown format
-    /// \throws whatever `workers.check_cancelled` throws
     SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {});
 
     /// Appearance at a point, without normals.
@@ -116,8 +115,7 @@ private:
     MaterialSlots load_material(Index material, const Workers& workers);
     TextureSlot load_slot(const TextureRef& texture_ref, TexelEncoding encoding, Index material,
                           const Workers& workers);
-    void measure_densities(const Part& part, engine::CancellationCheck check_cancelled,
-                           PartDensity& density) const;
+    void measure_densities(const Part& part, PartDensity& density) const;
     LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing) const;
     engine::Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part,
                                      const SurfacePoint& point, double spacing,

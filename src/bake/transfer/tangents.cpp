@@ -37,20 +37,17 @@ Vec4f any_tangent(const Vector3f& normal) {
 }
 
 // By corner: index of the first equal corner. -0 and 0 are equal.
-std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners,
-                                engine::CancellationCheck check_cancelled) {
+std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners) {
     std::vector<std::uint32_t> order(corners.size()), result(corners.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t c) {
         return std::tie(corners[c].position, corners[c].normal, corners[c].uv);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        check_cancelled();
         if (key(a) < key(b)) return true;
         return !(key(b) < key(a)) && a < b;
     });
     for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
-        check_cancelled();
         if (key(order[first]) != key(order[i])) first = i;
         result[order[i]] = order[first];
     }
@@ -59,10 +56,9 @@ std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners,
 
 class Tangents {
 public:
-    Tangents(std::span<const TangentCorner> corners, engine::CancellationCheck check_cancelled)
-        : check_cancelled_(check_cancelled),
-          corners_(corners),
-          vertex_(weld(corners, check_cancelled)),
+    explicit Tangents(std::span<const TangentCorner> corners)
+        : corners_(corners),
+          vertex_(weld(corners)),
           faces_(corners.size() / 3),
           adjacent_face_(corners.size(), absent),
           group_(corners.size(), absent) {
@@ -78,7 +74,6 @@ public:
         }
         std::vector<Vec4f> result(corners_.size());
         for (std::size_t c = 0; c < result.size(); ++c) {
-            check_cancelled_();
             result[c] = group_[c] == absent ? any_tangent(normal(c)) : tangents_[group_[c]];
         }
         copy_to_degenerate_faces(result);
@@ -99,7 +94,6 @@ private:
     static std::size_t previous(std::size_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
     void measure(std::size_t f) {
-        check_cancelled_();
         const std::size_t c = 3 * f;
         Face& face = faces_[f];
         const Vec3f &p0 = corners_[c].position, &p1 = corners_[c + 1].position,
@@ -128,17 +122,14 @@ private:
         edges.reserve(corners_.size());
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
             if (faces_[c / 3].is_degenerate) continue;
-            check_cancelled_();
             const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
             edges.push_back({low, high, c});
         }
         std::sort(edges.begin(), edges.end(), [this](const Edge& a, const Edge& b) {
-            check_cancelled_();
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         std::vector<std::uint32_t> waiting;
         for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-            check_cancelled_(2);
             // All waiting half-edges have the same direction.
             waiting.clear();
             std::size_t first = 0;
@@ -165,7 +156,6 @@ private:
         Vector3f sum = Vector3f::Zero();
         std::vector<std::uint32_t> stack = {seed / 3};
         while (!stack.empty()) {
-            check_cancelled_();
             const std::uint32_t f = stack.back();
             stack.pop_back();
             std::size_t c = 3 * std::size_t{f};
@@ -207,7 +197,6 @@ private:
     void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
         std::vector<std::uint32_t> donor(corners_.size(), absent);
         for (std::uint32_t c = 0; c < corners_.size(); ++c) {
-            check_cancelled_();
             if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == absent) donor[vertex_[c]] = c;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) {
@@ -216,7 +205,6 @@ private:
         }
     }
 
-    engine::CancellationCheck check_cancelled_;
     std::span<const TangentCorner> corners_;
     std::vector<std::uint32_t> vertex_;  // by corner
     std::vector<Face> faces_;
@@ -227,9 +215,6 @@ private:
 
 }  // namespace
 
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners,
-                                 engine::CancellationCheck check_cancelled) {
-    return Tangents(corners, check_cancelled)();
-}
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners) { return Tangents(corners)(); }
 
 }  // namespace faqem::detail

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -30,8 +29,6 @@ struct TangentCorner {
 /// \param corners  three per triangle, finite
 /// \return one tangent per corner
 /// Complexity: O(n log n).
-/// \throws whatever `check_cancelled` throws
-std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners,
-                                 engine::CancellationCheck check_cancelled = {});
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners);
 
 }  // namespace faqem::detail

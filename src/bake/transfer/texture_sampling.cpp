@@ -98,13 +98,11 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
         }
     };
     constexpr std::size_t rows_at_once = 16;
-    parallel_blocks(result.height, rows_at_once, workers,
-                    [&](std::size_t y, std::size_t end, CancellationCheck check_cancelled) {
-                        for (; y < end; ++y) {
-                            check_cancelled(result.width / 4);
-                            fill_row(static_cast<std::uint32_t>(y));
-                        }
-                    });
+    parallel_blocks(result.height, rows_at_once, workers, [&](std::size_t y, std::size_t end) {
+        for (; y < end; ++y) {
+            fill_row(static_cast<std::uint32_t>(y));
+        }
+    });
     return result;
 }
 

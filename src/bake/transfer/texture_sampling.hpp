@@ -28,7 +28,6 @@ using LinearColor = std::array<float, 4>;
 class MipImage {
 public:
     /// \param pixels  at least one texel
-    /// \throws whatever `workers.check_cancelled` throws
     MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers = {});
 
     std::uint32_t width() const { return pixels_.width; }

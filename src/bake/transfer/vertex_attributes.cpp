@@ -96,7 +96,7 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
     const bool skin = !from.joints.empty() && !from.weights.empty();
     if ((!skin && from.morph_targets.empty()) || !bake_part.map) return;
     const TriangleMesh& mesh = bake_part.simplified->mesh;
-    const VertexCorners at = vertex_corners(mesh, check_cancelled);
+    const VertexCorners at = vertex_corners(mesh);
     to.morph_targets.resize(from.morph_targets.size());
     for (std::uint64_t corner : welded.corner) {
         check_cancelled(map_query_cost);
@@ -123,27 +123,23 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
                                  const CornerNormals& normals, Workers workers) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<LinearColor> raw(3 * mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 256, workers,
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-                            check_cancelled(map_query_cost);
-                            const Index face = static_cast<Index>(c / 3);
-                            // A vertex represents the surface around it: a quarter of an edge on each side.
-                            const double spacing = shortest_edge(mesh, face) / 4;
-                            raw[c] = sampler
-                                         .sample(part.index,
-                                                 part.map->map(face, barycentrics_near_corner(c % 3, 1e-3)),
-                                                 spacing)
-                                         .base;
-                        }
-                    });
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+            const Index face = static_cast<Index>(c / 3);
+            // A vertex represents the surface around it: a quarter of an edge on each side.
+            const double spacing = shortest_edge(mesh, face) / 4;
+            raw[c] =
+                sampler
+                    .sample(part.index, part.map->map(face, barycentrics_near_corner(c % 3, 1e-3)), spacing)
+                    .base;
+        }
+    });
     const auto group = [&](std::uint64_t c) {
         return mesh.face_groups.empty() ? 0 : mesh.face_groups[c / 3];
     };
-    const VertexCorners at = vertex_corners(mesh, workers.check_cancelled);
+    const VertexCorners at = vertex_corners(mesh);
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        workers.check_cancelled();
         std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
         const auto key = [&](std::uint64_t c) { return std::pair(normals.clusters[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {

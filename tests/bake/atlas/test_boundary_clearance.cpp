@@ -89,7 +89,7 @@ TEST_CASE("BoxGrid finds every pair of intersecting boxes once") {
     const auto grid = BoxGrid::build(boxes, work);
     REQUIRE(grid);
     std::set<std::pair<Index, Index>> seen;
-    CHECK(grid->all_pairs(boxes, work, {}, [&](Index a, Index b) {
+    CHECK(grid->all_pairs(boxes, work, [&](Index a, Index b) {
         CHECK(seen.insert(std::minmax(a, b)).second);
         return true;
     }));
