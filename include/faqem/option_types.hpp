@@ -147,6 +147,18 @@ enum class Normals {
     none,      ///< no normals; only with Bake::none
 };
 
+/// What bake() does with untouched parts: those of which the simplification changed nothing, except that it
+/// dropped duplicate faces and faces without area.
+enum class UntouchedParts {
+    /// They are kept unless another bake option that would change them differs from its default: for
+    /// Bake::automatic texture_size, texel_density, normal_map, image_format (ImageFormat::source changes
+    /// nothing), image_quality, correspondence, normals, crease_angle; for Bake::keep the last two. For other kinds, and in
+    /// levels with a shared texture, they are baked.
+    automatic,
+    kept,   ///< they have the arrays, materials and image bytes of the source, whatever the other options
+    baked,  ///< they are baked like the other parts
+};
+
 /// Encoding of baked images. Images with alpha are always PNG.
 enum class ImageFormat {
     automatic,  ///< the smallest that is within BakeOptions::image_quality, possibly with fewer texels

@@ -52,6 +52,7 @@ struct BakeOptions {
     /// against the image before it is encoded.
     double image_quality = 40;
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
+    UntouchedParts untouched = UntouchedParts::automatic;
     /// Whether to record SimplifiedAsset::correspondence; needs a new atlas.
     Recording correspondence = Recording::off;
 };

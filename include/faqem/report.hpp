@@ -132,6 +132,8 @@ struct Report {
     std::vector<RemovedComponent> removed_components;  ///< visible ones, the largest first
     std::optional<MeasuredError> max_error = {};  ///< if Options::max_error is set and the run was completed
     std::vector<BakedPage> pages;                 ///< pages of a new atlas; only of materials with images
+    /// Of an asset: names of the parts that bake() left as they are (BakeOptions::untouched), as in warnings.
+    std::vector<std::string> untouched_parts;
     std::vector<std::string> warnings;
     std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
     /// Total size of the files of the model before and after, without those of history and correspondence. Set by

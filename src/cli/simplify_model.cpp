@@ -36,6 +36,11 @@ BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
     }
     if (extension == ".ply") requested.kind = bare ? Bake::none : Bake::vertex;
     if (extension == ".obj" && bare) requested.kind = Bake::none;
+    if (requested.untouched != UntouchedParts::automatic) return requested;
+    // OBJ and PLY can store parts without materials as they are. Materials of glTF they cannot.
+    const bool is_obj_or_ply = extension == ".obj" || extension == ".ply";
+    if (is_obj_or_ply && source.materials.empty()) requested.untouched = UntouchedParts::kept;
+    if (is_obj_or_ply && source.source) requested.untouched = UntouchedParts::baked;
     return requested;
 }
 

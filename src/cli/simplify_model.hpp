@@ -38,7 +38,8 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
 /// Replaces Bake::automatic for output formats without textures and for sources without appearance.
 /// STL, and PLY and OBJ if the source has neither materials nor colours: Bake::none. PLY otherwise:
 /// Bake::vertex. For STL the transfer of normals is also turned off, because it would need the map to the
-/// original. Other kinds and other formats are returned unchanged.
+/// original. Untouched parts are baked if they come from glTF and the output is OBJ or PLY, which lack parts of
+/// its materials. Other kinds and other formats are returned unchanged.
 /// \param out  output file; only its extension is used
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);

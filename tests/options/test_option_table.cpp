@@ -104,10 +104,10 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 7) prune = of_diagonal(0.1);
         }));
     }
-    for (std::size_t k = 0; k < 12; ++k) {
+    for (std::size_t k = 0; k < 13; ++k) {
         CHECK(changes_key([k](Options& o) {
             auto& [kind, size, density, normal_map, mapping, samples, normals, angle, format, image_quality,
-                   quality, correspondence] = o.bake;
+                   quality, untouched, correspondence] = o.bake;
             if (k == 0) kind = Bake::keep;
             if (k == 1) size = 64;
             if (k == 2) density = 1;
@@ -120,6 +120,7 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 9) quality = 80;
             if (k == 10) correspondence = Recording::on;
             if (k == 11) image_quality = 50;
+            if (k == 12) untouched = UntouchedParts::baked;
         }));
     }
 }

@@ -8,6 +8,7 @@
 #include "asset/image/image_size.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/scene/check_asset.hpp"
+#include "bake/scene/untouched_parts.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 
@@ -48,7 +49,7 @@ void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
     for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
         job.report_progress(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
         BakePart part{static_cast<Index>(p), &job.source.parts[p], &simplified.parts[p], nullptr};
-        if (part.faces() > 0 && needs_map(*part.source, job.options.bake)) {
+        if (part.faces() > 0 && !job.untouched[p] && needs_map(*part.source, job.options.bake)) {
             part.map = std::make_unique<const SurfaceMap>(make_surface_map(
                 part.simplified->history, job.options.bake.mapping, part.source->triangles, job.workers()));
         }
@@ -56,7 +57,8 @@ void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
     }
     for (const BakePart& part : job.parts) {
         job.report_progress(Phase::map, 1);
-        const bool has_normals = part.faces() > 0 && job.options.bake.normals != Normals::none;
+        const bool has_normals =
+            part.faces() > 0 && !job.untouched[part.index] && job.options.bake.normals != Normals::none;
         job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
                                           : CornerNormals{});
     }
@@ -89,6 +91,7 @@ void bake_by_kind(BakeJob& job) {
 // A part that lost faces has no order of its own that a file should preserve.
 void set_file_orders(BakeJob& job) {
     for (const BakePart& part : job.parts) {
+        if (job.untouched[part.index]) continue;
         const bool lost_faces = part.faces() < part.source->triangles.size();
         job.result.asset.parts[part.index].file_order =
             lost_faces ? FileOrder::for_gpu : part.source->file_order;
@@ -122,11 +125,13 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
     if (simplified.report.stop == StopReason::cancelled) return std::move(job.result);
     PhaseSeconds& seconds = job.result.report.seconds;
     const Stopwatch watch;
+    job.untouched = find_untouched_parts(source, simplified, options.bake);
     try {
         map_parts(job, simplified);
         seconds.map = watch.seconds();
         bake_by_kind(job);
         set_file_orders(job);
+        add_untouched_parts(job);
         report_images(job.result.asset, job.result.report);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {

@@ -15,6 +15,7 @@ namespace {
 // simplification of the other levels.
 Options finest_level_options(Options options) {
     options.bake.kind = Bake::atlas;
+    options.bake.untouched = UntouchedParts::baked;
     return options;
 }
 
@@ -22,6 +23,7 @@ Options finest_level_options(Options options) {
 // by the simplification must not be pruned.
 Options other_level_options(Options options) {
     options.bake.kind = Bake::keep;
+    options.bake.untouched = UntouchedParts::baked;  // the finest level is not the original
     options.bake.correspondence = Recording::off;
     options.topology.prune.reset();
     return options;

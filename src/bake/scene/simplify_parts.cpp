@@ -157,7 +157,9 @@ private:
         const detail::Stopwatch watch;
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
-        const bool by_cost = options_.budget == Budget::scene && filled >= 2;
+        // Without a target below the number of faces there is nothing to distribute.
+        const bool by_cost =
+            options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;
         if (by_cost) compute_cost_curves();
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
         for (const std::uint64_t target : targets) {

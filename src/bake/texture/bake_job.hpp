@@ -3,6 +3,7 @@
 /// State that all kinds of baking share: the parts with their surface maps, and the result.
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ public:
     const Options& options;
     std::vector<BakePart> parts;
     std::vector<CornerNormals> normals;  ///< by part
+    /// By part: whether it is kept as it is. Baking leaves such parts of the result empty.
+    std::vector<std::uint8_t> untouched;
     SimplifiedAsset result;
 
     /// Calls the progress callback.

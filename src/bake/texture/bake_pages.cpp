@@ -62,6 +62,7 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
         pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal_map);
     }
     for (const BakePart& part : job.parts) {
+        if (job.untouched[part.index]) continue;
         const bool colors = has_non_white_colors(*part.source);
         const std::vector<Index>& kept = part.simplified->history.kept_faces;
         for (Index f = 0; f < part.faces(); ++f) {
@@ -203,11 +204,11 @@ void remove_unused_uvs(const BakeJob& job, const std::vector<GroupPage>& pages,
 }  // namespace
 
 bool bake_pages(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle);
+    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.untouched);
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;
-    const SourceSampler sampler(job.source, wanted, job.workers());
+    const SourceSampler sampler(job.source, wanted, job.workers(), job.untouched);
     double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;
@@ -238,6 +239,10 @@ bool bake_pages(BakeJob& job) {
     }
     remove_unused_uvs(job, pages, uvs, tangents);
     for (const BakePart& part : job.parts) {
+        if (job.untouched[part.index]) {
+            out.parts.emplace_back();
+            continue;
+        }
         CornerValues values{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) values.uvs.push_back(std::move(uvs[part.index]));
         WeldedPart welded = weld_corners(part, values);

@@ -50,6 +50,12 @@ void finish_part(BakeJob& job, const BakePart& part, const CornerValues& values,
     job.result.asset.parts.push_back(std::move(welded.part));
 }
 
+// Adds an empty part for an untouched one. Returns false for other parts.
+bool leave_empty(BakeJob& job, const BakePart& part) {
+    if (job.untouched[part.index]) job.result.asset.parts.emplace_back();
+    return job.untouched[part.index] != 0;
+}
+
 std::vector<Index> kept_materials(const BakePart& part) {
     std::vector<Index> result;
     for (Index f : part.simplified->history.kept_faces) result.push_back(face_material(*part.source, f));
@@ -84,10 +90,10 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
 }  // namespace
 
 void bake_vertex(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::vertex);
+    const MaterialGroups groups = group_materials(job.source, Bake::vertex, job.untouched);
     Channels wanted;
     wanted.base = true;
-    const SourceSampler sampler(job.source, wanted, job.workers());
+    const SourceSampler sampler(job.source, wanted, job.workers(), job.untouched);
     for (const MaterialGroup& group : groups.groups) {
         Material material = without_textures(job, group.materials.front(), true);
         for (std::size_t m = 1; m < group.materials.size(); ++m)
@@ -98,6 +104,7 @@ void bake_vertex(BakeJob& job) {
     double done = 0;
     for (const BakePart& part : job.parts) {
         job.report_progress(Phase::bake, done++ / static_cast<double>(job.parts.size()));
+        if (leave_empty(job, part)) continue;
         const CornerNormals& normals = job.normals[part.index];
         CornerValues values{normals.normals, {}, {}};
         if (part.map) values.colors = corner_colors(part, sampler, normals, job.workers());
@@ -112,6 +119,7 @@ void bake_keep(BakeJob& job) {
     job.result.asset.images = job.source.images;
     for (const BakePart& part : job.parts) {
         job.cancellation_check().now();
+        if (leave_empty(job, part)) continue;
         const std::size_t sets = part.source->uvs.size();
         const bool colors = !part.source->colors.empty();
         const std::size_t width = 2 * sets + (colors ? 4 : 0), corners = 3 * part.faces();
@@ -141,6 +149,7 @@ void bake_none(BakeJob& job) {
         job.result.asset.materials.push_back(without_textures(job, static_cast<Index>(m), false));
     }
     for (const BakePart& part : job.parts) {
+        if (leave_empty(job, part)) continue;
         if (!part.source->colors.empty())
             job.warn(part_title(job.source, part.index) + ": vertex colours left out");
         finish_part(job, part, {job.normals[part.index].normals, {}, {}}, kept_materials(part));

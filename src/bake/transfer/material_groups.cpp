@@ -22,14 +22,21 @@ const Material& material_or_default(const Asset& asset, Index material) {
     return material == no_index ? standard : asset.materials[material];
 }
 
-MaterialGroups group_materials(const Asset& asset, Bake kind) {
+std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_t> skipped_parts) {
     const std::size_t count = asset.materials.size();
     std::vector<bool> used(count + 1, false);
-    for (const Part& part : asset.parts) {
-        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        if (!skipped_parts.empty() && skipped_parts[p]) continue;
+        const Part& part = asset.parts[p];
+        for (std::size_t f = 0; f < part.triangles.size(); ++f)
             used[std::min<std::size_t>(face_material(part, f), count)] = true;
-        }
     }
+    return used;
+}
+
+MaterialGroups group_materials(const Asset& asset, Bake kind, std::span<const std::uint8_t> skipped_parts) {
+    const std::size_t count = asset.materials.size();
+    const std::vector<bool> used = used_materials(asset, skipped_parts);
     MaterialGroups result;
     result.group_of_material.assign(count + 1, no_index);
     for (std::size_t m = 0; m <= count; ++m) {

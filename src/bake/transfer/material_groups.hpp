@@ -2,6 +2,8 @@
 /// \file
 /// Groups of materials that share a page of the atlas.
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "faqem/asset.hpp"
@@ -38,11 +40,17 @@ inline Index face_material(const Part& part, std::size_t face) {
     return part.face_material.empty() ? no_index : part.face_material[face];
 }
 
+/// Whether a face of the asset has each material, the default material last. O(faces + materials)
+/// \param skipped_parts  by part: whether its faces are ignored; empty: none are
+std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_t> skipped_parts = {});
+
 /// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
 /// double-sidedness and in being unlit. A material with other extensions is a group of its own, since
 /// extensions cannot be merged. With Bake::vertex, which bakes the base colour only, the other factors must
 /// agree too.
+/// \param skipped_parts  as in used_materials()
 /// Complexity: O(faces + materials^2).
-FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, Bake kind);
+FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, Bake kind,
+                                            std::span<const std::uint8_t> skipped_parts = {});
 
 }  // namespace faqem::detail

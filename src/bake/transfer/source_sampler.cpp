@@ -50,14 +50,10 @@ Pixels decode_for(const Asset& asset, Index image, Index material) {
 
 }  // namespace
 
-SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers)
+SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers,
+                             std::span<const std::uint8_t> skipped_parts)
     : asset_(asset), wanted_(wanted) {
-    std::vector<bool> used(asset.materials.size() + 1, false);
-    for (const Part& part : asset.parts) {
-        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-            used[std::min<std::size_t>(face_material(part, f), asset.materials.size())] = true;
-        }
-    }
+    const std::vector<bool> used = used_materials(asset, skipped_parts);
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
         const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
         material_slots_.push_back(
@@ -67,6 +63,7 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     densities_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        if (!skipped_parts.empty() && skipped_parts[p]) continue;
         workers.check_cancelled.now();
         measure_densities(asset.parts[p], densities_[p]);
         if (wanted.needs_tangents()) tangents_[p] = source_tangents(asset, asset.parts[p]);

@@ -3,8 +3,10 @@
 /// Appearance of the source at a point of its surface.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -50,9 +52,11 @@ class SourceSampler {
 public:
     /// \param asset   must outlive this
     /// \param wanted  channels that will be sampled
+    /// \param skipped_parts  by part: whether it will not be sampled; empty: all will be
     /// \throws InputError if an image is damaged
     /// \throws UnsupportedError if an image has an unknown format
-    SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {});
+    SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {},
+                  std::span<const std::uint8_t> skipped_parts = {});
 
     /// Appearance at a point, without normals.
     /// \param part     index into Asset::parts

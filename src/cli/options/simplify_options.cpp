@@ -1,7 +1,9 @@
 #include "cli/options/simplify_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "cli/options/bound_options.hpp"
 #include "faqem/error.hpp"
@@ -63,9 +65,21 @@ bool is_given(const GivenOptions& given, std::string_view name) {
     return std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first->name == name; });
 }
 
+// Options for images that are given apply to all meshes, also with their default values.
+bool asks_for_new_images(const GivenOptions& given) {
+    return std::any_of(given.begin(), given.end(), [](const auto& one) {
+        const auto& [row, text] = one;
+        constexpr std::array<std::string_view, 5> names = {"texture-size", "texel-density", "normal-map",
+                                                           "image-format", "image-quality"};
+        return std::find(names.begin(), names.end(), row->name) != names.end() && text != "source";
+    });
+}
+
 Options make_options(const GivenOptions& given, detail::OptionTable table) {
     Options options;
     for (const auto& [row, text] : given) set_option(options, *row, text, detail::command_spelling, table);
+    if (options.bake.kind == Bake::automatic && asks_for_new_images(given))
+        options.bake.untouched = UntouchedParts::baked;
     check_options(options, detail::command_spelling, table);
     return options;
 }

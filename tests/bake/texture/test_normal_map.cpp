@@ -162,6 +162,7 @@ TEST_CASE("kept UVs get tangents if there is a normal map") {
     Asset asset = normal_mapped_square();
     Options options = with(NormalMap::automatic);
     options.bake.kind = Bake::keep;
+    options.bake.untouched = UntouchedParts::baked;
     const SimplifiedAsset simplified = simplify(asset, options);
     const Part& part = simplified.asset.parts[0];
     REQUIRE(part.tangents.size() == part.positions.size());

@@ -171,6 +171,7 @@ TEST_CASE("keep preserves UVs, colours, images and materials") {
     asset.parts[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 0.5f}};
     Options options = of_kind(Bake::keep);
     options.target = ratio(1);
+    options.bake.untouched = GENERATE(UntouchedParts::baked, UntouchedParts::kept);
     const SimplifiedAsset simplified = simplify(asset, options);
     const Part &in = asset.parts[0], &out = simplified.asset.parts[0];
     REQUIRE(out.triangles.size() == 2);

@@ -77,6 +77,12 @@ inline constexpr OptionRow appearance_rows[] = {
          .command_name = "image-format: the quality of jpeg",
          .range = {.min = 1, .max = 100},
          .help = "Quality of baked JPEG images"}),
+    option_row<&Options::bake, &BakeOptions::untouched>(
+        {.name = "untouched",
+         .choices = "auto|kept|baked",
+         .help =
+             "Meshes of which the simplification changed nothing: auto (kept unless another option changes "
+             "their images or normals), kept, baked"}),
     option_row<&Options::bake, &BakeOptions::mapping>({.name = "mapping",
                                                        .choices = "projection|lineage|closest",
                                                        .help = "Map to the original",

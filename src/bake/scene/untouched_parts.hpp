@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Parts that the simplification leaves as they are keep their vertices, materials and images.
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/texture/bake_job.hpp"
+#include "faqem/bake.hpp"
+
+namespace faqem::detail {
+
+/// By part of the source: whether it is kept as it is (BakeOptions::untouched). Such a part has as many faces
+/// as its target allows, apart from duplicates and faces without area, and no vertex has moved.
+/// \param simplified  matches the source
+/// Complexity: O(faces).
+std::vector<std::uint8_t> find_untouched_parts(const Asset& source, const SimplifiedParts& simplified,
+                                               const BakeOptions& bake);
+
+/// Replaces the empty parts that baking leaves for BakeJob::untouched by those of the source, adds their
+/// materials and images, and reports them.
+void add_untouched_parts(BakeJob& job);
+
+}  // namespace faqem::detail
