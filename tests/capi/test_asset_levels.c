@@ -172,6 +172,7 @@ static void levels_are_saved_in_one_file(void) {
     faqem_asset* chain[3] = {two_waves(), NULL, NULL};
     faqem_options* options = small_textures();
     CHECK(faqem_options_set(options, "normal-map", "on", NULL) == FAQEM_OK);
+    CHECK(faqem_options_set(options, "image-format", "png", NULL) == FAQEM_OK);
     const faqem_level wanted[2] = {{FAQEM_LEVEL_RATIO, 0.5}, {FAQEM_LEVEL_FACES, 40}};
     faqem_error error;
     CHECK(faqem_asset_simplify_levels(chain[0], options, wanted, 2, FAQEM_LEVEL_TEXTURES_EACH, chain + 1,

@@ -25,7 +25,7 @@ constexpr double bytes_for_fewer_texels = 1.1;
 constexpr std::uint32_t block_side = 8;
 
 // By how many dB a block may be worse than the whole image.
-constexpr double local_allowance = 10;
+constexpr double local_allowance = 15;
 
 // Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
 // second.

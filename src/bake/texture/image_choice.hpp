@@ -32,7 +32,7 @@ struct ImageLoss {
 /// Complexity: O(texels of `original`).
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
 
-/// Whether a loss is acceptable: the PSNR is at least `quality`, and that of each block at least `quality` - 10,
+/// Whether a loss is acceptable: the PSNR is at least `quality`, and that of each block at least `quality` - 15,
 /// so that errors are not concentrated where they would be seen, such as at the seams of charts.
 bool is_within(const ImageLoss& loss, double quality);
 

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string quick = " --force --quiet --texture-size 64 --ratio 0.5";
+const std::string quick = " --force --quiet --texture-size 64 --image-format png --ratio 0.5";
 
 /// All files of a folder and below with their contents; links are listed with what they point to.
 std::map<std::string, std::string> contents(const Folder& folder) {
@@ -159,7 +159,7 @@ TEST_CASE("files are compared by identity: links and paths do not matter") {
 TEST_CASE("lod writes no level if a file of a later level belongs to the input") {
     const Folder folder;
     save_gltf(folder, "in.gltf", "in.bin", "in.png");
-    const std::string lod = "lod in.gltf . --format gltf --levels 0.5,0.25 --texture-size 64 --force --quiet";
+    const std::string lod = "lod in.gltf . --format gltf --levels 0.5,0.25 --texture-size 64 --image-format png --force --quiet";
     for (const char* name : {"in_LOD2_0.png", "in_LOD2.bin", "in_LOD.json", "in_LOD2.gltf"}) {
         write(folder / name, "precious");
         add_member(folder / "in.gltf", "/extras", {{"uri", name}});
@@ -171,7 +171,7 @@ TEST_CASE("lod writes no level if a file of a later level belongs to the input")
     check_refused(folder, lod + " --one-file", "./in_LOD.bin", "in.gltf");
 
     save_obj(folder, "o.obj", "o_LOD1.mtl", "tex.png");
-    check_refused(folder, "lod o.obj . --format obj --levels 0.5 --texture-size 64 --force --quiet",
+    check_refused(folder, "lod o.obj . --format obj --levels 0.5 --texture-size 64 --image-format png --force --quiet",
                   "./o_LOD1.mtl", "o.obj");
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("truncate does not overwrite the files of its source or its history") 
     const Folder folder;
     save_gltf(folder, "in.gltf", "Avocado.bin", "small_0.png");
     REQUIRE(run(folder, "simplify in.gltf a.glb --history m.bin" + quick).code == 0);
-    const std::string options = " --faces 40 --source in.gltf --force --quiet --texture-size 64";
+    const std::string options = " --faces 40 --source in.gltf --force --quiet --texture-size 64 --image-format png";
     check_refused(folder, "truncate m.bin Avocado.gltf" + options, "Avocado.bin", "in.gltf");
     check_refused(folder, "truncate m.bin small.gltf" + options, "small_0.png", "in.gltf");
     const auto before = contents(folder);
@@ -194,7 +194,7 @@ TEST_CASE("batch writes no result if one would overwrite a file that any of its 
     fs::create_directories(folder / "in/out");
     save_gltf(folder, "in/a.gltf", "a.bin", "a.png");
     faqem::save(sheet(4), folder / "in/b.glb");
-    const std::string batch = "batch in in/out --texture-size 64 --ratio 0.5 --force --format ";
+    const std::string batch = "batch in in/out --texture-size 64 --image-format png --ratio 0.5 --force --format ";
     for (const auto& [name, format] : std::map<std::string, std::string>{{"b.bin", "gltf"},
                                                                          {"b_3.png", "gltf"},
                                                                          {"b.mtl", "obj"},
@@ -240,5 +240,5 @@ TEST_CASE("files of other models, missing files and similar names may be written
     // Results are replaced with --force, and the input may be one of the results, with other names.
     CHECK(run(folder, "simplify m_0.gltf m.gltf" + quick).code == 0);
     CHECK(run(folder, "simplify m.gltf m.glb" + quick).code == 0);
-    CHECK(run(folder, "lod m.gltf . --format gltf --levels 0.5 --texture-size 64 --quiet").code == 0);
+    CHECK(run(folder, "lod m.gltf . --format gltf --levels 0.5 --texture-size 64 --image-format png --quiet").code == 0);
 }
