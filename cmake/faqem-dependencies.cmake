@@ -14,12 +14,12 @@ set(faqem_libraries_faqem Threads)
 set(faqem_libraries_header_only Threads)
 set(faqem_libraries_openmesh OpenMesh)
 set(faqem_libraries_openmesh_header_only OpenMesh)
-set(faqem_libraries_asset Threads OpenImageIO PNG JPEG libdeflate tinygltf)  # and faqem_decoders, those it was built with
+set(faqem_libraries_asset Threads PNG JPEG WebP libdeflate tinygltf)  # and faqem_decoders, those it was built with
 set(faqem_libraries_bake "")
 
 # For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and
 # library instead of their CMake packages: Debian's OpenImageIO package requires programs of another Debian package and
-# lists include directories that are not installed, Debian 12 has no package for libdeflate, and the target of tinygltf
+# lists include directories that are not installed, Debian 12 has no packages for libdeflate and libwebp, and the target of tinygltf
 # has two names.
 set(faqem_find_Threads Threads)
 set(faqem_target_Threads Threads::Threads)
@@ -48,8 +48,11 @@ set(faqem_debian_PNG libpng-dev)
 set(faqem_find_JPEG JPEG)
 set(faqem_target_JPEG JPEG::JPEG)
 set(faqem_debian_JPEG libjpeg62-turbo-dev)
+set(faqem_target_WebP faqem::webp)
+set(faqem_debian_WebP libwebp-dev)
 set(faqem_target_libdeflate faqem::libdeflate)
 set(faqem_debian_libdeflate libdeflate-dev)
+# Of the image plugin, not of a component.
 set(faqem_target_OpenImageIO faqem::openimageio)
 set(faqem_debian_OpenImageIO libopenimageio-dev)
 set(faqem_target_tinygltf faqem::tinygltf)
@@ -96,7 +99,8 @@ function(faqem_find_by_header library header)
         endif()
     endforeach()
     string(TOUPPER FAQEM_${library} prefix)
-    string(REGEX REPLACE "^lib" "" name ${library})
+    string(TOLOWER ${library} name)
+    string(REGEX REPLACE "^lib" "" name ${name})
     find_path(${prefix}_INCLUDE_DIR ${header})
     find_library(${prefix}_LIBRARY ${name})
     mark_as_advanced(${prefix}_INCLUDE_DIR ${prefix}_LIBRARY)
@@ -104,6 +108,26 @@ function(faqem_find_by_header library header)
         add_library(${own} UNKNOWN IMPORTED)
         set_target_properties(${own} PROPERTIES IMPORTED_LOCATION "${${prefix}_LIBRARY}"
                                                 INTERFACE_INCLUDE_DIRECTORIES "${${prefix}_INCLUDE_DIR}")
+    endif()
+endfunction()
+
+# The decoder of animations is a library of its own.
+function(faqem_find_webp)
+    if(TARGET WebP::webp AND TARGET WebP::webpdemux)
+        add_library(faqem::webp INTERFACE IMPORTED)
+        target_link_libraries(faqem::webp INTERFACE WebP::webpdemux WebP::webp)
+        return()
+    endif()
+    find_library(FAQEM_WEBPDEMUX_LIBRARY webpdemux)
+    mark_as_advanced(FAQEM_WEBPDEMUX_LIBRARY)
+    if(FAQEM_WEBPDEMUX_LIBRARY)
+        faqem_find_by_header(WebP webp/demux.h)
+    endif()
+    if(TARGET faqem::webp)
+        # A static libwebpdemux needs libwebp, so it comes first, and libwebp follows as its dependency.
+        get_target_property(webp faqem::webp IMPORTED_LOCATION)
+        set_target_properties(faqem::webp PROPERTIES IMPORTED_LOCATION "${FAQEM_WEBPDEMUX_LIBRARY}"
+                                                     INTERFACE_LINK_LIBRARIES "${webp}")
     endif()
 endfunction()
 
@@ -120,6 +144,8 @@ function(faqem_find_libraries missing)
             faqem_find_openimageio(problem)
         elseif(library STREQUAL "tinygltf")
             faqem_find_by_header(tinygltf tiny_gltf.h tinygltf::tinygltf TinyGLTF::TinyGLTF)
+        elseif(library STREQUAL "WebP")
+            faqem_find_webp()
         elseif(library STREQUAL "libdeflate")
             faqem_find_by_header(libdeflate libdeflate.h libdeflate::libdeflate_shared libdeflate::libdeflate_static)
         else()

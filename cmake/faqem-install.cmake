@@ -1,5 +1,5 @@
 # Installs headers, libraries and the CMake package. Each component has its own export set, so that users of
-# the component faqem need neither OpenMesh nor OpenImageIO.
+# the component faqem need neither OpenMesh nor image libraries.
 include(CMakePackageConfigHelpers)
 
 set(faqem_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/faqem)
@@ -9,9 +9,6 @@ foreach(component IN LISTS faqem_components)
             LIBRARY COMPONENT runtime NAMELINK_COMPONENT development)
     install(EXPORT faqem-${component}-targets NAMESPACE faqem:: DESTINATION ${faqem_config_dir} COMPONENT development)
 endforeach()
-if(FAQEM_BUILD_ASSET AND NOT BUILD_SHARED_LIBS)
-    install(TARGETS faqem_asset_codec_oiio EXPORT faqem-asset-targets ARCHIVE COMPONENT development)
-endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/faqem DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/faqem-config.cmake.in
                               ${PROJECT_BINARY_DIR}/faqem-config.cmake INSTALL_DESTINATION ${faqem_config_dir})

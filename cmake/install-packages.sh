@@ -10,8 +10,8 @@
 set -eu
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
-libtinygltf-dev libpng-dev libjpeg62-turbo-dev libdeflate-dev libopenimageio-dev libdraco-dev \
-libmeshoptimizer-dev libcli11-dev"
+libtinygltf-dev libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
+libdraco-dev libmeshoptimizer-dev libcli11-dev"
 for group in "$@"; do
     case $group in
         build) ;;

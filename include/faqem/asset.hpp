@@ -163,10 +163,12 @@ enum class Overwrite { no, yes };
 FAQEM_EXPORT std::vector<std::string> save(const Asset& asset, const std::filesystem::path& file,
                                            Overwrite overwrite = Overwrite::no);
 
-/// Decodes a PNG or JPEG image (and WebP, if OpenImageIO supports it). The size is limited to 16384 x 16384
+/// Decodes a PNG, JPEG or WebP image, or a TGA whose media type is image/x-tga or image/tga, by OpenImageIO in a
+/// plugin. The size is limited to 16384 x 16384
 /// pixels and 1 GiB, and is checked before memory is allocated.
 /// \throws InputError  the image is damaged or too large
 /// \throws UnsupportedError  the image has another format (KTX2, DDS ...)
+/// \throws Error  the plugin cannot be loaded
 FAQEM_EXPORT Pixels decode(const Image& image);
 
 /// Encodes pixels as PNG, without an alpha channel if Pixels::has_alpha is false.
@@ -187,5 +189,26 @@ enum class Content { color, data };
 /// \throws WriteError  encoding failed
 FAQEM_EXPORT Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
                                Content content);
+
+/// How encode_webp() compresses: `lossy` subsamples the chroma, `near_lossless` changes single values by a few
+/// units and loses colours under an alpha of 0, `lossless` keeps all values.
+enum class WebpMode { lossy, near_lossless, lossless };
+
+/// Options of encode_webp().
+struct WebpOptions {
+    WebpMode mode = WebpMode::lossy;
+    /// `lossy`: the quality, in [0, 100]. `near_lossless`: how little is changed, in [0, 100], 100 for nothing.
+    /// Without effect for `lossless`.
+    int level = 85;
+    /// From 0 (fast) to 6 (small).
+    int effort = 4;
+};
+
+/// Encodes pixels as WebP. Alpha is lossless; it is left out if Pixels::has_alpha is false or all of it is 255.
+/// \param name  Image::name of the result
+/// \throws InputError   the number of pixels differs from width * height
+/// \throws OptionError  an option is out of range
+/// \throws WriteError   a side is longer than 16383 pixels, or the format cannot hold as many bytes
+FAQEM_EXPORT Image encode_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options);
 
 }  // namespace faqem

@@ -8,10 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image/image_codec.hpp"
 #include "cli/commands/command_line.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/shell/parser.hpp"
 #include "cli/shell/suggestion.hpp"
@@ -20,14 +18,6 @@
 namespace faqem::cli {
 
 namespace {
-
-detail::ImageCodecProvider default_image_codec_provider = nullptr;
-
-/// The default image codec. Loading it does not check for interrupts, so a signal ends the process.
-const detail::ImageCodec& load_image_codec() {
-    const ExitOnInterrupt exit_on_interrupt;
-    return default_image_codec_provider();
-}
 
 int fail(const std::exception& error) {
     std::cerr << "faqem: " << message_of(error) << "\n";
@@ -44,7 +34,6 @@ int run(const Action& action) try {
 }
 
 int parse_and_run(int argc, char** argv) {
-    default_image_codec_provider = detail::set_image_codec_provider(load_image_codec);
     CLI::App app;
     Action action;
     const CommandTree tree = command_tree();

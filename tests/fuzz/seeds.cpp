@@ -180,6 +180,10 @@ void image_seeds() {
     write("opaque.png", encode_png(pixels, ""));
     pixels.has_alpha = true;
     write("alpha.png", encode_png(pixels, ""));
+    write("color.jpg", encode_jpeg(pixels, "", 50, Content::color));
+    write("data.jpg", encode_jpeg(pixels, "", 95, Content::data));
+    write("lossy.webp", encode_webp(pixels, "", {WebpMode::lossy, 50, 4}));
+    write("lossless.webp", encode_webp(pixels, "", {WebpMode::lossless, 0, 4}));
     put("image", "small.webp",
         {reinterpret_cast<const char*>(testing::small_webp.data()), testing::small_webp.size()});
 }

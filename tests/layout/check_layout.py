@@ -56,7 +56,7 @@ ORDER = [
 ENTRIES = {"src/cli/main.cpp"}
 # Public headers that the engine may include: plain data.
 PLAIN = {"export.hpp", "mesh.hpp", "option_types.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
-LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|png\.h|jpeglib|libdeflate|nlohmann|CLI")
+LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|png\.h|jpeglib|webp/|libdeflate|nlohmann|CLI")
 MAX_SUBJECTS = 20
 MAX_LINES = 450
 MIN_LINES = 40
@@ -80,7 +80,6 @@ SMALL = {
     "src/cli/report/embedded_files",       # the texts are generated at build time
     # Compiled in one build only.
     "src/asset/gltf/read/meshopt",
-    "src/image_plugin/module",
 }
 
 # Definition of a type at namespace scope, which is not indented. Nested types ("struct Bvh::Range") do not count.

@@ -1,6 +1,7 @@
 #pragma once
 // Image files for tests, byte by byte.
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -66,6 +67,26 @@ inline std::string png_file(std::uint32_t width, std::uint32_t height, int bits,
                                static_cast<char>(interlaced);
     return std::string("\x89PNG\r\n\x1a\n") + png_chunk("IHDR", header) + extra_chunks +
            png_chunk("IDAT", zlib_stored(rows)) + png_chunk("IEND", "");
+}
+
+/// Waves with a period of at least 8 pixels, and a different one in each channel.
+inline Pixels waves(std::uint32_t width, std::uint32_t height) {
+    Pixels pixels{width, height, {}, false};
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) {
+            for (const double period : {40.0, 13.0, 8.0})
+                pixels.rgba.push_back(
+                    static_cast<std::uint8_t>(128 + 60 * std::sin(x / period) + 60 * std::cos(y / period)));
+            pixels.rgba.push_back(255);
+        }
+    return pixels;
+}
+
+/// The peak signal-to-noise ratio of all channels, in dB.
+inline double psnr(const Pixels& a, const Pixels& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::pow(double(a.rgba[i]) - b.rgba[i], 2);
+    return 10 * std::log10(255.0 * 255 * static_cast<double>(a.rgba.size()) / sum);
 }
 
 }  // namespace faqem::testing

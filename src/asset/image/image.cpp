@@ -5,10 +5,11 @@
 #include <string_view>
 
 #include "asset/image/image_checks.hpp"
-#include "asset/image/image_codec.hpp"
+#include "asset/image/image_plugin.hpp"
 #include "asset/image/jpeg.hpp"
 #include "asset/image/png_reader.hpp"
 #include "asset/image/png_writer.hpp"
+#include "asset/image/webp.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
@@ -31,6 +32,13 @@ constexpr std::array<FileSignature, 7> file_signatures = {{{{"\x89PNG\r\n\x1a\n"
                                                            {{"GIF8", 4}, 0, "image/gif", ".gif"},
                                                            {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
+/// OpenImageIO's name of the format of an image that the plugin decodes; empty for others. TGA has no signature,
+/// so only the declared media type counts.
+std::string plugin_format(const Image& image) {
+    const bool is_tga = image.mime_type == "image/x-tga" || image.mime_type == "image/tga";
+    return is_tga && sniff_mime_type(image.encoded).empty() ? "targa" : "";
+}
+
 /// Checks the size in the header before a decoder is called: decoders allocate memory according to the
 /// header, some of them as soon as they open an image.
 void check_header(const Image& image) {
@@ -52,12 +60,7 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
 }
 
 bool can_decode_image(const std::string& mime_type) {
-    if (mime_type == "image/png" || mime_type == "image/jpeg") return true;
-    return mime_type == "image/webp" && image_codec().reads_webp();
-}
-
-std::string decodable_format_names() {
-    return can_decode_image("image/webp") ? "PNG, JPEG and WebP" : "PNG and JPEG";
+    return mime_type == "image/png" || mime_type == "image/jpeg" || mime_type == "image/webp";
 }
 
 std::string file_extension(const std::string& mime_type) {
@@ -70,15 +73,17 @@ std::string file_extension(const std::string& mime_type) {
 
 Pixels decode(const Image& image) {
     const std::string type = detail::sniff_mime_type(image.encoded);
+    if (const std::string format = detail::plugin_format(image); !format.empty())
+        return detail::image_plugin().decode(image, format);
     if (!detail::can_decode_image(type))
         throw UnsupportedError(
             image.uri, detail::image_title(image),
             (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
-                detail::decodable_format_names() + " are supported");
+                detail::decodable_format_names + " are supported");
     detail::check_header(image);
     if (type == "image/png") return detail::read_png(image);
     if (type == "image/jpeg") return detail::read_jpeg(image);
-    return detail::image_codec().decode(image, type.substr(6));
+    return detail::read_webp(image);
 }
 
 Image encode_png(const Pixels& pixels, const std::string& name) {
@@ -89,6 +94,11 @@ Image encode_png(const Pixels& pixels, const std::string& name) {
 Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
     detail::check_pixel_count(pixels, name);
     return detail::write_jpeg(pixels, name, quality, content);
+}
+
+Image encode_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options) {
+    detail::check_pixel_count(pixels, name);
+    return detail::write_webp(pixels, name, options);
 }
 
 }  // namespace faqem

@@ -14,12 +14,11 @@ namespace faqem::detail {
 /// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.
 FAQEM_EXPORT std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
-/// Whether decode() supports the media type: PNG and JPEG, for which the image codec is not loaded, and WebP
-/// if the codec can read it.
+/// Whether decode() supports the media type, which is that of PNG, JPEG or WebP.
 bool can_decode_image(const std::string& mime_type);
 
-/// Names of the formats that decode() supports, for error messages: "PNG, JPEG and WebP" or "PNG and JPEG".
-std::string decodable_format_names();
+/// Names of the formats that decode() supports, for error messages.
+inline constexpr const char* decodable_format_names = "PNG, JPEG and WebP";
 
 /// Usual file name extension of a media type, including the dot; ".bin" for unknown types.
 std::string file_extension(const std::string& mime_type);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Errors of encoded images, and checks of sizes and pixels. Inline, because both the asset library and the
-/// codec libraries, which the asset library links to, use them.
+/// image plugin, which does not link to it, use them.
 
 #include <cstdint>
 #include <string>

@@ -102,7 +102,7 @@ std::uint64_t decoding_memory(Bytes bytes) {
     const std::optional<ImageSize> size = declared_size(bytes);
     if (!size || size->width > max_image_side || size->height > max_image_side) return 0;
     const std::string type = sniff_mime_type(bytes);
-    // libwebp keeps the canvas, a frame and its own copy of the pixels.
+    // Of an animation libwebp keeps the canvas, a frame and its own copy of the pixels.
     std::uint64_t per_pixel = 16;
     if (type == "image/png") per_pixel = 0;  // libpng keeps single rows
     if (type == "image/jpeg") per_pixel = jpeg_coefficient_bytes(bytes);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <string>
 
 #include "asset/image/image_checks.hpp"
 #include "faqem/error.hpp"
@@ -38,7 +39,7 @@ WebPConfig webp_config(const WebpOptions& options) {
     // It fails only if the library is another version than its header.
     if (!WebPConfigInit(&config)) throw Error("libwebp is older than the version that faqem was built with");
     config.method = options.effort;
-    config.exact = 1;
+    config.exact = options.mode != WebpMode::near_lossless;  // libwebp would change nothing otherwise
     config.lossless = options.mode != WebpMode::lossy;
     if (options.mode == WebpMode::lossy) config.quality = static_cast<float>(options.level);
     if (options.mode == WebpMode::near_lossless) config.near_lossless = options.level;
@@ -102,8 +103,13 @@ Image write_webp(const Pixels& pixels, const std::string& name, const WebpOption
     const bool imported = pixels.has_alpha
                               ? WebPPictureImportRGBA(&encoder.picture, pixels.rgba.data(), stride)
                               : WebPPictureImportRGBX(&encoder.picture, pixels.rgba.data(), stride);
-    // Other errors are excluded by the checks above.
-    if (!imported || !WebPEncode(&config, &encoder.picture)) throw std::bad_alloc();
+    if (!imported || !WebPEncode(&config, &encoder.picture)) {
+        const WebPEncodingError error = encoder.picture.error_code;
+        if (error == VP8_ENC_ERROR_OUT_OF_MEMORY || error == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY)
+            throw std::bad_alloc();
+        // Left are the limits of the format for the bytes of its partitions.
+        throw WriteError("image '" + name + "': too large for WebP (error " + std::to_string(error) + ")");
+    }
     Image image;
     image.name = name;
     image.mime_type = "image/webp";

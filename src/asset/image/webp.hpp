@@ -14,7 +14,8 @@ namespace faqem::detail {
 /// O(pixels + bytes)
 Pixels read_webp(const Image& image);
 
-/// Encodes pixels as WebP. Colours under an alpha of 0 are kept, because filtered textures show them.
+/// Encodes pixels as WebP. Colours under an alpha of 0 are kept, because filtered textures show them; only
+/// WebpMode::near_lossless loses them.
 /// \param pixels  of the declared size, at least one. If Pixels::has_alpha is false, alpha is not written
 /// \param name    Image::name of the result
 /// \throws OptionError  an option is out of range

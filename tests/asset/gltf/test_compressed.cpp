@@ -274,12 +274,8 @@ TEST_CASE("draco: data truncated or changed at any byte gives an error or a mesh
 
 #endif
 
-TEST_CASE("WebP textures are read if OpenImageIO supports WebP, and are written as WebP") {
+TEST_CASE("WebP textures are read and written as WebP") {
     const GltfBuilder builder = webp_square();
-    if (!detail::can_decode_image("image/webp")) {
-        CHECK(contains(refusal<UnsupportedError>(builder), "EXT_texture_webp"));
-        return;
-    }
     const Asset asset = load_glb(builder);
     REQUIRE(asset.materials[0].emissive_texture);
     const Pixels pixels = decode(asset.images[0]);

@@ -68,25 +68,6 @@ Bytes flat_color(const std::string& jpeg) {
     return {pixels.rgba.begin(), pixels.rgba.begin() + 4};
 }
 
-/// Waves with a period of at least 8 pixels, and a different one in each channel.
-Pixels waves(std::uint32_t width, std::uint32_t height) {
-    Pixels pixels{width, height, {}, false};
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            for (const double period : {40.0, 13.0, 8.0})
-                pixels.rgba.push_back(
-                    static_cast<std::uint8_t>(128 + 60 * std::sin(x / period) + 60 * std::cos(y / period)));
-            pixels.rgba.push_back(255);
-        }
-    return pixels;
-}
-
-double psnr(const Pixels& a, const Pixels& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::pow(double(a.rgba[i]) - b.rgba[i], 2);
-    return 10 * std::log10(255.0 * 255 * static_cast<double>(a.rgba.size()) / sum);
-}
-
 }  // namespace
 
 TEST_CASE("grey, colour, CMYK and YCCK JPEG are decoded, baseline and progressive") {

@@ -50,7 +50,7 @@ void check_required_extensions(const GltfChecker& checker) {
         }
         if (name == "KHR_texture_basisu")
             checker.fail_unsupported(
-                where, name + ": KTX2 images are not supported, only " + decodable_format_names() + " are");
+                where, name + ": KTX2 images are not supported, only " + decodable_format_names + " are");
         if (!contains(supported_extensions, name) && !name.starts_with("KHR_materials_"))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }

@@ -22,7 +22,7 @@ void check_image_types(const Asset& asset, const SourceDocument& source, const s
         throw UnsupportedError(file, child_path("/images", ref.image),
                                "is " +
                                    (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
-                                   "; only " + decodable_format_names() + " are supported");
+                                   "; only " + decodable_format_names + " are supported");
     };
     for (const Material& material : asset.materials) for_each_core_texture(material, check);
 }

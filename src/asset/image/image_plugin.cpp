@@ -1,4 +1,4 @@
-// Loads the image plugin (asset/image/image_codec.hpp).
+#include "asset/image/image_plugin.hpp"
 
 #include <dlfcn.h>
 #include <link.h>
@@ -9,14 +9,13 @@
 #include <string>
 #include <system_error>
 
-#include "asset/image/image_codec.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
 
-/// Finds the plugin: in the folder of the program or shared library that contains this code (build tree), or
-/// at the installed location relative to that folder.
+/// Finds the plugin: in the folder of the program or shared library that contains this code (build tree), at the
+/// installed location relative to that folder, or, for other programs, at the installed location of faqem.
 std::filesystem::path plugin_path() {
     Dl_info info = {};
     link_map* module = nullptr;
@@ -31,12 +30,13 @@ std::filesystem::path plugin_path() {
     if (exists(build_tree_path)) return build_tree_path;
     const char* const installed_folder =
         is_library ? FAQEM_IMAGE_PLUGIN_FOLDER_FROM_LIBRARY : FAQEM_IMAGE_PLUGIN_FOLDER_FROM_PROGRAM;
-    return (folder / installed_folder / FAQEM_IMAGE_PLUGIN_FILE).lexically_normal();
+    const std::filesystem::path moved_path =
+        (folder / installed_folder / FAQEM_IMAGE_PLUGIN_FILE).lexically_normal();
+    if (exists(moved_path)) return moved_path;
+    return std::filesystem::path(FAQEM_IMAGE_PLUGIN_FOLDER) / FAQEM_IMAGE_PLUGIN_FILE;
 }
 
-}  // namespace
-
-const ImageCodec& plugin_image_codec() {
+const ImagePlugin& load_plugin() {
     const std::string file = plugin_path().string();
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
@@ -44,13 +44,20 @@ const ImageCodec& plugin_image_codec() {
         if (error.ends_with(std::generic_category().message(ENOMEM))) throw std::bad_alloc();
         throw Error("cannot load the image plugin: " + error);
     }
-    using Entry = const ImageCodec*();
-    Entry* const entry = reinterpret_cast<Entry*>(dlsym(module, "faqem_image_codec"));
+    using Entry = const ImagePlugin*();
+    Entry* const entry = reinterpret_cast<Entry*>(dlsym(module, "faqem_image_plugin"));
     if (!entry) throw Error(file + ": is not the image plugin of faqem");
-    const ImageCodec& codec = *entry();
-    if (codec.version != std::string(FAQEM_VERSION))
-        throw Error(file + ": belongs to faqem " + codec.version + " instead of " FAQEM_VERSION);
-    return codec;
+    const ImagePlugin& plugin = *entry();
+    if (plugin.version != std::string(FAQEM_VERSION))
+        throw Error(file + ": belongs to faqem " + plugin.version + " instead of " FAQEM_VERSION);
+    return plugin;
+}
+
+}  // namespace
+
+const ImagePlugin& image_plugin() {
+    static const ImagePlugin& plugin = load_plugin();
+    return plugin;
 }
 
 }  // namespace faqem::detail

@@ -1,4 +1,4 @@
-// The image codec that uses OpenImageIO: the only file that does.
+// The image plugin, the only file that uses OpenImageIO.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -10,20 +10,25 @@
 #include <vector>
 
 #include "asset/image/image_checks.hpp"
-#include "asset/image/image_codec.hpp"
+#include "asset/image/image_plugin.hpp"
 #include "faqem/error.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// Checks the image that the decoder is about to produce.
+/// No format that is read expands a byte to more pixels: TGA packs at most 128 pixels into two bytes.
+constexpr std::uint64_t max_pixels_per_byte = 64;
+
+/// Checks the image that the decoder is about to produce, before memory is allocated.
 void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
     if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
         fail_image(image, "is not a two-dimensional image");
-    check_image_size(image,
-                     {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
+    const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
+    check_image_size(image, size);
+    if (size.pixels() / max_pixels_per_byte > image.encoded.size()) fail_truncated_image(image, size);
 }
 
 /// Expands 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
@@ -38,15 +43,6 @@ void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t ch
         to[4 * i + 2] = grey ? pixel[0] : pixel[2];
         to[4 * i + 3] = alpha ? pixel[channels - 1] : std::uint8_t{255};
     }
-}
-
-bool reads_webp() {
-    static const bool has_reader = [] {
-        const auto input = OIIO::ImageInput::create("webp");
-        if (!input) OIIO::geterror();  // clears the global error message
-        return input && input->supports("ioproxy");
-    }();
-    return has_reader;
 }
 
 Pixels decode_as(const Image& image, const std::string& format) {
@@ -77,11 +73,13 @@ Pixels decode_as(const Image& image, const std::string& format) {
     return pixels;
 }
 
+constexpr ImagePlugin plugin = {FAQEM_VERSION, decode_as};
+
 }  // namespace
 
-const ImageCodec& oiio_image_codec() {
-    static constexpr ImageCodec codec = {FAQEM_VERSION, reads_webp, decode_as};
-    return codec;
-}
-
 }  // namespace faqem::detail
+
+/// What image_plugin() looks up.
+extern "C" FAQEM_EXPORT const faqem::detail::ImagePlugin* faqem_image_plugin() {
+    return &faqem::detail::plugin;
+}
